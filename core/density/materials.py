@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Densities of common materials, each with the source of its number. Pure data.
 
-Real materials vary: woods by a fifth, alloys and plastics by some percent. Where the mass of a part
-matters, weigh the part and give its mass instead.
+Real materials vary: woods by a fifth, alloys and plastics by some percent. If the mass of a part matters, weigh the
+part and give its mass instead.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Material:
     density : float
         kg/m³.
     source : str
-        Where the number stands.
+        The source of the number.
     """
 
     name: str

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One density for each closed part of a body, from the densities of its faces.
 
-A part is filled with the material of its faces. Where they differ it takes their mean, weighted by area. A cavity has
-no material: what it encloses is taken away from the part that it is cut from, whatever its own faces are painted with.
+A part is filled with the material of its faces. If they differ it takes their mean, weighted by area. A cavity has no
+material: its volume is taken away from the part that it is cut from, whatever its own faces are painted with.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from ..solid.closed_parts import ClosedParts
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """density: (number,) of each part. has_several_materials: (number,) whether its own faces differ;
-    has_foreign_cavity_material: (number,) cavities with faces of other densities than what they are cut from.
+    """density: (number,) of each part. has_several_materials: (number,) True if its own faces differ;
+    has_foreign_cavity_material: (number,) cavities with faces of other densities than the part they are cut from.
     first_face: (number,) a part's first mesh face, -1 for none. range_by_area, most_by_area: (number,) how far its
     faces' densities are apart, and the largest of them, times its area."""
 

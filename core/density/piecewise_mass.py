@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mass moments where each triangle has its own density: of solids by part, of sheets by face or by vertex.
+"""Mass moments with one density for each triangle: of solids by part, of sheets by face or by vertex.
 
 The moments of a triangle a, b, c have the generating function 1 / ((1 - a·t) (1 - b·t) (1 - c·t)) (Sheynin and Tuzikov,
 Pattern Recognition Letters 22, 2001). With h_α its coefficients and n = |α|,
@@ -12,7 +12,7 @@ A density that is linear on the triangle is one more coordinate: with a' = (a, �
 is 2 area α! h_(α,1) / (n+3)!. So it costs one order and no more, and is exact.
 
 Rounding is bounded as in `third_order`: determinants are off by at most 9 u reach·τ, doubled areas by 9 u Σ τ, and the
-table adds no more than 9 roundings for each order and each corner to sums whose terms are bounded by those of |x|.
+table adds no more than 9 roundings for each order and each corner to sums with terms bounded by the terms for |x|.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def solid_mass_moments(points: ArrayLike, triangles: ArrayLike, density: ArrayLi
     density : (t,) array_like
         That of the part which the triangle bounds, not negative.
     like : Moments
-        The same parts' volume moments, whose order, point and coordinate error are taken.
+        The same parts' volume moments; their order, point and coordinate error are taken.
 
     Returns
     -------
@@ -140,7 +140,7 @@ def sheet_mass_moments(
 def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
-    """(K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ, where weights are ρ det or, of sheets, ρ times doubled areas."""
+    """Return (K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ. Weights are ρ det or, for sheets, ρ times doubled areas."""
     order, step = like.order, _block_size(like.order)
     series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
     block_sums, sizes, tau = [np.zeros(monomial_count(order))], 0.0, np.zeros(3)
@@ -202,7 +202,7 @@ def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.f
 
 
 def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
-    """(K,) what rounding adds, relatively to the sum of the terms' sizes."""
+    """Return (K,) the rounding error relative to the sum of the terms' sizes."""
     return U * (27.0 * (_degrees(order) + 1) + PAIRWISE_SUM_ROUNDINGS + count / _block_size(order) + 2.0)
 
 
@@ -212,5 +212,5 @@ def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def to_mass_moments(moments: Moments, factor: float = 1.0) -> Moments:
-    """Weighted moments, mapped to where they belong, as mass moments; factor: a sheet's thickness."""
+    """Return weighted moments, mapped to their place, as mass moments; factor: a sheet's thickness."""
     return replace(moments, measure=Measure.MASS) * factor

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Polynomials in x, y, z that a person types as a density: read safely, kept exactly, bounded on a box.
 
-Coefficients are rational numbers, so that a polynomial can be developed about any point without rounding: what is
-rounded is one coefficient at a time, at the point where it is used. An expression is parsed by `ast`, and only what is
-named in `parse_polynomial` is taken; nothing is evaluated.
+Coefficients are rational numbers, so that a polynomial can be developed about any point without rounding: one
+coefficient at a time is rounded when it is used. An expression is parsed by `ast`, and only syntax named in
+`parse_polynomial` is accepted; nothing is evaluated.
 
 On a box a polynomial lies between the least and the largest of its Bernstein coefficients (G. T. Cargo and O. Shisha,
 "The Bernstein form of a polynomial", J. Res. Nat. Bur. Standards 70B, 1966); halving the box brings the two closer.
@@ -101,7 +101,7 @@ class Polynomial:
 
     @property
     def degree(self) -> int:
-        """The largest p+q+r; 0 where there are no terms."""
+        """The largest p+q+r; 0 if there are no terms."""
         return max((sum(powers) for powers in self.terms), default=0)
 
     def coefficients(self) -> NDArray[np.float64]:
@@ -332,7 +332,7 @@ def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dic
 
 
 def _to_bernstein(degree: int) -> NDArray[np.float64]:
-    """(n+1, n+1) from the coefficients of t^j to those of the Bernstein polynomials on [0, 1]."""
+    """Return (n+1, n+1) the matrix from coefficients of t^j to Bernstein coefficients on [0, 1]."""
     return np.array([[math.comb(i, j) / math.comb(degree, j) for j in range(degree + 1)] for i in range(degree + 1)])
 
 

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mass moments of bodies whose density is a polynomial: moments times a polynomial are moments of lower order.
+"""Mass moments of bodies with polynomial density: moments times a polynomial are moments of lower order.
 
 With F[α] = ∫ x^α and a density p(y), y = D u + e in the coordinates u about the moments' own point, the mass has the
-functional G[α] = Σ_β p_β (y^β F)[α], where multiplying by a linear form costs one order, as in `moments`. So mass
-moments to order 3 come exactly from moments to order 3 + degree. The polynomial is developed exactly about the place
-where the body is, so that neither a body far away nor a density given far away loses digits.
+functional G[α] = Σ_β p_β (y^β F)[α]; multiplying by a linear form costs one order, as in `moments`. So mass moments to
+order 3 come exactly from moments to order 3 + degree. The polynomial is developed exactly about the place of the body,
+so that neither a body far away nor a density given far away loses digits.
 """
 
 from __future__ import annotations
@@ -30,15 +30,14 @@ def polynomial_mass_of_images(
     fields: NDArray | None = None,
     about: ArrayLike | None = None,
 ) -> Moments:
-    """The mass moments of k images of one body with a polynomial density, as one body, of the order that is left.
+    """Return the mass moments of k images of one body with a polynomial density, as one body, of the remaining order.
 
     moments: of the volume or area, to order n + the degree. matrices: (k, 4, 4) the images, as for `sum_of_images`.
-    fields: (k, 4, 4) from the body's own coordinates to those that the density is a polynomial of, taken exactly; by
-    default they are the images'. about: (3,), by default the mean of the images of `moments.about`.
+    fields: (k, 4, 4) from the body's own coordinates to the density's, taken exactly; by default `matrices`. about:
+    (3,), by default the mean of the images of `moments.about`.
 
-    error: rounding, on top of what `moments.rounding_error` comes to; input: what `moments.input_error` comes to. Of a
-    body with a negative density somewhere both hold all the same. ValueError where the moments' order is below the
-    degree.
+    error: rounding, beside the image of `moments.rounding_error`; input: the image of `moments.input_error`. Both hold
+    for bodies with negative density somewhere too. ValueError if the moments' order is below the degree.
     """
     order = moments.order - density.degree
     if order < 0:
@@ -84,10 +83,10 @@ def polynomial_mass_of_images(
 def _mass_functional(
     moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """(K, k) each: G, the bound of its rounding, what becomes of `moments.input_error`, and what bounds the
+    """Return, (K, k) each: G, the bound of its rounding, the image of `moments.input_error`, and bounds of the
     integrals of the same functions' magnitudes.
 
-    forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) what their constants may be off by.
+    forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) the error bounds of their constants.
     """
     degree = max((sum(powers) for powers in terms), default=0)
     absolute = {powers: abs(value) for powers, value in terms.items()}
@@ -135,8 +134,8 @@ def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[ND
 
 
 def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
-    """(k, 4, 4) the maps from a body's coordinates to lengths along its own axes from its own origin, where `matrices`
-    put it."""
+    """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes from its own origin, as placed by
+    `matrices`."""
     axes, _ = polar_rotation(matrices)
     fields = np.zeros((len(matrices), 4, 4))
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]

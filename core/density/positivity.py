@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a density that is a polynomial is negative somewhere in a body.
+"""Tests for negative values of a polynomial density in a body.
 
-It is not where its bound on the box around the body says so, nor, if it is linear, where it is not at the vertices.
-Else points of the body are tried: vertices, middles of faces, and those of a grid that are inside.
+It has none if its bound on the box around the body says so, or if it is linear and has none at the vertices. Else
+points of the body are tried: vertices, middles of faces, and grid points inside.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..mesh.winding import winding_number
 from .polynomial import Polynomial
 
-NEGLIGIBLE_RTOL = 1e-6  # of the largest density: float32 coordinates make as much
+NEGLIGIBLE_RTOL = 1e-6  # Relative to the largest density: the effect of float32 coordinates.
 GRID_POINTS = 9  # points along each side of the box that are tried
 GRID_STEPS = np.array(list(product((np.arange(GRID_POINTS) + 0.5) / GRID_POINTS, repeat=3)))
 MAX_LOCATED_POINTS = 24  # points that are located in the body
@@ -25,8 +25,8 @@ MAX_LOCATED_POINTS = 24  # points that are located in the body
 def find_negative_point(
     density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
 ) -> tuple[tuple[float, NDArray] | None, bool]:
-    """A value below zero and its place, (3,), in the body or on its surface, None where none was found; and whether
-    there may be one although none was found.
+    """Return a negative value and its place, (3,), in the body or on its surface, or None; and True if there may be one
+    although none was found.
 
     points: (n, 3) in the density's coordinates. triangles: (m, 3). solid: the inside counts too.
     """

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The constant set of a smooth trivariate: a B-spline of higher order, to a stated tolerance.
 
-The spline is evaluated on finer grids, whose trilinear interpolants converge to it with the square of the spacing. So
-a third of what two of them differ by is added to the finer one (Richardson); what the sum changes by from one grid to
+The spline is evaluated on finer grids; their trilinear interpolants converge to it with the square of the spacing. So a
+third of the difference of two of them is added to the finer one (Richardson); the change of the sum from one grid to
 the next is the estimate of its error.
 """
 
@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.moments import Moments
 from .threshold import ThresholdBody, threshold_body
 
-MAX_SAMPLES = 1 << 24  # of the finest grid
-TOLERANCE = 1e-4  # of the volume: what two grids may differ by
+MAX_SAMPLES = 1 << 24  # Limit for the finest grid.
+TOLERANCE = 1e-4  # Allowed difference of two grids, relative to the volume.
 
 
 def smooth_threshold_body(
@@ -47,7 +47,7 @@ def smooth_threshold_body(
     Returns
     -------
     ThresholdBody
-        The bounds hold what the last two grids differ by.
+        The bounds include the difference of the last two grids.
 
     Examples
     --------

@@ -7,15 +7,15 @@ The volumetric scheme of Soldea, Elber and Rivlin. The integrals separate,
     ∫ u^p v^q w^r f = Σ_ijk p_ijk U[p,i] V[q,j] W[r,k],
 
 so three small tables (`spline_tables`) are all there is to precompute, and the sum is three contractions: the first
-along the axis that is contiguous in memory, in blocks that stay in the cache, the others on what little is left. A grid
+along the axis that is contiguous in memory, in blocks that stay in the cache, the others on the small result. A grid
 may therefore be larger than memory. One coefficient adds its change times a product of three table columns: O(1).
 
-The knots are centered first; where the mass stands far from their middle for its size, once more about the knot
+The knots are centered first; if the mass stands far from their middle for its size, once more about the knot
 nearest to its center, as the paper advises (section 5).
 
 Rounding is bounded without another pass. In the support of B_i a power |t|^l is at most (|t| + w)^l, w the widest
 support, and an odd power at most the even one below it times the largest |t|. So for coefficients that are not negative
-the moments of even order bound what all of them sum up in absolute value.
+the moments of even order bound the absolute sums of all of them.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def density_moments(
 ) -> Moments:
     """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of the knots.
 
-    They are about the middle of the knots; where the mass is far from it, about the knot nearest to its center.
+    They are about the middle of the knots; if the mass is far from it, about the knot nearest to its center.
 
     Parameters
     ----------
@@ -112,9 +112,9 @@ def grid_moments(
     value: Callable[[NDArray], NDArray] | None = None,
     positions: Sequence[ArrayLike | None] = (None, None, None),
 ) -> Moments:
-    """Return the mass moments of a grid whose samples are densities.
+    """Return the mass moments of a grid of density samples.
 
-    They are about the image of the middle of the grid; where the mass is far from it, of the knot nearest to its
+    They are about the image of the middle of the grid; if the mass is far from it, of the knot nearest to its
     center. The samples are the coefficients of a spline with full supports, uniform along each axis without positions.
 
     Parameters
@@ -122,7 +122,7 @@ def grid_moments(
     samples : (nx, ny, nz) array, or callable
         As for `density_moments`.
     shape : sequence of three int
-        Of the grid, also where `samples` yields blocks.
+        Shape of the grid, also if `samples` yields blocks.
     matrix : (4, 4) array_like
         Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1).
     spline_order : int
@@ -132,7 +132,7 @@ def grid_moments(
     value : callable, optional
         Converts a block's numbers to densities.
     positions : sequence of three array_like or None
-        Ascending: where the samples of an axis stand, in place of 0, 1, 2, …, before the matrix is applied.
+        Ascending positions of the samples of an axis, in place of 0, 1, 2, …, before the matrix is applied.
 
     Returns
     -------
@@ -167,7 +167,7 @@ def grid_moments(
 
 
 class TrivariateSpline:
-    """A trivariate spline whose coefficients change; its moments follow at the cost of what changed.
+    """A trivariate spline with variable coefficients; its moments follow at the cost of the changes.
 
     Parameters
     ----------
@@ -179,7 +179,7 @@ class TrivariateSpline:
     Attributes
     ----------
     moments : Moments
-        Those of the coefficients as they are; every change adds its rounding to their bounds.
+        Moments for the current coefficients; every change adds its rounding to their bounds.
 
     Notes
     -----
@@ -298,7 +298,7 @@ def _moments_about(
     total, size = np.zeros((2, order + 1, order + 1, order + 1))
     blocks, longest = 0, 0
     for part, block in _pieces(coefficients):
-        with np.errstate(invalid="ignore"):  # of NaN that signal
+        with np.errstate(invalid="ignore"):  # Signaling NaN would warn.
             block = np.asarray(block, np.float64)
         if value is not None:
             block = value(block)
@@ -317,7 +317,7 @@ def _moments_about(
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-    """Blocks of at most about COEFFICIENTS_PER_BLOCK, and where they begin."""
+    """Yield blocks of at most about COEFFICIENTS_PER_BLOCK, and their first indices."""
     if callable(coefficients):
         for (x, y, z), array in coefficients():
             for (i, j, k), piece in _pieces(array):
@@ -338,7 +338,8 @@ def contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
 
 
 def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
-    """(n, n) what takes the moments of even order to bounds of the absolute ones of every order, (|t| + w)^l."""
+    """Return (n, n) the matrix from moments of even order to bounds of the absolute ones of every order, (|t| +
+    w)^l."""
     reach, width = axis.reach(center), axis.width
     matrix = np.zeros((order + 1, order + 1))
     for power in range(order + 1):

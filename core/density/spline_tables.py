@@ -8,8 +8,8 @@ Over a full support the same integral has a closed form, positive wherever the k
     ∫ t^l B_{i,k} = (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l),
 
 h_l the complete homogeneous polynomial of the k + 1 knots: k B_{i,k} / (t_{i+k} - t_i) is the density of a mean of the
-knots whose weights are uniform on a simplex. Where a domain cuts supports, each span is integrated by Gauss's rule,
-which is exact for as many points as the degree asks for.
+knots with weights uniform on a simplex. If a domain cuts supports, each span is integrated by Gauss's rule, which is
+exact for as many points as the degree asks for.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from ..numerics.arguments import float_array
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre
 
-MAX_ORDER = 16  # of the splines: far above any use
+MAX_ORDER = 16  # Splines of higher order are refused: far above any use.
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +38,7 @@ class SplineAxis:
     order : int
         k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
     domain : (low, high), optional
-        Where the functions are cut off ("clipped"); None for full supports ("floating ends").
+        Ends at which the functions are cut off ("clipped"); None for full supports ("floating ends").
 
     Raises
     ------
@@ -75,10 +75,10 @@ class SplineAxis:
 
     @classmethod
     def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:
-        """One function for each sample, in the middle of whose knots it stands: samples as coefficients, full supports.
+        """Return one function for each sample, with knots around it: samples as coefficients, full supports.
 
         With an even order the knots are the positions, with an odd one the middles between them; beyond the ends they
-        go on with the last distance. Even positions give `uniform`. ValueError where positions do not ascend, or there
+        go on with the last distance. Even positions give `uniform`. ValueError if positions do not ascend, or there
         are fewer than two.
         """
         x = float_array("positions", positions, "n")
@@ -89,12 +89,12 @@ class SplineAxis:
         return cls(x if order % 2 == 0 else x[:-1] + np.diff(x) / 2.0, order)
 
     def clip(self) -> SplineAxis:
-        """The same functions cut off where they stop to sum to one: the domain [t_{k-1}, t_n]."""
+        """Return the functions cut off at the ends of their partition of unity: the domain [t_{k-1}, t_n]."""
         return SplineAxis(self.knots, self.order, (float(self.knots[self.order - 1]), float(self.knots[self.count])))
 
     @property
     def count(self) -> int:
-        """How many functions, and so coefficients."""
+        """The number of functions, and so of coefficients."""
         return len(self.knots) - self.order
 
     @property
@@ -123,7 +123,7 @@ class SplineAxis:
         return clipped_integrals(knots, self.order, degree, self.domain[0] - center, self.domain[1] - center)
 
     def rounding_counts(self, degree: int) -> int:
-        """How many units of rounding an entry of the table may be off, see `table`."""
+        """Return the bound of a table entry's error in units of rounding, see `table`."""
         return 2 * (self.order + 1) + 3 * degree + 6 if self.domain is None else 16 * self.order + 3 * degree + 64
 
 

@@ -3,15 +3,15 @@
 """The constant set of a trivariate: the body where a density on a grid is at least a threshold, and its surface.
 
 Soldea, Elber and Rivlin define a body as {f ≥ t} of a trivariate B-spline f. Here f is linear along each axis between
-the samples, and the integrals are those of the set itself: nothing is triangulated.
+the samples, and the integrals are over the set itself: nothing is triangulated.
 
-A cell whose eight corners all lie on one side lies there whole, as f is a mean of them. In any other one, an axis is
-chosen along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's columns then end at z = -a/b,
-and what is integrated along z is a polynomial. The remaining integral over x and y is smooth but for where the surface
-leaves the cell by its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two happens once at most, in the
-root of a linear function; what these do in turn changes along x where one of four linear functions vanishes. Between
-these places Gauss's rule converges geometrically. Two rules are compared in each cell; where they differ by too much,
-or no axis serves, it is cut in eight. What they differ by, summed up, is the estimate of the error.
+A cell with all eight corners on one side lies there whole, as f is a mean of them. In any other one, an axis is chosen
+along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's columns then end at z = -a/b, and the
+integrand along z is a polynomial. The remaining integral over x and y is smooth except along the lines by which the
+surface leaves the cell through its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two happens once at
+most, in the root of a linear function; their course in turn changes along x at the zeros of four linear functions.
+Between these places Gauss's rule converges geometrically. Two rules are compared in each cell; if they differ by too
+much, or no axis serves, it is cut in eight. The sum of their differences is the estimate of the error.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
 
 RULES = ((3, 5), (8, 12))  # points of the two rules that are compared, along x and along y; then the same with more
-TOLERANCE = 1e-11  # of the volume: what the rules may differ by in all cells together, where no cell is cut further
-AREA_TOLERANCE = 1e-9  # of a cell's face: the same in one cell
+TOLERANCE = 1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
+AREA_TOLERANCE = 1e-9  # Relative to a cell's face: allowed difference in one cell.
 MAX_PARTS, MIN_PARTS = 64, 1 << 13  # parts of a cut cell on average, and of all: what is left then is in the bounds
-MAX_CUT_CELLS = 1 << 21  # that are kept until they are measured
+MAX_CUT_CELLS = 1 << 21  # Limit of cells kept for measuring.
 CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
 CELLS_PER_SLAB = 1 << 21  # cells of the grid that are looked at at a time
 
@@ -47,15 +47,15 @@ class ThresholdBody:
     Parameters
     ----------
     volume : Moments
-        Of the body. `rounding_error` has the estimate of what the rules leave.
+        Moments of the body. `rounding_error` includes the estimated error of the rules.
     area : Moments
         Of the surface on which the density is the threshold.
     mass : Moments, optional
-        Of the body with the density itself inside, where it was asked for.
+        Of the body with the density itself inside, if requested.
     cut_cells : int
         Cells that the surface passes through.
     clipped : bool
-        Whether the body reaches the edge of the grid, where it is cut off without a surface.
+        True if the body reaches the edge of the grid and is cut off there without a surface.
     """
 
     volume: Moments
@@ -65,7 +65,7 @@ class ThresholdBody:
     clipped: bool
 
 
-@np.errstate(over="ignore", invalid="ignore")  # who measures looks for what is beyond the range of numbers
+@np.errstate(over="ignore", invalid="ignore")  # The caller checks for numbers out of range.
 def threshold_body(
     samples: ArrayLike,
     threshold: float,
@@ -90,7 +90,7 @@ def threshold_body(
     matrix : (4, 4) array_like, optional
         Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1); by default at (i, j, k).
     background : float, optional
-        The density beyond the grid: a layer of it is added on every side. Without it, or where it is inside, nothing is
+        The density beyond the grid: a layer of it is added on every side. Without it, or if it is inside, nothing is
         beyond.
     with_density : bool
         Also the moments of mass, of the density itself inside.
@@ -167,8 +167,8 @@ def threshold_body(
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    """Planes of samples as float64, each slab with the first plane of the next, and where it begins; with a layer of
-    the background on every side, if there is one."""
+    """Yield planes of samples as float64, each slab with the first plane of the next, and its first index; with a layer
+    of the background on every side, if there is one."""
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
     step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))
@@ -189,7 +189,7 @@ def _reaches_edge(inside: NDArray[np.bool_], first: bool, last: bool) -> bool:
 
 
 def _corner_counts(inside: NDArray[np.bool_]) -> NDArray[np.int8]:
-    """How many corners of each cell are inside."""
+    """Return the number of inside corners of each cell."""
     counts = inside.view(np.int8)
     counts = counts[1:] + counts[:-1]
     counts = counts[:, 1:] + counts[:, :-1]
@@ -210,7 +210,7 @@ class _Sums:
         self.terms = 0
 
     def error(self, measure: str) -> NDArray[np.float64]:
-        """Of "volume", "area" or "mass"."""
+        """Return the error bounds of "volume", "area" or "mass"."""
         units = (60 + 8 * self.order + np.log2(self.terms + 1.0)) * U
         return getattr(self, measure + "_estimate") + units * getattr(self, measure + "_size")
 
@@ -240,7 +240,7 @@ class _Sums:
         return contract(block, factors)[tuple(self.powers.T)]
 
     def add_cut_cells(self, cells: Cells, threshold: float) -> None:
-        """Add what is inside of cells that the surface passes through."""
+        """Add the inside parts of cells that the surface passes through."""
         if not len(cells.size):
             return
         allowed = TOLERANCE * (self.volume[0] + len(cells.size) / 2.0) / len(cells.size)
@@ -264,7 +264,7 @@ class _Sums:
             cells = cells[~inside & signs.any(axis=(1, 2, 3))]
 
     def _add_batch(self, cells: Cells, threshold: float, allowed: float) -> Cells:
-        """Add what can be integrated; return the rest."""
+        """Add the cells that can be integrated; return the rest."""
         axes = cells.column_axes()
         rest = [cells[axes < 0]]
         for axis, turn in enumerate(TURNS):
@@ -350,7 +350,7 @@ class _Sums:
         self.terms += len(cells.size)
 
     def _give_up(self, cells: Cells, threshold: float) -> None:
-        """Count half of what is left, and all of it as the estimate of the error."""
+        """Count half of the remaining cells, and all of them as the estimate of the error."""
         center = cells.origin + cells.size[:, None] / 2.0
         tables = [power_table(values, self.order) for values in center.T]
         for number, (p, q, r) in enumerate(self.powers.tolist()):
@@ -362,9 +362,9 @@ class _Sums:
         self._add_largest("estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
 
     def _add_largest(self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
-        """Add to the totals of that name what the moments of so much volume, area and mass in each cell can be.
+        """Add the largest possible moments of given volumes, areas and masses in cells to the totals called `name`.
 
-        name: "estimate", of how far they may be off, or "size", of what their terms add up to in absolute value.
+        name: "estimate", of the error, or "size", of the absolute sum of the terms.
         """
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
         density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))

@@ -60,7 +60,7 @@ class Cells:
         return Cells.join(parts)
 
     def column_axes(self) -> NDArray[np.intp]:
-        """(n,) the axis along which the density changes most clearly one way; -1 where there is none."""
+        """Return (n,) the axis along which the density changes most clearly one way; -1 if there is none."""
         steps = np.stack([np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1)
         one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
         steps = np.abs(steps)
@@ -72,9 +72,9 @@ class Cells:
 class Columns:
     """Points over the floors of cells, each with the share of its column that is inside; one cell's in a row.
 
-    cell: (m,) which cell. x, y: in it. weight: of floor. low, high: where the column inside begins and ends. level: z
-    of the surface. slope: the surface's area above one unit of floor, 0 where it does not pass. density, growth: above
-    the threshold at z = 0, and along z.
+    cell: (m,) index of the cell. x, y: in it. weight: of floor. low, high: ends of the column inside. level: z of the
+    surface. slope: the surface's area above one unit of floor, 0 if it does not pass. density, growth: above the
+    threshold at z = 0, and along z.
     """
 
     cell: NDArray[np.intp]
@@ -90,9 +90,9 @@ class Columns:
 
 
 def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
-    """The columns along z of Gauss's rule between all places where the surface enters or leaves a cell.
+    """Return the columns along z of Gauss's rule between all places at which the surface enters or leaves a cell.
 
-    metric: (3, 3) what the area of a piece of surface is measured by: √(n·metric·n) for its normal n.
+    metric: (3, 3) scales the area of a piece of surface by √(n·metric·n) for its normal n.
     """
     nodes, weights = gauss_legendre(points)
     _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
@@ -159,7 +159,8 @@ def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
 def compare_rules(
     cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
 ) -> tuple[Columns, NDArray[np.float64]]:
-    """The columns by the last rule, and (2, n) how far volume and area in each cell are from those by the first."""
+    """Return the columns by the last rule, and (2, n) the differences in volume and area of each cell from the
+    first."""
     metric = metric[np.ix_(turn, turn)]
     turned = cells.corners.transpose(0, *(1 + np.array(turn)))
     columns = [columns_of(turned, points, metric) for points in rules]

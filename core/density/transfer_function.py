@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Transfer tables: what density a value of a grid stands for.
+"""Transfer tables from values of a grid to densities.
 
 Text of pairs "value density", separated by commas, semicolons or new lines; between its values the density runs
 straight, beyond them it is constant.

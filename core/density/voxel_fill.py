@@ -7,7 +7,7 @@ By the divergence theorem along z, with F_r the antiderivative of ρ z^r that is
     ∫ ρ x^p y^q z^r dV = ∮ x^p y^q F_r(x, y, z) n_z dA.
 
 The triangles are cut along the planes between the voxels. On each piece F_r is then a polynomial, a sum over the voxels
-below plus what is filled of its own, and Gauss's rule integrates it exactly.
+below plus the filled part of its own, and Gauss's rule integrates it exactly.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from ..verdict.finding import MeasureError
 from ..verdict.findings import NO_FACES
 from .findings import DENSITY_NON_FINITE
 
-PIECES_PER_BATCH = 1 << 17  # that are expected of the triangles taken at a time
+PIECES_PER_BATCH = 1 << 17  # Expected pieces of the triangles taken at a time.
 MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 
 
 def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -> tuple[Moments, float]:
-    """Return the mass moments of what a surface encloses, filled with the density of a grid of voxels.
+    """Return the mass moments of a closed surface filled with the density of a grid of voxels.
 
     They are about the middle of the bounding box within the grid, rounded to a corner of voxels.
 
@@ -49,7 +49,7 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
     mass : Moments
         `rounding_error` estimates the rounding, from the sizes of all terms; nothing else is approximate.
     volume : float
-        What of the body lies in the grid.
+        Volume of the body in the grid.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
     triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)
     if not len(triangles):
         raise MeasureError(NO_FACES)
-    with np.errstate(invalid="ignore"):  # of NaN that signal
+    with np.errstate(invalid="ignore"):  # Signaling NaN would warn.
         densities = float_array("densities", densities, "nx", "ny", "nz")
     if not np.isfinite(densities).all():
         raise MeasureError(DENSITY_NON_FINITE)
@@ -146,7 +146,7 @@ def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
 
 
 def _split_triangles(triangles: NDArray, axis: int, plane: NDArray) -> NDArray[np.float64]:
-    """Each triangle, which its plane passes through, as the three that it is cut into; less where a corner is on it."""
+    """Cut each triangle by the plane through it into three; fewer if a corner is on the plane."""
     side = triangles[:, :, axis] > plane[:, None]
     alone = np.where(side.sum(axis=1) == 1, side.argmax(axis=1), (~side).argmax(axis=1))
     index = np.arange(len(triangles))

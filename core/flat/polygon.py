@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Polygons with holes in the plane, as directed edges: the inside lies to the left of each.
 
-Area moments of any order are those of a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see
+Area moments of any order are integrals over a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see
 `n_dimensions`): over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run
-counter- clockwise, holes clockwise, separate regions simply add. What makes a region ambiguous, outlines that cross or
-lie on one another, is found by `find_defects`: no sum over edges would show it.
+counter- clockwise, holes clockwise, separate regions simply add. Ambiguous regions, with outlines that cross or lie on
+one another, are found by `find_defects`: no sum over edges would show them.
 """
 
 from __future__ import annotations
@@ -24,28 +24,28 @@ from ..verdict.finding import MeasureError
 from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE
 
 SAMPLES_PER_OUTLINE = 16  # midpoints of an outline's edges that are asked what it lies in
-# of edges that are compared, and of rays and the edges they may meet; more rays are thinned out
+# Limits of compared edges, and of rays and the edges they may meet; more rays are thinned out.
 MAX_EDGE_PAIRS = 10_000_000
-PAIRS_PER_BLOCK = 1 << 18  # of those at a time
+PAIRS_PER_BLOCK = 1 << 18  # Pairs at a time.
 RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
 GRID_CELLS = 1024  # along a side of the grid that edges are compared in
-TOUCH_RTOL = 1e-9  # of the polygon's size: edges that pass each other by less than this touch
+TOUCH_RTOL = 1e-9  # Relative to the polygon's size: edges that pass each other by less than this touch.
 
 
 @dataclass(frozen=True)
 class OutlineDefects:
-    """What makes it unclear which side of the edges is inside.
+    """Defects that make the inside of edges ambiguous.
 
     Attributes
     ----------
     crossings : int
         Pairs of edges that cross.
     too_many_pairs : bool
-        Whether there were too many pairs to look at all of them.
+        True if there were too many pairs to compare all of them.
     overlapping : bool
-        Whether an edge has more than one region beside it somewhere, or less than none.
+        True if an edge has more than one region beside it somewhere, or less than none.
     negative : bool
-        Whether less than none.
+        True if less than none.
     shared_length : float
         The length along which edges run against each other, which does not belong to the region's boundary.
     """
@@ -135,13 +135,13 @@ def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
 
 
 def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
-    """Return the edges of loops of any direction, oriented so that what lies in an odd number of loops is inside.
+    """Return the edges of loops of any direction, oriented so that points in an odd number of loops are inside.
 
     Parameters
     ----------
     points : (n, 2) array_like
     loops : sequence of (k,) array_like of int
-        Outlines, holes in those, islands in holes.
+        Outlines, their holes, islands in holes.
 
     Returns
     -------
@@ -206,7 +206,7 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
 
 
 def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> OutlineDefects:
-    """Find what makes it unclear which side of the edges is inside.
+    """Find defects that make the inside of edges ambiguous.
 
     Outlines may touch, at corners and along edges; edges so short that their ends touch have no sides.
 
@@ -215,7 +215,7 @@ def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> Out
     points : (n, 2) array_like
     edges : (m, 2) array_like of int
     error : float
-        How far the points may be from where they were meant; what overlaps by no more touches.
+        Largest distance of the points from their intended places; overlaps of no more count as touching.
 
     Returns
     -------
@@ -255,7 +255,7 @@ def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> N
 
 
 def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """(k,) and (k,) the winding numbers to the left and to the right of edges, of some of them where there are many.
+    """Return (k,) and (k,) the winding numbers to the left and to the right of edges, or of a sample of many edges.
 
     Rays are sent across the edges, so that none runs along its own; edges that lie on one another are passed together.
     """
@@ -271,13 +271,13 @@ def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArr
 
 
 def _steep_side_windings(points: NDArray, edges: NDArray, chosen: NDArray, touch: float) -> tuple[NDArray, NDArray]:
-    """As `_side_windings`, of the chosen edges, which are steep: by rays to the right from their middles."""
+    """Return `_side_windings` of the chosen, steep edges, by rays to the right from their middles."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end)[:, 1] - touch, np.maximum(start, end)[:, 1] + touch
     along = end - start
     length = np.hypot(*along.T)
     height = float(high.max() - low.min()) or 1.0
-    # of the edges that a ray may meet
+    # Share of the edges that a ray may meet.
     share = min(1.0, float((high - low).mean()) / height + RAYS_PER_BLOCK / len(edges))
     chosen = chosen[:: max(1, int(len(chosen) * len(edges) * max(share, 1.0 / RAYS_PER_BLOCK) / MAX_EDGE_PAIRS))]
     chosen = chosen[np.argsort((start[chosen] + end[chosen])[:, 1], kind="stable")]
@@ -309,9 +309,9 @@ def _twice_the_area(points: NDArray, edges: NDArray) -> float:
 
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
-    """Pairs of edges that cross by more than `touch`, and the length along which others run against each other: each
-    edge is entered into the cells of a grid that its box meets, and compared with those that share a cell. The last
-    value is whether that was given up."""
+    """Count pairs of edges that cross by more than `touch`, and sum the length along which others run against each
+    other: each edge is entered into the cells of a grid that its box meets, and compared with edges that share a cell.
+    The last value is True if that was given up."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)
     span = np.abs(end - start)
@@ -350,7 +350,7 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
         i, j, pair = i[along], j[along], pair[along]
         unit = (end[i] - start[i]) / length[i, None]
         first, last = (((point[j] - start[i]) * unit).sum(axis=1) for point in (start, end))
-        common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # of opposite edges first is beyond last
+        common = np.minimum(first, length[i]) - np.maximum(last, 0.0)  # For opposite edges first is beyond last.
         opposed.update(zip(pair[common > 4.0 * touch].tolist(), common[common > 4.0 * touch].tolist()))
     return (
         len(np.unique(np.concatenate(crossings))),

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Area moments of a plane region to any order, as `Moments` whose third coordinate is zero.
 
-So they shift, turn, add and are normalized as those of any body. Beside the rounding of the integration, which
+So they shift, turn, add and are normalized like any body's. Beside the rounding of the integration, which
 `n_dimensions` bounds, a region's points may be off: an edge that moves sweeps over at most its length times the
-distance it moves, and there x^p y^q is at most what the farther of its ends makes of it.
+distance it moves, and there x^p y^q is at most its value at the farther end.
 """
 
 from __future__ import annotations
@@ -21,13 +21,14 @@ from ..verdict.finding import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING
 from .polygon import area_moments, edge_arrays
 
-BOUND_ROUNDING = 1.0 + 1e-9  # what the sums that make a bound may lack themselves
+BOUND_ROUNDING = 1.0 + 1e-9  # The sums that make a bound are rounded themselves.
 EDGES_PER_BLOCK = 4096
 
 
 @lru_cache
 def plane_positions(order: int) -> NDArray[np.int64]:
-    """(k,) where x^p y^q stands among `monomials`, in the order of `multi_indices` in two dimensions; read-only."""
+    """Return (k,) the positions of x^p y^q among `monomials`, in the order of `multi_indices` in two dimensions;
+    read-only."""
     p, q = multi_indices(2, order).T
     positions = monomial_index(p, q, np.zeros_like(p))
     positions.flags.writeable = False
@@ -55,14 +56,14 @@ def region_moments(
     about : (2,) array_like, optional
         The reference point.
     rounded : float
-        How far rounding may have moved each coordinate of the points.
+        Largest displacement of each coordinate of the points by rounding.
     stored : float
-        How far storing the points as float32 may have moved each coordinate.
+        Largest displacement of each coordinate by storing the points as float32.
 
     Returns
     -------
     Moments
-        Of area, about (x, y, 0): those with a power of z are zero.
+        Of area, about (x, y, 0): moments with a power of z are zero.
 
     Raises
     ------
@@ -98,7 +99,7 @@ def region_moments(
 
 
 def _swept(points: NDArray, edges: NDArray, about: NDArray, step: float, order: int) -> NDArray[np.float64]:
-    """(k,) what moments change by at most where every coordinate of every point moves by `step`."""
+    """Return (k,) bounds of the changes of moments if every coordinate of every point moves by `step`."""
     total = np.zeros(len(multi_indices(2, order)))
     if not step > 0.0:
         return total

@@ -6,7 +6,7 @@ I_x = ∫ y² dA, I_y = ∫ x² dA and I_xy = +∫ xy dA (no minus: a tensor's e
 along the plane's own axes x, y. Principal second moments I_1 ≥ I_2; axis 1 is at the angle θ in (-90°, 90°] from x
 towards y, tan 2θ = -2 I_xy / (I_x - I_y). J_p = I_x + I_y is the polar second moment of area; it is the torsion
 constant of round sections only. Radii of gyration are √(I/A), elastic section moduli I / (distance of the outermost
-corner), exact as corners are what is outermost.
+corner), exact as no other point is farther out.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLA
 from .polygon import boundary_edges, edge_arrays, outline_areas, outline_moments
 from .regions import plane_positions, region_moments
 
-# of a region's size: points farther off their plane are not planar; an area is off by the square of this
+# Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
 PLANAR_RTOL = 1e-5
 EQUAL_MOMENTS_RTOL = 1e-6  # principal moments closer than this, relatively, are equal
-MAX_NOISE_SHARE = 1e-3  # of the larger one: what is more is not taken for noise
+MAX_NOISE_SHARE = 1e-3  # Relative to the larger one: larger values are not noise.
 EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this where both ends move by 1 along each axis
 MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
 
@@ -82,8 +82,8 @@ class Section:
         The distance of the outermost corner from the axes x, y, 1, 2 through the centroid.
     outlines, holes : int
     rounding_error, input_error : dict of str to float
-        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of what storing coordinates as float32
-        may have moved; of the centroid its length, of the second moments each of them.
+        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of storing coordinates as float32; of
+        the centroid its length, of the second moments each of them.
 
     Examples
     --------
@@ -119,18 +119,18 @@ class Section:
 
     @property
     def axes_undetermined(self) -> bool:
-        """Whether every axis through the centroid is a principal one."""
+        """True if every axis through the centroid is a principal one."""
         first, second = self.principal
         return first - second <= EQUAL_MOMENTS_RTOL * first + 2.0 * self._noise
 
     @property
     def angle(self) -> float:
-        """Radians from x towards y to axis 1; 0 where every axis is one."""
+        """Radians from x towards y to axis 1; 0 if every axis is one."""
         return 0.0 if self.axes_undetermined else principal_angle(self.second, self._noise)
 
     @property
     def _noise(self) -> float:
-        """What rounding can make of the axes. Where bounds are wide the moments are still those of axes."""
+        """The effect of rounding on the axes, limited so that moments with wide bounds still give axes."""
         return min(self.rounding_error["second"] + self.input_error["second"], MAX_NOISE_SHARE * self.principal[0])
 
     @property
@@ -150,8 +150,8 @@ class Section:
 
 
 def principal_angle(second: NDArray, noise: float) -> float:
-    """Where axis 1 lies, in (-π/2, π/2]; a product of inertia below `noise` is none, so that it cannot turn the axis
-    over."""
+    """Return the angle of axis 1, in (-π/2, π/2]; a product of inertia below `noise` is none, so that it cannot turn
+    the axis over."""
     first, last, mixed = second.tolist()
     if abs(mixed) <= noise:
         return 0.0 if first >= last else pi / 2.0
@@ -173,11 +173,11 @@ def fit_plane(
     points : (n, 3) array_like
     triangles : (m, 3) array_like of int
     prefer : (3, 3) array_like
-        Columns: axes that the plane's x is to be near to: the first, or where that is normal to the plane the second.
+        Columns: axes that the plane's x is to be near to: the first, or if that is normal to the plane the second.
     origin : (3,) array_like
         A point whose foot on the plane becomes its origin.
     error : float
-        How far the points may be from where they were meant.
+        Largest distance of the points from their intended places.
     facing : (3,) array_like, optional
         A direction that the normal is to agree with; by default most of the triangles' area.
 
@@ -252,7 +252,7 @@ def region(
 
 
 def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:
-    """How far rounding may have moved a coordinate of (n, 3) points that were projected to (n, 2) flat ones."""
+    """Return the largest displacement by rounding of a coordinate of (n, 3) points projected to (n, 2) flat ones."""
     return 16.0 * U * float(np.abs(points).max() + np.abs(plane.origin).max() + np.abs(flat).max(initial=0.0))
 
 
@@ -261,7 +261,7 @@ def measure_section(
 ) -> Section:
     """Measure the region to the left of directed edges.
 
-    `find_defects` reports whether that is one region, and the length that edges share.
+    `find_defects` checks that this is one region, and reports the length that edges share.
 
     Parameters
     ----------
@@ -270,7 +270,7 @@ def measure_section(
         Near the plane.
     edges : (m, 2) array_like of int
     error : float
-        How far storing the points as float32 may have moved each of them.
+        Largest displacement of each point by storing it as float32.
     shared : float
         The length that edges share, which the perimeter leaves out twice.
 
@@ -303,7 +303,7 @@ def measure_section(
     raw = moments.raw[positions]
     length = outline_moments(flat, edges)
     bounds = [_bounds(raw, about, delta[positions]) for delta in (moments.rounding_error, moments.input_error)]
-    # of 2 len(edges) shared pieces at most, each taken twice
+    # For at most 2 len(edges) shared pieces, each taken twice.
     ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)
     bounds[0]["perimeter"] = float(length.rounding_error[0]) * (3.0 if shared else 1.0) + ends * rounded
     bounds[1]["perimeter"] = ends * error
@@ -330,7 +330,7 @@ def measure_section(
 
 
 def _bounds(raw: NDArray, about: NDArray, delta: NDArray) -> dict[str, float]:
-    """What (6,) moments about the centroid, off by `delta`, make of area, centroid and second moments."""
+    """Return error bounds of area, centroid and second moments from (6,) moments about the centroid, off by `delta`."""
     area, shift = raw[0], np.abs(raw[1:3]) / raw[0]
     if not area > 2.0 * delta[0]:  # then nothing bounds a quotient
         return {"area": float(delta[0]), "centroid": float("inf"), "second": float("inf")}

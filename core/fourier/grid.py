@@ -7,8 +7,8 @@
 Each triangle takes about n² points of a rule that is exact to degree 2n-1. Over a triangle q·x spans g = |q| diameter
 at most; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n)! of exp(-i q·x), and a rule with
 positive weights errs by no more than twice that. This bound is met by one triangle in the worst direction; the errors
-of many cancel as the waves do. So fewer points are taken where they prove enough: what the triangles err together is
-found at frequencies of all sizes, by the closed form. Only where a wave fits into a triangle, into its height over the
+of many cancel as the waves do. So fewer points are taken if they prove enough: the joint error of the triangles is
+found at frequencies of all sizes, by the closed form. Only if a wave fits into a triangle, into its height over the
 shortest side, is the bound kept: there regular meshes have frequencies at which all of them would err alike. Triangles
 that would need too many points keep their closed form.
 
@@ -38,20 +38,20 @@ from .wave_vectors import FrequencyGrid, ListWaves
 
 POINTS_PER_CHUNK = 1 << 14  # points that are spread between two steps
 MAX_POINTS_PER_SIDE = 24  # Gauss points along a side at most
-DIRECT_COST = 6.0  # of a frequency in closed form, in cells spread
+DIRECT_COST = 6.0  # Cost of a frequency in closed form, in cells spread.
 SAMPLE_FREQUENCIES = 24  # frequencies that are compared with the closed form
 ERROR_SAFETY_FACTOR = 3.0  # the error that is reported or allowed, by the largest difference found
-# of the time, roughly: what `_assign_triangles` takes, and what the comparison does
+# Rough shares of the time: of `_assign_triangles`, and of the comparison.
 SHARING_TIME, CHECKING_TIME = 0.3, 0.1
-TRIAL_RADII = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # of the largest frequency along an axis, where they are found
-# how much larger than in their sum the errors of single triangles may be
+TRIAL_RADII = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # Relative to the largest frequency along an axis.
+# Allowed factors of the errors of single triangles over the error of their sum.
 ERROR_CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)
 
 
 class GridTransform(Transform):
     """A transform on a regular grid, to a tolerance: `steps` does the work, `result` returns the spectrum.
 
-    The result is "approximate", or exact where that costs less.
+    The result is "approximate", or exact if that costs less.
 
     Parameters
     ----------
@@ -86,20 +86,20 @@ class GridTransform(Transform):
     1.0
     """
 
-    spreading: Spreading  # where any triangle takes points
+    spreading: Spreading  # Set if any triangle takes points.
 
     def __init__(self, surface: Surface, grid: FrequencyGrid, of: Measure, tolerance: float, threads: int = 1):
         check_type("grid", grid, FrequencyGrid)
         super().__init__(surface, grid, of, threads)
         self.surface, self.grid, faces = surface, grid, self.faces
-        # what a mean over the area may be off by: half of the tolerance each for the points and for the kernel
+        # Allowed error of a mean over the area: half of the tolerance each for the points and for the kernel.
         if of == Measure.VOLUME:
             allowed = tolerance / faces.scale**3 / (2.0 * faces.area)
             step, largest = grid.step * faces.scale, np.sqrt(3.0) * grid.largest * faces.scale
         else:
             allowed, step, largest = tolerance / faces.scale**2 / (2.0 * faces.area), 1.0, 1.0
         self.width = _kernel_width(grid.half, allowed * step, of == Measure.VOLUME)
-        # of a D, of the transform
+        # Allowed errors of a D, and of the transform.
         self.each, self.joint_count = allowed * largest / 2.0, allowed * faces.area / ERROR_SAFETY_FACTOR
         self.fine: list[tuple[int, NDArray[np.intp]]] = []
 
@@ -152,7 +152,7 @@ class GridTransform(Transform):
     def _points_over(
         self, triangle_rows: NDArray[np.intp], n: int, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
-        """The same by points in each triangle."""
+        """Sum over the triangles by points in each."""
         total, size = np.zeros(len(q), np.complex128), max(1, PAIRS_PER_BLOCK // (len(q) * n * n))
         for start in range(0, len(triangle_rows), size):
             points, vectors, weights = self._nodes(self.faces.triangles[triangle_rows[start : start + size]], n)
@@ -216,7 +216,7 @@ class GridTransform(Transform):
         self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
 
     def _collect_spread(self) -> Iterator[None]:
-        """Add to the sums what was spread, less the halves that `Transform` takes off."""
+        """Add the spread sources to the sums, less the halves that `Transform` takes off."""
         vectors = self.waves.vectors(slice(0, self.waves.rows))
         for axis, waves in enumerate(self.spreading.sums()):
             if self.measure == Measure.VOLUME:
@@ -246,8 +246,8 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """(m,) how many points along a side keep each D within tolerance, for |q| times the diameters; MAX_POINTS_PER_SIDE
-    + 1 where that many do not."""
+    """Return (m,) the number of points along a side that keeps each D within tolerance, for |q| times the diameters;
+    MAX_POINTS_PER_SIDE + 1 if none does."""
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)
@@ -264,8 +264,8 @@ def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
 
 
 def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
-    """Places on a grid: the ends and beginnings of its axes and diagonals, where faces across them show most, and some
-    anywhere."""
+    """Return indices of sample places on a grid: the ends and beginnings of its axes and diagonals, at which faces
+    across them show most, and random ones."""
     h, n = grid.half, grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
     positions = np.concatenate(

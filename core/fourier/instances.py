@@ -29,7 +29,7 @@ from .wave_vectors import FrequencyGrid, wave_vectors
 
 # pairs of triangles and frequencies, about 20 s: a grid of more is transformed to the tolerance
 MAX_CLOSED_FORM_PAIRS = 2e8
-FOURIER_RTOL = 1e-7  # of the volume or the area, then
+FOURIER_RTOL = 1e-7  # Relative to the volume or the area.
 
 
 class BodyTransform:
@@ -110,7 +110,7 @@ class BodyTransform:
 
 
 def _distinct_images(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray[np.float64]]]:
-    """The surface about its center under each different linear map, and where those images stand, (k, 3)."""
+    """Yield the surface about its center under each different linear map, and the places of the images, (k, 3)."""
     check_type("parts", surface, Surface)
     matrices = float_array("parts", matrices, "k", 4, 4)
     triangles = surface.all_triangles()[0]

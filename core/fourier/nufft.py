@@ -19,12 +19,12 @@ OVERSAMPLING = 2.0
 BETA = 2.30  # per unit of width, for that oversampling
 CELLS_PER_BLOCK = 1 << 19  # cells that a block of points is spread over: it stays near the cache
 WIDTHS = range(4, 16)
-ALIASED_ORDERS = 4  # of the fine grid's frequencies that are looked at; further ones are less by far
+ALIASED_ORDERS = 4  # Aliases of the fine grid that are counted; further ones are far smaller.
 ROUNDING = 1e-15
 
 
 def aliasing(half: int, width: int) -> NDArray[np.float64]:
-    """(half + 1,) what the sums for |k| from 0 to half along an axis may be off by, as shares of Σ |c|.
+    """Return (half + 1,) error bounds of the sums for |k| from 0 to half along an axis, as shares of Σ |c|.
 
     The fine grid takes k for k + m side, for any m, as far as the kernel's transform lets those through.
     """
@@ -50,7 +50,7 @@ class Spreading:
     def add(self, angles: NDArray[np.float64], strengths: NDArray[np.float64]) -> None:
         """Spread points at angles (3, p), in rad, with strengths (count, p)."""
         positions = angles * (self.side / (2.0 * np.pi)) % self.side
-        positions[positions >= self.side] = 0.0  # which is what rounding makes of tiny negative angles
+        positions[positions >= self.side] = 0.0  # Rounding makes tiny negative angles a full turn.
         order = np.argsort(positions[0])
         size = max(1, CELLS_PER_BLOCK // self.width**3)
         for start in range(0, len(order), size):
@@ -116,7 +116,7 @@ def _grid_side(half: int, width: int) -> int:
 
 
 def _has_large_prime(n: int) -> bool:
-    """Whether a prime above 7 divides n."""
+    """Return whether a prime above 7 divides n."""
     for prime in (2, 3, 5, 7):
         while n % prime == 0:
             n //= prime

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of plane polygons with holes, in closed form at any frequency.
 
-What `transform` says of a body holds one dimension lower: with the edges e, their outward normals n of the same length,
-the phases m in their middles and half the phase t along them
+The formulas of `transform` for a body hold one dimension lower: with the edges e, their outward normals n of the same
+length, the phases m in their middles and half the phase t along them
 
     ∫ exp(-i q·x) dA = i/q² Σ (q·n) (exp(-i m) sinc(t) - 1).
 """
@@ -24,7 +24,7 @@ from .transform import ROUNDING_FACTOR, ZERO_WAVE_NUMBER
 from .triangle_kernel import PAIRS_PER_BLOCK
 from .wave_vectors import FrequencyGrid, wave_vectors
 
-SERIES_TERMS = 10  # of sinc(t) - 1 for t up to 1
+SERIES_TERMS = 10  # Terms of sinc(t) - 1 for t up to 1.
 
 
 def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
@@ -33,7 +33,7 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
     Parameters
     ----------
     loops : sequence of (n, 2) array_like
-        Outlines counter-clockwise, holes clockwise. Where they overlap, each counts, with its sign.
+        Outlines counter-clockwise, holes clockwise. If they overlap, each counts, with its sign.
     q : (M, 2) array_like
         Wave vectors, rad per unit of length.
 
@@ -142,14 +142,14 @@ class RegionTransform:
 
 
 def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
-    """((h+1)(2h+1), 2) the wave vectors of a grid from 0 on along x, and from -h to h along y: what the others are
-    conjugate to."""
+    """Return ((h+1)(2h+1), 2) the wave vectors of a grid from 0 on along x, and from -h to h along y; the values at the
+    others are conjugates."""
     x, y = np.arange(grid.half + 1) * grid.step, (np.arange(2 * grid.half + 1) - grid.half) * grid.step
     return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2).astype(np.float64, copy=False)
 
 
 def expand_half(grid: FrequencyGrid, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """(count²,) the values everywhere from those of `half_of_grid`."""
+    """Return (count²,) the values everywhere from the values at `half_of_grid`."""
     n, h = grid.count, grid.half
     values = values.reshape(h + 1, 2 * h + 1)
     full = np.empty((n, n), np.complex128)

@@ -25,8 +25,7 @@ class Spectrum:
     values : (M,) complex array
         unit³ of a body, unit² of a surface or a polygon.
     error : (M,) array
-        What the values may be off by: of an "exact" spectrum a bound of the rounding, of an "approximate" one an
-        estimate.
+        Errors of the values: for an "exact" spectrum a bound of the rounding, for an "approximate" one an estimate.
     input_error : float
         A bound of the change that storing coordinates as float32 may have made, whatever q.
     method : str

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Fourier transform of a body and of a surface, in closed form at any frequency.
 
-Zhang and Chen (2001) add up tetrahedra, whose formula divides by q·a, by q·(a-b) and so on: it fails near every plane
-across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_kernel`'s D
+Zhang and Chen (2001) add up tetrahedra by a formula that divides by q·a, by q·(a-b) and so on: it fails near every
+plane across an edge. The divergence theorem leaves one division, by q². With N = (b-a) x (c-a) and `triangle_kernel`'s
+D
 
     ∫ exp(-i q·x) dV = i/q² Σ (q·N) (D - 1/2),    ∫ exp(-i q·x) dA = Σ |N| D.
 
-The N of a closed surface add up to zero; therefore 1/2 may be taken off each D, which leaves what is of the order of
-q·x, and nothing cancels as q goes to 0.
+The N of a closed surface add up to zero; therefore 1/2 may be taken off each D, which leaves terms of the order of q·x,
+and nothing cancels as q goes to 0.
 
 Error. u = 2^-53, A the area, R the reach from the center. A phase is off by a few u |q| R, a D by that or by a few u,
 and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. In all that is ROUNDING_FACTOR u A R whatever q is.
@@ -35,7 +36,7 @@ from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, wave_vectors
 
 PAIRS_PER_TASK = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
 ZERO_WAVE_NUMBER = 1e-20  # |q| R below which F is V - i q·∫x dV, to all digits
-OPEN_AREA_RTOL = 1e-6  # of the area: above it a surface counts as open
+OPEN_AREA_RTOL = 1e-6  # Relative to the area: above it a surface counts as open.
 GENERIC_WAVE_VECTOR = np.array([[0.72, 0.9, 0.96]])  # a wave vector that is special to no body, of length 1.5
 ROUNDING_FACTOR = 64.0
 
@@ -195,7 +196,7 @@ class Transform:
         return [(run, slice(i, min(i + size, row_count))) for run in runs for i in range(0, row_count, size)]
 
     def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
-        """Where a share's results stand, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
+        """Return the slice of a share's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
         run, part = share
         block, columns = self.direct.block(run), self.waves.columns
         means = PhaseMeans(block, self.waves, part)
@@ -233,7 +234,7 @@ class Transform:
         return Spectrum(q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input_error[0]))
 
     def _to_transform(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """F in units of the scale: i/q² times the sums, and the moments where q is nothing."""
+        """Return F in units of the scale: i/q² times the sums, and the moments if q is zero."""
         q = self.waves.vectors(slice(0, self.waves.rows))
         square = (q * q).sum(axis=0)
         nothing = square <= ZERO_WAVE_NUMBER**2

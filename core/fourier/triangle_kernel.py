@@ -34,7 +34,7 @@ from .findings import FOURIER_TOO_LARGE, FOURIER_TOO_SMALL
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles
-PAIRS_PER_BLOCK = 16384  # of triangles and frequencies at a time: their arrays stay in the cache
+PAIRS_PER_BLOCK = 16384  # Pairs of triangles and frequencies at a time: their arrays stay in the cache.
 TRIANGLES_PER_BATCH = 1 << 16  # triangles that are prepared at a time
 MAX_SERIES_DIAMETER = 3.0  # the largest |q| diameter for which all of a block is left to the series
 MAX_SERIES_SQUARE = 1.0  # Σ d² below which a pair is
@@ -46,7 +46,7 @@ class SortedTriangles:
     """The triangles of a surface about its center and at unit size, sorted so that blocks of them are alike.
 
     center: (3,). scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. triangles: (m, 3);
-    area: of all of them; diameters: (m,), their longest sides; heights: (m,), those over the shortest; in units of the
+    area: of all of them; diameters: (m,), their longest sides; heights: (m,), over the shortest sides; in units of the
     scale.
     """
 
@@ -101,7 +101,7 @@ class SortedTriangles:
         return [slice(i, min(i + size, len(self.triangles))) for i in range(0, len(self.triangles), size)]
 
     def select(self, selection: NDArray[np.intp]) -> SortedTriangles:
-        """Some of the triangles, at the same scale."""
+        """Return selected triangles, at the same scale."""
         some = copy(self)
         some.triangles, some.diameters, some.heights = (
             self.triangles[selection],
@@ -115,17 +115,17 @@ class SortedTriangles:
 
 
 def _morton_code(cells: NDArray) -> NDArray[np.int64]:
-    """The bits of three numbers below 1024, (3, k), in turn: where a Z-shaped curve passes a place."""
+    """Interleave the bits of three numbers below 1024, (3, k): the position of a place on a Z-shaped curve."""
     spread = spread_bits(cells)
     return spread[0] | spread[1] << 1 | spread[2] << 2
 
 
 class TriangleBlock:
-    """Some triangles.
+    """A block of triangles and its scratch arrays.
 
-    diameter: the largest. normals, centers: (3, k), (b-a) x (c-a) and the means of the corners; from_center: twice
-    (3, k), a and b less those. edges: (3, k), which columns of `middles` and `halves`, (3, e), are the edges opposite
-    to a, b and c; halves: half of what their ends differ by.
+    diameter: the largest. normals, centers: (3, k), (b-a) x (c-a) and the means of the corners; from_center: twice (3,
+    k), a and b less the centers. edges: (3, k), the columns of `middles` and `halves`, (3, e), of the edges opposite to
+    a, b and c; halves: half of the differences of their ends.
     """
 
     def __init__(self, points: NDArray, triangles: NDArray, diameter: float):
@@ -212,7 +212,7 @@ class PhaseMeans:
     def _series_of_pairs(
         self, pairs: NDArray, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
-        """The series where it is needed in a block of the other kind."""
+        """Return the series for the pairs that need it in a block of the other kind."""
         row, column = np.divmod(pairs, len(self.block.lengths))
         a, b, c = (d.reshape(-1)[pairs] for d in (a, b, c))
         real, imaginary = _series(a * a + a * b + b * b, a * b * c, SPLIT_SERIES_TERMS)
@@ -221,10 +221,10 @@ class PhaseMeans:
 
 
 def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
-    """D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g: v / 2 + (1 + v) g, with v = exp(-i s0) - 1, which is small
-    where s0 is. All are overwritten."""
+    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g: v / 2 + (1 + v) g, with v = exp(-i s0) - 1, which is
+    small if s0 is. All are overwritten."""
     np.multiply(cosine, sine, out=cosine)
-    np.multiply(cosine, -2.0, out=cosine)  # of v, the imaginary part
+    np.multiply(cosine, -2.0, out=cosine)  # The imaginary part of v.
     np.multiply(sine, sine, out=sine)
     np.multiply(sine, -2.0, out=sine)  # and the real part
     whole = real + 0.5
@@ -265,12 +265,12 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
 
 
 def _series_terms(radius: float) -> int:
-    """How many terms are needed for |d| up to radius: |h_n| is at most radius^n. With the largest |d| at 1 the others
-    add up to -1 and have a product p from 0 to 1/4: h_n = (1-p) h_(n-2) + p h_(n-3), which is a mean."""
+    """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n. With the largest |d| at 1 the
+    others add up to -1 and have a product p from 0 to 1/4: h_n = (1-p) h_(n-2) + p h_(n-3), which is a mean."""
     n = 4
     while radius**n / factorial(n + 2) > 2e-17:
         n += 2
     return n
 
 
-SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))  # where Σ d² is below SPLIT
+SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))  # For Σ d² below SPLIT.

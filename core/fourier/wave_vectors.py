@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wave vectors, as a list or as a regular grid, and what a sum over faces asks of them: q·v and exp(-i q·x).
+"""Wave vectors, as a list or as a regular grid, with q·v and exp(-i q·x) for sums over faces.
 
 On a list every phase costs a sine and a cosine. On a grid exp(-i q·x) is a product of three numbers out of tables, one
 for each axis; their entries are sines and cosines themselves, no recurrence, so that no error grows along an axis.
@@ -87,7 +87,7 @@ class FrequencyGrid:
         return np.stack(axes, axis=-1).reshape(-1, self.dimension)
 
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """Return the (count³,) values everywhere from those of `GridWaves`, which are at half of the places."""
+        """Return the (count³,) values everywhere from the values of `GridWaves`, which are at half of the places."""
         side, n, h = 2 * self.half + 1, self.count, self.half
         values = np.asarray(values).reshape(side, side, h + 1)
         full = np.empty((n, n, n), np.complex128)
@@ -98,7 +98,7 @@ class FrequencyGrid:
 
 
 def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
-    """(M, dimension) wave vectors from a user. MeasureError where they are none."""
+    """(M, dimension) wave vectors from a user. MeasureError if they are none."""
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
         raise MeasureError(WAVE_VECTORS_SHAPE, dimension=dimension, shape=list(q.shape), type=str(q.dtype))
@@ -111,7 +111,7 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
 
 
 class ListWaves:
-    """A list of wave vectors (M, 3), by size, so that those of a block can be treated alike. Rows are single ones."""
+    """A list of wave vectors (M, 3), by size, so that a block can be treated alike. Rows are single ones."""
 
     columns = 1
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The JSON document of a file, and its formats: JSON, JSON lines and CSV. A public contract, `body-moments/1`.
 
-A document is what one file gave: one record for each object, their total, and what could not be measured. Nothing here
-needs numpy or Blender: a process that only gathers what others have measured writes the same.
+A document is the result of one file: one record for each object, their total, and the objects that could not be
+measured. Nothing here needs numpy or Blender: a process that only gathers results of others writes the same.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version"
 # The inertia tensor's six entries, in the order in which they are stored on an object.
 TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
 
-# What the file of a Fourier transform holds.
+# Content of the file of a Fourier transform.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
 FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # and of a flat shape, of its plane in the world
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break, so none matches.
 _NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
 
-# What begins a formula, as OWASP lists it, or an apostrophe that does not stand for one.
+# Beginnings of formulas, as OWASP lists them, or an apostrophe that does not stand for one.
 _FORMULA = re.compile(r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
 
 
@@ -45,9 +45,9 @@ def document(
     frame: str = "world",
     status: str | None = None,
 ) -> dict[str, Any]:
-    """What one file gave. The objects are sorted by name; `file` is None for a scene that was never saved. errors,
-    left_out: names and reasons, of what could not be measured and of what was not to be. status: one of `STATUSES`, by
-    default what the errors say.
+    """Return the document of one file. The objects are sorted by name; `file` is None for a scene that was never saved.
+    errors, left_out: names and reasons of objects that could not be measured, or were excluded. status: one of
+    `STATUSES`, by default according to the errors.
     """
     errors = list(errors)
     if frame != "world":
@@ -66,7 +66,7 @@ def document(
 
 
 def failed_document(file: str, reason: str, status: str, *, blender: str | None, frame: str) -> dict[str, Any]:
-    """That of a file of which nothing was measured, for one reason."""
+    """Return the document of a file without any measurement, for one reason."""
     total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
     total |= {"findings": [], "warnings": [], "notes": []}
@@ -101,8 +101,8 @@ def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """One row an object under one header. What could not be measured is a row too, with its reason
-    under `error`, and so is what was left out, with its reason under `left_out`. documents: gone through twice.
+    """Yield one row an object under one header. Unmeasured objects have a row too, with the reason under `error`, and
+    so do excluded ones, with the reason under `left_out`. documents: gone through twice.
 
     Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
     so does text that has one there already: whoever reads a text removes one apostrophe from its start.
@@ -115,8 +115,8 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """CSV with these columns: a row for each mapping, whose missing entries stay empty. Text is written as `to_csv`
-    says."""
+    """Yield CSV with these columns: a row for each mapping; missing entries stay empty. Text is escaped as in
+    `to_csv`."""
     yield _line(header)
     for row in rows:
         yield _line(_cell(row.get(name, "")) for name in header)
@@ -158,7 +158,7 @@ def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
-    """A record as one flat row; what a list or a table holds gets a column each."""
+    """Return a record as one flat row; entries of lists and tables get a column each."""
     row = {name: entry[name] for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in entry}
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"])}
     row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
@@ -206,7 +206,7 @@ def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _line(cells: Iterable[Any]) -> str:
-    """A row of a table. Before Python 3.13 the csv module quotes only those line breaks that it ends a row with."""
+    """Return a row of a table. Before Python 3.13 the csv module quotes only line breaks that it ends a row with."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\r\n").writerow(cells)
     return text.getvalue().removesuffix("\r\n") + "\n"
@@ -223,7 +223,7 @@ def _cell(value: Any) -> Any:
 
 
 def to_robot(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """What the process that measured has written of one file in a format of robots."""
+    """Yield the robot description of each file, as written by the process that measured it."""
     return (file_document.get("robot", "") for file_document in documents)
 
 

@@ -16,7 +16,7 @@ from ..verdict.health import MeshHealth
 from ..verdict.method import Method
 from .findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 
-# where a density came from that is the same everywhere
+# Sources of a density that is the same everywhere.
 UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding(DENSITY_FROM_VALUE), finding(DENSITY_FROM_MASS)
 
 
@@ -29,18 +29,18 @@ class Measurement:
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
     volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
-        higher order where that was asked for.
+        higher order if requested.
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
-    higher_mass: where the density is not one number, its moments in kg to the order that was asked for, above third.
+    higher_mass: if the density is not one number, its moments in kg to the requested order, above third.
     rotation, location: (3, 3) and (3,) the object frame, its unit scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
-        for what storing coordinates as float32 may have moved; "estimated": True where the former are estimates.
+        for storing coordinates as float32; "estimated": True if the former are estimates.
     findings: the decisions taken on the way.
-    fingerprint: of what the numbers were computed from.
-    length: of a wire, m, whose density in kg/m is its mass by that and whose `density` is 0; else None.
-    display_volume: what the display mesh of B-spline patches would have given, m³; None where none was asked.
-    density_from: where the density came from, with a code `density_from_…`. materials: names of those that were looked
-        at for it.
+    fingerprint: of the input of the numbers.
+    length: of a wire, m; its density in kg/m is its mass by that, and `density` is 0; else None.
+    display_volume: the volume of the display mesh of B-spline patches, m³; None if not requested.
+    density_from: the source of the density, with a code `density_from_…`. materials: names of the materials considered
+        for it.
     """
 
     name: str
@@ -68,7 +68,7 @@ class Measurement:
     higher_mass: Moments | None = None
 
     def moments_of_mass(self, order: int) -> Moments | None:
-        """The moments of the mass, kg, to an order; None where they are not known to that."""
+        """Return the moments of the mass, kg, to an order; None if they are not known to that."""
         moments, factor = self.mass_moments
         if order <= moments.order:
             return replace(moments.truncate(order), measure=Measure.MASS) * factor

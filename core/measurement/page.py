@@ -159,7 +159,7 @@ def _picture(entry: dict[str, Any]) -> str:
     if not mass or not moments or None in moments or not axes:
         return ""
     half = sum(moments) / 2.0
-    sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # of a box, halved
+    sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # Half sides of a box.
     scale = 40.0 / (max(sides) * 1.8 or 1.0)
     columns = [[row[number] for row in axes] for number in range(3)]
 

@@ -25,7 +25,7 @@ from ..verdict.finding import Finding, MeasureError, Severity
 from ..verdict.sentences import sentence, severity
 from .measurement import UNIFORM_DENSITIES, Measurement
 
-MAX_ELEMENTS = 1000  # of a finding
+MAX_ELEMENTS = 1000  # Limit for one finding.
 
 
 def record(
@@ -36,10 +36,10 @@ def record(
     more: dict[str, Any] | None = None,
     about: str | Sequence[float] | None = None,
 ) -> dict[str, Any]:
-    """One object's record.
+    """Return one object's record.
 
     frame: "world" or "object". order: adds `moments`, volume moments up to that order, which the
-    measurement must have, about the frame's origin; of a shell, those of its thin volume. surface:
+    measurement must have, about the frame's origin; of a shell, for its thin volume. surface:
     area moments of the same object, world frame, added to them. more: further entries. about: "center", "origin",
     "world", or a point in the frame: adds `inertia_about`, and the moments are about it.
     """
@@ -99,8 +99,8 @@ def record(
 
 
 def described(findings: Iterable[Finding]) -> dict[str, list]:
-    """What a record says of findings: `findings` as data with their messages, and the messages alone, as `warnings`
-    from that severity on and as `notes` below it.
+    """Return a record's entries about findings: `findings` as data with their messages, and the messages alone, as
+    `warnings` from that severity on and as `notes` below it.
     """
     entry = {"findings": [], "warnings": [], "notes": []}
     add_findings(entry, findings)
@@ -108,7 +108,7 @@ def described(findings: Iterable[Finding]) -> dict[str, list]:
 
 
 def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
-    """Add findings to a record, but for those that it has."""
+    """Add findings to a record, unless it has them already."""
     for finding in findings:
         record = _finding_record(finding)
         if record not in entry["findings"]:
@@ -117,7 +117,7 @@ def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
 
 
 def _finding_record(finding: Finding) -> dict[str, Any]:
-    """code, severity, message, values, and the elements where there are any."""
+    """Return code, severity, message, values, and the elements if there are any."""
     entry = {
         "code": finding.code,
         "severity": str(severity(finding)),
@@ -176,7 +176,7 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
 def _point(
     about: str | Sequence[float] | None, measurement: Measurement, properties: MassProperties, frame: str
 ) -> NDArray[np.float64]:
-    """Where a point is in the frame; without one, the frame's origin."""
+    """Return the place of a point in the frame; without one, the frame's origin."""
     if about == "center":
         return properties.center
     if about == "origin" and frame == "world":

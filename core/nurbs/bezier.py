@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Bézier patches that B-spline patches consist of, many at once, and their values at Gauss points.
 
-Between its knots a B-spline patch is a Bézier patch, whose control points are those of the B-spline weighed by the
-blossoms of its basis (`SplineSpace.bezier_extraction`). From there on no knots are needed: all patches of the same
-orders are one array, the tables at Gauss points are those of Bernstein's polynomials, and halving a patch is a Bézier
-patch again.
+Between its knots a B-spline patch is a Bézier patch; its control points are the B-spline's weighed by the blossoms of
+its basis (`SplineSpace.bezier_extraction`). From there on no knots are needed: all patches of the same orders are one
+array, the tables at Gauss points are those of Bernstein's polynomials, and halving a patch is a Bézier patch again.
 """
 
 from __future__ import annotations
@@ -36,9 +35,9 @@ class BezierCells:
     """Bézier patches of the same orders k and k', polynomial or rational.
 
     net: (3, k, c, k') their control points, or (4, k, c, k') those times their weights, and the weights. anchor: (3, c)
-    or (3, 1) what the control points are about, near them, itself about the point that everything is taken about.
-    constant_weights: whether the weights are the same along s, and along t. reach: how far any point can be from that
-    point.
+    or (3, 1) the origin of the control points, near them, itself relative to the common reference point.
+    constant_weights: True for weights constant along s, and along t. reach: the largest distance of any point from the
+    reference point.
     """
 
     net: NDArray[np.float64]
@@ -72,8 +71,8 @@ class BezierCells:
         ).about_anchor()
 
     def about_anchor(self) -> BezierCells:
-        """The same about their own first control points: what is added up is as small as the cell then, and so is its
-        rounding."""
+        """Return the cells about their own first control points: the summed numbers, and their rounding, are as small
+        as the cell then."""
         net, first = np.empty_like(self.net), self.net[:3, 0, :, 0]
         if len(net) == 4:
             net[3] = self.net[3]
@@ -84,7 +83,7 @@ class BezierCells:
         return BezierCells(net, self.anchor + first, self.constant_weights, self.reach)
 
     def evaluate(self, rule: Rule, most: int = 1, ends: bool = False) -> tuple[list[NDArray[np.float64]], Weights]:
-        """The patches and their derivatives at the points of Gauss rules, and the weights of those points.
+        """Return the patches and their derivatives at the points of Gauss rules, and the points' weights.
 
         most: the highest derivative, 1 or 2. ends: the sides too, without weight.
         Returns S, S_s, S_t and with most = 2 S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and
@@ -105,7 +104,7 @@ class BezierCells:
 
 
 def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[BezierCells]:
-    """The Bézier patches of some patches, those of the same orders together, some at a time, about a point (3,)."""
+    """Yield the Bézier patches of patches, grouped by orders, in blocks, about a point (3,)."""
     groups: dict[tuple, list[Patch]] = {}
     for patch in patches:
         groups.setdefault((patch.spaces, patch.weights is None, patch.constant_weights), []).append(patch)
@@ -123,7 +122,7 @@ def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[BezierCells]:
 def _cells_of_group(
     spaces: tuple[SplineSpace, SplineSpace], group: Sequence[Patch], about: NDArray
 ) -> Iterator[BezierCells]:
-    """Those of patches in the same function spaces."""
+    """Yield the Bézier patches of patches in the same function spaces."""
     u, v = len(spaces[0].spans), len(spaces[1].spans)
     step, spans_per_step = max(1, MAX_CELLS // (u * v)), max(1, MAX_CELLS // v)
     for first in range(0, len(group), step):
@@ -157,7 +156,7 @@ def cells_of_nets(
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
-    """The Bézier patches of g control nets (g, count_s, count_t, 3 or 4) about points near them, home (g, 3): those of
+    """Return the Bézier patches of g control nets (g, count_s, count_t, 3 or 4), about points near them, (g, 3), for
     some spans of s and t, in the order of nets, spans of s, spans of t."""
     s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
     t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
@@ -199,7 +198,7 @@ def bernstein(
 
 @lru_cache
 def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """What takes the control points of a Bézier curve to those of its halves: de Casteljau's scheme."""
+    """Return the matrices from the control points of a Bézier curve to its halves': de Casteljau's scheme."""
     first = np.eye(order)
     for row in range(1, order):
         first[row, 0] = first[row - 1, 0] / 2.0
@@ -208,7 +207,7 @@ def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64]]:
-    """The derivatives of the quotient from those of the numerator and, in the last row, the denominator; in place."""
+    """Return derivatives of the quotient, from the numerator's and, in the last row, the denominator's; in place."""
     inverse = 1.0 / derivatives[0][3]
     result, bottom = [row[:3] for row in derivatives], [row[3] for row in derivatives]
     result[0] *= inverse

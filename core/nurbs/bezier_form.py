@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """B-spline patches with any knots as patches with Blender's.
 
-Blender's splines have no knots of their own. Where every knot is inserted until it is repeated as often as the degree
-says, a patch is Bézier patches side by side, and how far apart their knots are changes its parameters but not its
-points. So Blender's flags *Bézier* and *Endpoint* describe the same surface.
+Blender's splines have no knots of their own. If every knot is inserted until it is repeated as often as the degree
+says, a patch is Bézier patches side by side, and the distances of their knots change its parameters but not its points.
+So Blender's flags *Bézier* and *Endpoint* describe the same surface.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ..numerics.bspline import SplineSpace
 from .blender_knots import blender_space
 from .patch import Patch
 
-SAME_KNOT_RTOL = 1e-12  # of the domain: what the ends of a part of it may be off from a knot
+SAME_KNOT_RTOL = 1e-12  # Relative to the domain: allowed distance of a part's ends from a knot.
 
 
 def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]) -> list[Patch]:
@@ -36,7 +36,7 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
     Returns
     -------
     list of Patch
-        One, or several where the patch may jump: where a knot is repeated as often as the order says.
+        One, or several if the patch may jump, at knots repeated as often as the order says.
 
     Raises
     ------
@@ -45,8 +45,8 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
 
     Notes
     -----
-    Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones whether it is
-    inserted one knot at a time or at once.
+    Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones if the knots
+    are inserted one at a time or at once.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def _bezier_space(count: int, order: int) -> SplineSpace:
 
 
 def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[NDArray[np.float64]]:
-    """(n, count) what the old control points weigh in the new ones, for each piece without a jump in it."""
+    """Yield (n, count) the weights of the old control points in the new ones, for each piece without a jump in it."""
     low, high = space.domain if part is None else _snapped(space, part)
     edges = np.clip(space.intervals, low, high)
     inside = edges[:, 0] < edges[:, 1]

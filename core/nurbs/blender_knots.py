@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's NURBS: which settings make a surface, its knots, and where its display mesh samples it.
+"""Blender's NURBS: settings that make a surface, its knots, and the samples of its display mesh.
 
 Blender's files and its Python interface have no knots: they follow from the number of points, the order and three
 flags (blender/source/blender/blenkernel/intern/curve.cc: calcknots, makeknots, nurb_check_valid; the same in 4.2 to
@@ -18,14 +18,14 @@ from ..numerics.bspline import SplineSpace
 
 
 def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> bool:
-    """Whether Blender makes anything of a direction with these settings."""
+    """Return whether Blender makes anything of a direction with these settings."""
     return count >= max(2, order) and (
         not bezier or (count % (order - 1) == 0 if cyclic else endpoint or count > order)
     )
 
 
 def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> NDArray[np.float64]:
-    """The knot vector of a valid direction: count + order knots, and order - 1 more where it is cyclic."""
+    """Return the knot vector of a valid direction: count + order knots, and order - 1 more if it is cyclic."""
     repeat = order - 1 if bezier else 1
     head = (order - 1 if cyclic else order) if endpoint else (min(2, repeat) if bezier else 1)
     tail = 2 * order - 1 if cyclic else (order if endpoint else 0)
@@ -57,7 +57,7 @@ def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
     Returns
     -------
     SplineSpace or None
-        None where Blender shows nothing for these settings. Cached.
+        None if Blender shows nothing for these settings. Cached.
 
     Notes
     -----
@@ -89,9 +89,9 @@ def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float6
 
 
 def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64]:
-    """(n, count) what each control point weighs in Blender's display mesh at those parameters.
+    """Return (n, count) the weight of each control point in Blender's display mesh at these parameters.
 
-    The last of them may drift past the domain's end, into a span whose next basis function does not exist: there the
+    The last of them may drift past the domain's end, into a span without its next basis function: there the
     weights add up to less than one, and so does the surface that is displayed.
     """
     table = space.collocation_matrix(np.minimum(parameters, space.domain[1]))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where patches bend at once: along the seams between them, and within them along knots of full multiplicity.
+"""Creases of patches: along the seams between them, and within them along knots of full multiplicity.
 
 A sheet with real thickness (`patch_moments.sheet_moments`) overlaps itself on one side of a crease and gapes on the
 other.
@@ -18,11 +18,11 @@ from .patch import Patch
 from .patch_topology import SIDES, PatchTopology
 
 SAMPLES_PER_SIDE = 17  # samples of a side
-POLE_RTOL = 1e-9  # of the largest: what normals at a pole are
+POLE_RTOL = 1e-9  # Relative to the largest normal: normals at a pole are shorter.
 
 
 def sharpest_crease(patches: Sequence[Patch], topology: PatchTopology) -> float:
-    """The largest angle, in radians, between the normals on both sides of a crease, 0 where there is none."""
+    """Return the largest angle, in radians, between the normals on both sides of a crease, 0 if there is none."""
     worst = max(_inner_crease_angle(patch) for patch in patches)
     for left, right in topology.seams.tolist():
         first_side, second_side = (
@@ -60,7 +60,7 @@ def _inner_crease_angle(patch: Patch) -> float:
 
 
 def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
-    """(m, n, 3) unit normals at parameters, perhaps in given spans; zero where there is none."""
+    """Return (m, n, 3) unit normals at parameters, perhaps in given spans; zero if undefined."""
     (s, by_s), (t, by_t) = (
         [space.collocation_matrix(at, k, spans) for k in (0, 1)] for space, (at, spans) in zip(patch.spaces, parameters)
     )
@@ -75,7 +75,7 @@ def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArr
 
 
 def _largest_angle(first: NDArray, second: NDArray) -> float:
-    """The largest angle between two rows of unit vectors, where both are some."""
+    """Return the largest angle between two rows of unit vectors, ignoring pairs with a zero vector."""
     known = first.any(axis=-1) & second.any(axis=-1)
     chord = np.linalg.norm(first[known] - second[known], axis=-1).max(initial=0.0)
     return float(2.0 * np.arcsin(min(chord / 2.0, 1.0)))

@@ -18,10 +18,10 @@ from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 def checked_points(
     points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Control points (*shape, 3) and weights (*shape), float64; weights that are all the same are none. They are copies
-    that cannot be written to: what has been found out about them stays true.
+    """Return control points (*shape, 3) and weights (*shape), float64; equal weights become None. They are copies that
+    cannot be written to, so that cached results stay true.
 
-    ValueError for another shape; MeasureError for what is not finite, and weights that are not positive.
+    ValueError for another shape; MeasureError for points that are not finite, and weights that are not positive.
     """
     points = _frozen_copy(float_array("points", points, *shape, 3))
     if not np.isfinite(points).all():
@@ -84,7 +84,7 @@ class Curve:
         return self.apply_weights(self.space.collocation_matrix(parameters))
 
     def apply_weights(self, table: NDArray) -> NDArray[np.float64]:
-        """Return the (n, 3) points where a table (n, count) weights its control points."""
+        """Return the (n, 3) points given by a table (n, count) of weights of its control points."""
         if self.weights is not None:
             table = table * self.weights
             table /= table.sum(axis=1, keepdims=True)

@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments of B-spline curves: of their length, as wires, and of the plane regions that closed ones bound.
 
-A region's moments are those of the flux through its boundary, by Green's theorem about a point of its plane,
+A region's moments follow from the flux through its boundary, by Green's theorem about a point of its plane,
 
     ∫ x^p y^q z^r dA = 1 / (p+q+r+2) · ∮ x^p y^q z^r n · (C x C') dt,
 
-whose integrand is a polynomial of degree (n + 2) d - 1 where the curve is one of degree d: exact by Gauss's rule. Where
-it is rational, and for the length's square root, rules are compared as in `patch_moments`, and the difference is
-reported as an estimate. A length has a kink where its curve turns back, which two rules may miss alike. The tangents of
-a Bézier curve lie in the cone of its control polygon's edges (Floater 1992), so that such places are found and halved
-until they are too short to matter.
+with an integrand of degree (n + 2) d - 1 for a polynomial curve of degree d: exact by Gauss's rule. If it is rational,
+and for the length's square root, rules are compared as in `patch_moments`, and the difference is reported as an
+estimate. A length has a kink if its curve turns back, which two rules may miss alike. The tangents of a Bézier curve
+lie in the cone of its control polygon's edges (Floater 1992), so that such places are found and halved until they are
+too short to matter.
 """
 
 from __future__ import annotations
@@ -122,9 +122,9 @@ def _integrate(
     tolerance: float,
     kinks: bool = False,
 ) -> tuple[NDArray, float, float]:
-    """The integral of density times monomials, the estimate of its truncation by unit of reach to the degree, and the
-    curves' length. largest: what the density is at most, for each unit of length. kinks: whether it has some where a
-    curve turns back.
+    """Return the integral of density times monomials, the estimate of its truncation by unit of reach to the degree,
+    and the curves' length. largest: the bound of the density, for each unit of length. kinks: True if it has kinks at
+    turns back.
 
     A piece is done when two rules agree to the tolerance of its own length, or of its share of the curve's.
     """
@@ -157,8 +157,8 @@ def _integrate(
 
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The Bézier curves that a curve consists of: their control points (c, order, 3), or (c, order, 4) those times
-    their weights, and the weights, about home (c, 3), itself about the point."""
+    """Return the Bézier curves of a curve: control points (c, order, 3), or (c, order, 4) points times weights, and the
+    weights, about an anchor (c, 3), itself about the point."""
     space, origin = curve.space, curve.points[0]
     net = curve.points - origin
     if curve.weights is not None:
@@ -168,7 +168,7 @@ def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], N
 
 
 def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The same about their own first control points."""
+    """Return the Bézier curves about their own first control points."""
     rational = net.shape[2] == 4
     first = net[:, :1, :3] / net[:, :1, 3:] if rational else net[:, :1]
     points = net[..., :3] - (first * net[..., 3:] if rational else first)
@@ -176,7 +176,7 @@ def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.floa
 
 
 def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
-    """(c,) the most that the lengths of pieces can be where they may turn back, 0 of others."""
+    """Return (c,) upper bounds of the lengths of pieces that may turn back, 0 for others."""
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
     ahead = np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0
     return np.where(ahead, 0.0, np.sqrt((edges**2).sum(axis=2)).sum(axis=1))

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of a patch whose control points move, from tables made once for its function space.
+"""Moments of a patch with moving control points, from tables made once for its function space.
 
 Soldea, Elber and Rivlin (section 3) precompute Φ, integrals of products of six and more basis functions, and contract
 them with the control points. Every entry of Φ is a difference of products of two integrals over one parameter each, so
-that all there is to precompute is what takes control points to Bézier ones (`bezier`): 4 kB instead of 0.4 to 140 MB
-for an 8 x 8 bicubic patch, and fewer operations (`phi` is their scheme, to compare with). A control point acts on
-k x k' spans only; the others' contributions are kept.
+that only the matrices from control points to Bézier ones (`bezier`) are precomputed: 4 kB instead of 0.4 to 140 MB for
+an 8 x 8 bicubic patch, and fewer operations (`phi` is their scheme, to compare with). A control point acts on k x k'
+spans only; the others' contributions are kept.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ class IncrementalPatchMoments:
     """A patch in a fixed function space, its control points free to move.
 
     Gauss rules are exact for polynomial patches. For rational ones they have 16 points a span and come without an
-    estimate, which `patch_moments` gives. order: of the moments. about: (3,) what they are taken about, by default the
-    mean of the control points. The flux of one patch is a body's only together with those of the others. `area` is
-    that of the patch as last evaluated, by the same points: an approximation.
+    estimate, which `patch_moments` gives. order: of the moments. about: (3,) their reference point, by default the mean
+    of the control points. The flux of one patch is a body's only together with those of the others. `area` is the area
+    of the patch as last evaluated, by the same points: an approximation.
     """
 
     def __init__(self, patch: Patch, order: int = 2, about: NDArray | None = None):
@@ -101,7 +101,7 @@ class IncrementalPatchMoments:
 
 
 def _affected_spans(space: SplineSpace, control: int) -> list[slice]:
-    """The spans on which a control point acts: several runs of them where a closed direction repeats it."""
+    """Return the spans on which a control point acts: several runs of them if a closed direction repeats it."""
     runs = [
         slice(*np.searchsorted(space.spans, (function, function + space.order)).tolist())
         for function in range(control, space.function_count, space.count)

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bounds of what storing the control points of patches may have changed in their moments.
+"""Bounds of the changes in moments of patches by storing their control points.
 
 A skin that moves sweeps a volume, and so do gaps along seams; a monomial of degree d is at most the reach, to the d, in
-it. What an area changes by is bounded the same way, with its slope in place of the skin.
+it. The change of an area is bounded the same way, with its slope in place of the skin.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .patch_moments import area_moments, area_slope
 
 
 def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
-    """Return moments with the bounds of a change where only so much is swept, no farther away than the reach."""
+    """Return moments with the bounds of a change that sweeps a volume `swept`, no farther away than `reach`."""
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
@@ -42,14 +42,14 @@ def with_area_error(area: Moments, slope: float, stored: float, reach: float) ->
     Moments
     """
     if reach == 0.0:
-        return area  # of patches in one point, of which stored coordinates have no digits
+        return area  # The patches are one point, without any digits in their stored coordinates.
     return with_swept_error(area, stored * (slope + area.total / reach), reach)
 
 
 def stored_area_moments(
     patches: Sequence[Patch], order: int, about: NDArray[np.float64] | None = None, *, stored: float
 ) -> Moments:
-    """Return the area moments of patches with the bounds of what storing their control points may have changed.
+    """Return the area moments of patches with the bounds of changes by storing their control points.
 
     Parameters
     ----------

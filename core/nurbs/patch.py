@@ -63,7 +63,7 @@ class Patch:
 
     @cached_property
     def constant_weights(self) -> tuple[bool, bool]:
-        """Whether the weights are the same along s, and along t."""
+        """True if the weights are the same along s, and along t."""
         if self.weights is None:
             return True, True
         return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
@@ -86,7 +86,8 @@ class Patch:
         return self.apply_weights(*(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t))))
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
-        """Return the (m, n, 3) points where two tables, (m, count_s) and (n, count_t), weight its control points."""
+        """Return the (m, n, 3) points given by two tables, (m, count_s) and (n, count_t), of weights of its control
+        points."""
         points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]
@@ -95,7 +96,7 @@ class Patch:
         return top if bottom is None else top / bottom[..., None]
 
     def side(self, axis: int, end: int) -> Curve:
-        """Return the curve that bounds the patch where s (axis 0) or t (axis 1) is first (end 0) or last (end 1)."""
+        """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis 1)."""
         weigh: NDArray[np.float64] = self.spaces[axis].end_weights[end]
         points, weights = self.points, self.weights
         if weights is None:
@@ -111,7 +112,7 @@ class Patch:
 
 @lru_cache(maxsize=64)
 def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
-    """What control points weigh at equal steps in every span; not to be written to."""
+    """Return the weights of control points at equal steps in every span; not to be written to."""
     return space.collocation_matrix(space.uniform_parameters(each))
 
 

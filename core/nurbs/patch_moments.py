@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of what B-spline patches bound, of the patches themselves, and of sheets upon them.
+"""Moments of bodies bounded by B-spline patches, of the patches themselves, and of sheets upon them.
 
 Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of their z-flux, so that no axis is special:
 
@@ -9,8 +9,8 @@ Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of the
 Of a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
 top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n + 3) d - 1) / 2) points in every span is exact.
 A rational integrand, an area's square root and the jacobian of a sheet have no finite degree: there the rules grow by
-halves until two of them agree, and where the finest rule does not suffice, cells are cut in four. The sum of what they
-still differ by is reported, as an estimate: it is that of the coarser rule, while the result is the finer one's.
+halves until two of them agree, and if the finest rule does not suffice, cells are cut in four. The sum of the remaining
+differences is reported as an estimate: it is the coarser rule's error, while the result is the finer one's.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from .bezier import BezierCells, Rule, Weights, cells_of
 from .findings import WALL_THICKER_THAN_CURVATURE
 from .patch import Patch, patches_center
 
-VOLUME_RTOL = 4e-15  # of the largest that the moment could be: what rounding leaves anyway
+VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
 AREA_RTOL = 1e-11
 # times what two rules differ by that have not begun to agree, when no more points are to be spent
 UNCONVERGED_FACTOR = 8.0
@@ -43,8 +43,8 @@ MAX_WEIGHT_RATIOS = 1e2, 1e6
 FOLD_FACTOR = 8.0
 MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbor by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
-COARSE_RULES = (8, 12, 18)  # where less is asked for
-MIN_DIVISOR = 1e-300  # what is divided by at least
+COARSE_RULES = (8, 12, 18)  # For lower demands.
+MIN_DIVISOR = 1e-300  # Divisors are at least this.
 MAX_DEPTH = 14  # times that a cell is cut
 MAX_POINTS = 6_000_000  # evaluated at most
 POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
@@ -56,8 +56,8 @@ Integrand = Callable[[BezierCells, Rule], NDArray]
 
 @dataclass(frozen=True, eq=False)
 class Integral:
-    """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment.
-    converged: whether the estimate is below the tolerance."""
+    """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment. converged:
+    True if the estimate is below the tolerance."""
 
     values: NDArray[np.float64]
     estimate: float
@@ -68,11 +68,11 @@ class Integral:
 def volume_moments(
     patches: Sequence[Patch], order: int = 3, about: NDArray | None = None, tolerance: float = VOLUME_RTOL
 ) -> tuple[Moments, bool]:
-    """The volume moments of the body that closed, outward patches bound.
+    """Return the volume moments of the body that closed, outward patches bound.
 
     about: (3,), by default the middle of their box. Patches that do not close are closed by the cone from there.
-    Returns the moments, whose `rounding_error` is an estimate of truncation (zero for polynomial patches) and rounding,
-    and whether the truncation is below `tolerance`.
+    Returns the moments, with an estimate of truncation (zero for polynomial patches) and rounding as `rounding_error`,
+    and True if the truncation is below `tolerance`.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     degree, flux = _degrees(order), partial(flux_sums, order=order)
@@ -97,8 +97,8 @@ def volume_moments(
 
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
-    """(rules, K + 1, c) the flux of monomials times the place, and a size: the area, or, what that is at most,
-    ∫ |S_s| |S_t|."""
+    """Return (rules, K + 1, c) the flux of monomials times the place, and a size: the area, or its bound ∫ |S_s|
+    |S_t|."""
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
     terms = weighted_monomials(s, dot(s, normal), order, 1)
@@ -107,10 +107,10 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """The area moments of patches by quadrature; `rounding_error` is an estimate. Otherwise as `volume_moments`.
+    """Return the area moments of patches by quadrature; `rounding_error` is an estimate. Otherwise as `volume_moments`.
 
-    Where a patch turns over between two neighboring points, or a cell's side and its first point, what lies between
-    them counts as error, so that such a cell is cut.
+    If a patch turns over between two neighboring points, or a cell's side and its first point, the area between them
+    counts as error, so that such a cell is cut.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     parts = list(cells_of(patches, about))
@@ -132,7 +132,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """(c,) the areas between neighboring points of cells where the patch turns over between them: its area has a kink
+    """Return (c,) the areas between neighboring points of cells between which the patch turns over: its area has a kink
     there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
     directions."""
     total = np.zeros(normal.shape[2])
@@ -220,10 +220,11 @@ def _slope_of_tile(
 def sheet_moments(
     patches: Sequence[Patch], inner: float, outer: float, order: int = 3, about: NDArray | None = None
 ) -> tuple[Moments, bool]:
-    """The volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real thickness.
+    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real
+    thickness.
 
     Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
-    MeasureError where the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
+    MeasureError if the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     parts = list(cells_of(patches, about))
@@ -284,13 +285,13 @@ def integrate_adaptively(
     degree: int | None = None,
     thickness: float = 1.0,
 ) -> Integral:
-    """An integral over patches, cell by cell, by the first rule that suffices.
+    """Integrate over patches, cell by cell, by the first rule that suffices.
 
     integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
-    count as error. unit: (K,) what a cell's size times it bounds.
-    degree: of moments whose integrand is a polynomial along a direction in which the weights are the same, so that
-    there fewer points are exact; None where there is none. thickness: what an area is multiplied by.
-    A cell is done when two rules agree to the tolerance of its own scale, or of its share of the whole one.
+    count as error. unit: (K,) factors from a cell's size to bounds of its moments. degree: degree of a moment's
+    integrand, if a polynomial, along a direction of constant weights, so that fewer points are exact there; else None.
+    thickness: the factor of an area. A cell is done when two rules agree to the tolerance of its own scale, or of its
+    share of the whole one.
     """
     k = len(unit)
     values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
@@ -341,8 +342,9 @@ def integrate_adaptively(
 
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """(c,) the area that may lie between the points of all rules: of cells whose weights differ by more than that
-    factor, so that all but their margin is drawn to a point, the squared diagonal of their control points' box."""
+    """Return (c,) the area that may lie between the points of all rules: for cells with weights that differ by more
+    than the factor `steep`, so that all but their margin is drawn to a point, the squared diagonal of their control
+    points' box."""
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
         weights = cells.net[3]
@@ -357,8 +359,8 @@ def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]
 def _rules(
     orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
 ) -> tuple[Rule, ...]:
-    """Two rules to compare, of so many points along each direction, or fewer where they are exact; as one, side by
-    side, where they differ along one direction only: that takes no more points."""
+    """Return two rules to compare, of so many points along each direction, or fewer if exact; joined into one if they
+    differ along one direction only, which takes no more points."""
     coarse, fine = (
         tuple(
             min(number, exact_points(order, degree)) if same and degree is not None else number

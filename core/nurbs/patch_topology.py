@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether patches close, which way each faces, and the caps of what they leave open.
+"""Closedness and orientation of patches, and the caps of their holes.
 
-Every patch has four sides, curves that run round it with the patch on their left. A side is closed where it is a point
-(a pole) or where it coincides with another side: of the same patch (a cyclic direction, a seam) or of another one, run
-the other way. Sides coincide where they agree parameter by parameter, or else point by point. A vector area of zero
-proves nothing: that of an open cylinder is zero too.
+Every patch has four sides, curves that run round it with the patch on their left. A side is closed if it is a point (a
+pole) or coincides with another side: of the same patch (a cyclic direction, a seam) or of another one, run the other
+way. Sides coincide if they agree parameter by parameter, or else point by point. A vector area of zero proves nothing:
+an open cylinder's is zero too.
 
 Open sides are joined to loops, and a loop is closed by the cone to its centroid, which of a flat loop is the exact flat
 cap, as a signed sum whatever the loop's shape. A cone over a B-spline curve is a B-spline patch of degree one by the
@@ -36,14 +36,14 @@ SAMPLES_PER_SIDE = 33  # points at least by which sides are compared
 PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time
 PAIRS_PER_BATCH = 1 << 20  # pairs of sides looked at together
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
-MAX_CHORDS = 4096  # of a boundary loop that is tested for crossing itself
-MAX_SIDE_PAIRS = 100_000  # of closed sides, compared point by point
+MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itself.
+MAX_SIDE_PAIRS = 100_000  # Limit of closed sides compared point by point.
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
 
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """One side of a patch. forward: whether the patch's boundary runs the way of its curve."""
+    """One side of a patch. forward: True if the patch's boundary runs the way of its curve."""
 
     patch: int
     curve: Curve
@@ -53,8 +53,8 @@ class Side:
 @dataclass(frozen=True, eq=False)
 class BoundaryLoop:
     """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
-    is_planar: whether it lies in a plane; out_of_plane: by how much it does not. zero_area: whether it has no area, so
-    that it is closed already. area: of the cap, an estimate. self_intersecting: whether it is flat and crosses
+    is_planar: True if it lies in a plane; out_of_plane: its distance from one. zero_area: True if it has no area, so
+    that it is closed already. area: of the cap, an estimate. self_intersecting: True if it is flat and crosses
     itself."""
 
     caps: tuple[Patch, ...]
@@ -68,12 +68,12 @@ class BoundaryLoop:
 
 @dataclass(frozen=True, eq=False)
 class PatchTopology:
-    """component: (n,) of each patch; number: of them. flipped: (n,) which patches face against most of theirs, or the
-    first where as many face each way. loops: the holes. open_sides, non_manifold_sides, misoriented_sides: how many
-    sides lie open, coincide with more than one other, or run the same way as the side that they coincide with, before
-    anything was turned. seam_gap: the largest distance, times the length, of sides that coincide. seams: (k, 2) sides
-    that are joined, four to a patch in the order of `SIDES`.
-    unclosable: (number,) components whose sides can be joined to no loops, or that have one side only.
+    """component: (n,) of each patch; number: of them. flipped: (n,) mask of patches that face against most of their
+    component, or the first if as many face each way. loops: the holes. open_sides, non_manifold_sides,
+    misoriented_sides: the numbers of sides that lie open, coincide with more than one other, or run the same way as the
+    side that they coincide with, before anything was turned. seam_gap: the largest distance, times the length, of sides
+    that coincide. seams: (k, 2) sides that are joined, four to a patch in the order of `SIDES`. unclosable: (number,)
+    components with sides that cannot be joined to loops, or with one side only.
     """
 
     component: NDArray[np.intp]
@@ -89,9 +89,9 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
-    """Find out how patches close. tolerance: the distance within which points are the same.
+    """Find the seams, orientation and holes of patches. tolerance: the distance within which points are the same.
 
-    MeasureError where knots may tear one: a gap within a patch is not one of its sides.
+    MeasureError if knots may tear one: a gap within a patch is not one of its sides.
     """
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
@@ -143,7 +143,7 @@ def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
 
 @lru_cache(maxsize=64)
 def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
-    """What control points weigh at equal steps of the domain; not to be written to."""
+    """Return the weights of control points at equal steps of the domain; not to be written to."""
     low, high = space.domain
     return space.collocation_matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
 
@@ -151,8 +151,8 @@ def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
 def _coincident_sides(
     sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Pairs of sides that coincide, the nearest first: how far they are apart, which, and whether their curves run the
-    same way."""
+    """Return pairs of sides that coincide, the nearest first: distance, the two indices, and True if their curves run
+    the same way."""
     middle = points.shape[1] // 2
     side_points = points[wide]
     first, last = side_points[:, 0], side_points[:, -1]
@@ -160,7 +160,7 @@ def _coincident_sides(
     coincident = list(_distance_between(points, wide[left], wide[right], tolerance))
     loose = np.ones(len(points), bool)
     loose[[side for _, i, j, _ in coincident for side in (i, j)]] = False
-    # The same curve by other parameters: between the same ends, or without ends.
+    # Equal curves with other parameters: between the same ends, or without ends.
     ring = np.linalg.norm(last - first, axis=1) <= 2.0 * tolerance
     arcs, rings = np.flatnonzero(loose[wide] & ~ring), np.flatnonzero(loose[wide] & ring)
     ends = _close_pairs(np.concatenate([first + last, np.abs(first - last)], axis=1)[arcs], 2.0 * tolerance)
@@ -179,12 +179,12 @@ def _pair_sides(
     owner: NDArray[np.intp],
     forward: NDArray[np.bool_],
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
-    """Which of the sides that coincide are joined: (k,) and (k,), whether their curves run the same way, how far they
-    are apart, and the number of sides that coincide with more than one other.
+    """Return the joined pairs of coinciding sides, (k,) and (k,); masks of curves that run the same way; distances; and
+    the number of sides that coincide with more than one other.
 
-    Where more than two meet, as where bodies touch, those are joined first whose patches are one already by other
-    sides, then a patch by itself to what it fits as it faces, then whatever fits as it faces: so no patch is turned
-    that need not be. Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
+    If more than two meet, as for touching bodies, sides of patches already joined by other sides come first, then a
+    patch by itself to one that it fits as it faces, then any that fit as they face: so no patch is turned needlessly.
+    Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
     """
     times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp))
     part, odd, size = list(range(len(owner))), [False] * len(owner), [1] * len(owner)
@@ -265,7 +265,8 @@ def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray
 def _distance_between(
     points: NDArray, left: NDArray, right: NDArray, tolerance: float
 ) -> Iterator[tuple[float, int, int, bool]]:
-    """Which pairs of sides agree parameter by parameter: their distance, which, whether they run the same way."""
+    """Yield pairs of sides that agree parameter by parameter: distance, the two indices, True if they run the same
+    way."""
     for start in range(0, len(left), PAIRS_PER_BLOCK):
         i, j = left[start : start + PAIRS_PER_BLOCK], right[start : start + PAIRS_PER_BLOCK]
         reversed_distance, forward_distance = (
@@ -282,7 +283,7 @@ def _distance_between(
 def _overlapping_sides(
     first: Curve, second: Curve, first_points: NDArray, second_points: NDArray, i: int, j: int, tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Whether two curves coincide whatever their parameters are: every point of each is on the other one."""
+    """Return the pair if two curves coincide by any parameters: every point of each is on the other one."""
     gaps, ways = [], []
     for curve, samples, points in ((second, second_points, first_points), (first, first_points, second_points)):
         gap, way = _nearest(curve, samples, points, tolerance)
@@ -294,7 +295,7 @@ def _overlapping_sides(
 
 
 def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> tuple[float, float]:
-    """How far the farthest of some points is from a curve, and whether the points run along (+) or against (-) it."""
+    """Return the largest distance of points from a curve, and their direction along (+) or against (-) it."""
     low, high = curve.space.domain
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
     closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
@@ -312,7 +313,7 @@ def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) 
 def _orient_patches(
     count: int, left: NDArray, right: NDArray, misoriented: NDArray
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-    """Which patches must turn to face as the first of their component, and those that cannot."""
+    """Return a mask of patches that must turn to face as the first of their component, and patches that cannot."""
     neighbors: list[list[tuple[int, bool]]] = [[] for _ in range(count)]
     for i, j, flip in zip(left.tolist(), right.tolist(), misoriented.tolist()):
         neighbors[i].append((j, flip))
@@ -334,7 +335,7 @@ def _orient_patches(
 def _find_loops(
     points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
 ) -> list[tuple[list[int], bool]]:
-    """Open sides in turn, each set with whether it ends where it began."""
+    """Return chains of open sides, each with True if it is closed."""
     ahead = forward[free]
     begin, end = (points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0)))
     limit = 2.0 * tolerance

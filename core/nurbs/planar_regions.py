@@ -16,9 +16,9 @@ from .curve_moments import curves_center
 from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
 
 SAMPLES_PER_SPAN = 16  # at first
-FINER_SAMPLES = 64, 256  # where what fewer make seems to cross
-MAX_CHORDS = 8192  # of the finer ones
-MAX_CHORD_PAIRS = 4_000_000  # of chords compared at a time
+FINER_SAMPLES = 64, 256  # Used if fewer samples seem to cross.
+MAX_CHORDS = 8192  # Limit with finer samples.
+MAX_CHORD_PAIRS = 4_000_000  # Pairs compared at a time.
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
@@ -91,7 +91,7 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
 
 
 def _is_inside(point: NDArray, loop: NDArray) -> bool:
-    """Whether a point is in a polygon (n, 2): the crossings of a ray along +x."""
+    """Return whether a point is in a polygon (n, 2), by the crossings of a ray along +x."""
     a, b = loop, np.roll(loop, -1, axis=0)
     upward = (a[:, 1] <= point[1]) != (b[:, 1] <= point[1])
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -100,7 +100,7 @@ def _is_inside(point: NDArray, loop: NDArray) -> bool:
 
 
 def self_intersects(loop: NDArray, tolerance: float) -> bool:
-    """Whether a polygon (n, 2) runs through itself, in a corner too, but does not merely touch itself."""
+    """Return whether a polygon (n, 2) runs through itself, in a corner too, and does not merely touch itself."""
     loop = _without_repeats(loop, tolerance)
     return chords_cross([loop], tolerance, touch=False) or (
         chords_cross([loop], tolerance)
@@ -114,7 +114,7 @@ def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
 
 
 def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
-    """Whether chords of polygons (n, 2) cross by more than a tolerance. touch: or corners of them coincide."""
+    """Return whether chords of polygons (n, 2) cross by more than a tolerance. touch: count coinciding corners too."""
     a = np.concatenate(loops)
     b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
     step = max(1, MAX_CHORD_PAIRS // len(a))

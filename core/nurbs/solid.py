@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What kind of body B-spline patches bound, what had to be decided to measure it, and its moments.
+"""Measurement of a body bounded by B-spline patches: its kind, the decisions taken, and its moments.
 
 The counterpart of `core.solid` for surfaces that are not made of polygons, with the same verdicts: patches that face
 against the rest of their part are turned, holes are capped, parts that are inside out and in no other's material are
-turned, and what cannot be closed is measured as a signed sum and called open. Parts are compared by samples of their
+turned, and unclosable patches are measured as a signed sum and called open. Parts are compared by samples of their
 patches: an overlap that is thinner than a hundredth of a part may be missed.
 """
 
@@ -70,13 +70,13 @@ class PatchIntegrals:
     area : Moments
         Of the patches, without caps; an estimate.
     health : MeshHealth
-        What the input is like.
+        State of the input.
     method : Verdict
         EXACT, CAPPED, REORIENTED or OPEN.
     findings : tuple of Finding
         The decisions taken.
     patches : tuple of Patch
-        Those whose signed sum ``volume`` is, caps among them.
+        The patches with the signed sum ``volume``, caps among them.
     signs : (n,) float
         How each patch that was given counts: 1, -1, or 0 for one of a flat part.
     topology : PatchTopology
@@ -95,9 +95,8 @@ class PatchIntegrals:
 
 @dataclass(frozen=True, eq=False)
 class _PatchVerdict:
-    """What was decided about parts. solid, flipped, counted: (c,) those with a volume, those to turn, and those that
-    the sum is of. caps: (c, 3) how many flat and curved holes of each were capped, and the caps' area. comparison:
-    where there are several."""
+    """Decisions about parts. solid, flipped, counted: (c,) masks of parts with a volume, to turn, and in the sum. caps:
+    (c, 3) numbers of capped flat and curved holes of each, and the caps' area. comparison: for several parts."""
 
     solid: NDArray[np.bool_]
     flipped: NDArray[np.bool_]
@@ -130,7 +129,7 @@ def measure_patches(
     Raises
     ------
     MeasureError
-        Where there is nothing to measure.
+        If there is nothing to measure.
 
     Notes
     -----
@@ -180,7 +179,7 @@ def assess(
     stored: float,
     findings: Sequence[Finding] = (),
 ) -> PatchIntegrals:
-    """Judge what the moments of parts, as they face, come to.
+    """Judge the moments of parts, as they face.
 
     Parameters
     ----------
@@ -258,7 +257,7 @@ def _judge_parts(
     size: float,
     stored: float,
 ) -> _PatchVerdict:
-    """Which parts have a volume, and which of them are inside out."""
+    """Find the parts with a volume, and the ones inside out."""
     caps = np.zeros((topology.number, 3))
     for loop in topology.loops:
         if not loop.zero_area:
@@ -314,7 +313,7 @@ def measure_sheet(
     area : Moments
         Of the patches, to order 3.
     precise : bool
-        Whether both error estimates are below the tolerance.
+        True if both error estimates are below the tolerance.
 
     Raises
     ------
@@ -345,14 +344,14 @@ def measure_sheet(
 def _compare_parts(
     parts: Sequence[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
 ) -> ComponentComparison | None:
-    """How parts lie to each other, and which of them to turn; None where there are not several, or none is solid."""
+    """Compare parts with each other and find the ones to turn; None for a single part, or if none is solid."""
     if len(parts) == 1 or not solid.any():
         return None
     components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
     shared = np.unique(relations.intersecting)
     spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
-    if len(shared) and each > SAMPLES_PER_SPAN:  # what samples cross may be but near
+    if len(shared) and each > SAMPLES_PER_SPAN:  # Crossing samples may be merely near.
         nearer = _classify_parts([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
         crossed, inside, crossing = (
             np.sort(pairs) @ (len(parts), 1)
@@ -391,8 +390,8 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
 def _classify_parts(
     parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
-    """How parts lie to each other, by samples of their patches: `each` to a span. Those that are nearer than what lies
-    between the samples and the patches do not cross where `each` is not the coarsest."""
+    """Compare parts with each other by samples of their patches: `each` to a span. Unless `each` is the coarsest, parts
+    nearer than the gap between samples and patches do not cross."""
     points, triangles, component = [], [], []
     count, off = 0, 0.0
     for number, part in enumerate(parts):
@@ -414,15 +413,15 @@ def _classify_parts(
 
 
 def _sagitta(grid: NDArray, each: int) -> float:
-    """How far a surface may be from the chords between its samples along the first axis, bends at knots left out."""
+    """Return how far a surface may be from the chords of its samples along the first axis, ignoring bends at knots."""
     bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
     bend[each - 1 :: each] = 0.0
     return float(bend.max())
 
 
 def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
-    """Whether patches are too small to matter, however they are decided about: as `_is_slight` of meshes, with the box
-    around the control points of each group, whose faces have at most twice the square of its diagonal, as their area.
+    """Return whether patches are too small to matter, as `_is_slight` of meshes; their area is that of the box around
+    the control points of each group, at most twice the square of its diagonal.
     """
     return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
 
@@ -445,7 +444,7 @@ def _orientation_findings(
 def _closing_findings(
     closure: PatchTopology, solid: NDArray[np.bool_], area: float, volume: float, size: float
 ) -> list[Finding]:
-    """About what is open, flat or was capped. solid: (c,) the parts with a volume."""
+    """Return findings about open, flat and capped parts. solid: (c,) the parts with a volume."""
     findings = []
     if closure.unclosable.any():
         findings.append(finding(OPEN_PATCH_SIDES))

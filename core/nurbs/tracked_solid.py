@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-All is decided anew each time as measuring does: which patches face which way, which holes are capped. Only the moments
-follow, from tables (`incremental`), and where few control points have moved only the spans that they act on. The
-tables' rule for rational patches is fixed and has no estimate of its own: how far it is off depends on the weights, so
-it is compared with what measuring found, of the body and of patches with its weights and points at random, as a body
-that is flat says little about what becomes of it. Other weights are measured anew. So is a body that has gone far from
-the point about which its moments are taken.
+Orientation and caps are decided anew each time, as in measuring. Only the moments follow, from tables (`incremental`),
+and if few control points have moved only the spans that they act on. The tables' rule for rational patches is fixed and
+has no estimate of its own: its error depends on the weights, so it is compared with measured moments, of the body and
+of patches with its weights and random points, as a flat body says little about later shapes. Other weights are measured
+anew. So is a body that has gone far from the point about which its moments are taken.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from .patch_topology import PatchTopology, find_topology
 from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
 
 MAX_SINGLE_UPDATES = 6  # moved control points that are updated one by one
-MAX_RULE_ERROR = 1e-10  # of the largest that a moment could be: a rule that is off by more does not follow
+MAX_RULE_ERROR = 1e-10  # Relative to the largest possible moment: rules with larger errors are not used.
 RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's error grow: an estimate
 
 
@@ -44,7 +43,7 @@ class TrackedSolid:
     Attributes
     ----------
     measure : PatchIntegrals
-        What the body is now, its volume with moments to order 3. After `update` its bounds are estimates, and the area
+        The current body, its volume with moments to order 3. After `update` its bounds are estimates, and the area
         is an approximation.
 
     Examples
@@ -84,7 +83,7 @@ class TrackedSolid:
             self._error, self._is_tracking = self._error + RULE_ERROR_GROWTH * off, off <= MAX_RULE_ERROR
 
     def _largest(self, patches: Sequence[Patch], area: float) -> NDArray[np.float64]:
-        """(K,) what a moment of the body could be at most."""
+        """Return (K,) upper bounds of the body's moments."""
         reach = max(
             float(np.sqrt(((patch.points - self.measure.volume.about) ** 2).sum(axis=2).max())) for patch in patches
         )
@@ -102,7 +101,7 @@ class TrackedSolid:
         Returns
         -------
         bool
-            Whether tables were enough; otherwise everything was measured anew.
+            True if tables were enough; otherwise everything was measured anew.
         """
         size, about = patches_size(patches), self.measure.volume.about
         if not (
@@ -120,7 +119,7 @@ class TrackedSolid:
         return True
 
     def _assess(self, patches: Sequence[Patch], topology: PatchTopology, stored: float) -> PatchIntegrals:
-        """As `measure_patches`, by the patches' fluxes."""
+        """Measure as `measure_patches`, by the patches' fluxes."""
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
         area = Moments(np.array([total]), about, Measure.AREA, self._area_error * total)
@@ -143,7 +142,7 @@ class TrackedSolid:
         )
 
     def _same_spaces(self, patches: Sequence[Patch]) -> bool:
-        """Whether their function spaces are the same, those of rational patches being made by their weights too."""
+        """Return whether function spaces, and the weights of rational patches, are unchanged."""
         return len(patches) == len(self._patches) and all(
             new.spaces == old.spaces
             and (

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A closed surface cut into closed pieces, one for each bone.
 
-The faces of a bone are bounded by the edges that they share with other bones' faces. Where such cut edges meet,
-however many bones do, they belong to one cut; each is closed to one apex, the cut's own centroid. Each bone gets the
-cone on its side of every edge, so that every piece is closed, the cones of neighbors cancel, and the pieces add up to
-the whole: exactly, as chains of oriented triangles, and triple junctions are no exception.
+The faces of a bone are bounded by the edges that they share with other bones' faces. If such cut edges meet, however
+many bones do, they belong to one cut; each is closed to one apex, the cut's own centroid. Each bone gets the cone on
+its side of every edge, so that every piece is closed, the cones of neighbors cancel, and the pieces add up to the
+whole: exactly, as chains of oriented triangles, and triple junctions are no exception.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ NO_BONE = -1
 
 @dataclass(frozen=True, eq=False)
 class BonePiece:
-    """What goes with one bone: a closed surface.
+    """The closed surface that goes with one bone.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class BonePiece:
     surface : Surface
         Its faces, and the cones that close it, in float64.
     face_count : int
-        How many of its triangles, the first ones, are faces.
+        Number of its triangles, the first ones, that are faces.
 
     Examples
     --------
@@ -73,12 +73,12 @@ def bone_pieces(
     bone : (t,) array_like of int
         The bone of each, not negative.
     displacement : (3,) array, optional
-        By how much storing the coordinates may have moved them.
+        Largest displacement by storing the coordinates.
 
     Returns
     -------
     list of BonePiece
-        By bone, those that have triangles.
+        By bone, for bones that have triangles.
 
     Examples
     --------
@@ -114,7 +114,7 @@ def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> N
     triangles : (t, 3) array_like of int
     is_cap : (t,) array_like of bool
     bone : (t,) array_like of int
-        That of each face; what stands at caps is not used.
+        The bone of each face; values at caps are not used.
 
     Returns
     -------
@@ -141,7 +141,7 @@ def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> N
         of_edge = np.full(int(edge.max()) + 1, NO_BONE)
         of_edge[edge[known].ravel()] = np.repeat(result[known], 3)
         found = of_edge[edge[~known]].max(axis=1)
-        if (found == NO_BONE).all():  # what touches nothing goes with the bone of most faces
+        if (found == NO_BONE).all():  # Caps that touch nothing go with the bone of most faces.
             found[:] = np.bincount(bone[~is_cap], minlength=1).argmax()
         result[~known] = found
     return result
@@ -150,7 +150,7 @@ def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> N
 def _cut_edges(
     count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """What bounds each bone's triangles: (k,) bones, and the vertices from which and to which the edges run, each as
+    """Return the boundary of each bone's triangles: (k,) bones, and the start and end vertices of the edges, each as
     often as it is left over."""
     start = triangles.ravel().astype(np.int64)
     stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)

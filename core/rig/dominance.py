@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which bone each face of a skinned surface goes with: the one with the most weight at its corners.
+"""Assignment of faces of a skinned surface to bones: to the bone with the most weight at their corners.
 
-Where weights tie, the nearer bone counts, so that the two sides of a symmetric character are cut alike; faces that no
+If weights tie, the nearer bone counts, so that the two sides of a symmetric character are cut alike; faces that no
 bone has any weight on go with the nearest bone.
 """
 
@@ -17,7 +17,7 @@ from ..numerics.arguments import check_type, float_array, index_array
 from ..numerics.arrays import sums_by_index
 
 TIE_RTOL = 1e-5  # weights are float32, and a mirrored face adds them up in another order
-NEAR_RTOL = 1e-5  # of a distance: as float32 coordinates leave it
+NEAR_RTOL = 1e-5  # Relative to a distance: the effect of float32 coordinates.
 PAIRS_PER_BLOCK = 1 << 20  # faces times bones whose distances are in memory at a time
 
 
@@ -51,7 +51,7 @@ class VertexWeights:
         object.__setattr__(self, "weight", float_array("weight", self.weight, len(vertex)))
 
     def normalized(self) -> NDArray[np.float64]:
-        """Return (w,) the weights by the sum of those on their vertex, as an armature deforms."""
+        """Return (w,) the weights divided by their sum at each vertex, as an armature deforms."""
         total = np.bincount(self.vertex, self.weight)[self.vertex]
         return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
 
@@ -77,7 +77,7 @@ def dominant_bones(
         Positions of the vertices, in the coordinates of the bones.
     weights : VertexWeights
     bones : (b, 2, 3) array_like
-        Where each bone begins and ends.
+        Begin and end of each bone.
 
     Returns
     -------

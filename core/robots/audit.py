@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Robot descriptions judged by their own geometry: what their links state, beside what their meshes measure."""
+"""Robot descriptions judged by their own geometry: stated inertials beside measured meshes."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ from .read.meshes import read_mesh
 from .read.paths import Roots
 from .stated import Description, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 
-ROUND = 1.01  # what holds all of a round shape, whose points are only some of it
+ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
 RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
 
 
 @dataclass(frozen=True, eq=False)
 class LinkAudit:
-    """What was found of one link. repaired: what its inertial should be, None where it stays."""
+    """Findings about one link. repaired: its corrected inertial, None if it stays."""
 
     link: StatedLink
     findings: tuple[Finding, ...]
@@ -51,7 +51,7 @@ class LinkAudit:
 
 @dataclass(frozen=True, eq=False)
 class Audit:
-    """What was found of a description."""
+    """Findings about a description."""
 
     description: Description
     links: tuple[LinkAudit, ...]
@@ -59,8 +59,8 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A shape that was measured, in its own coordinates: points of its hull, and moments of its volume where they are
-    certain. upright: the rotation that its file asks for, where another axis than z is up."""
+    """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain. upright: the
+    rotation that its file asks for, if another axis than z is up."""
 
     points: NDArray[np.float64]
     moments: Moments | None
@@ -79,7 +79,7 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """What an inertial is beside some geometry. apart: how far from it filled evenly."""
+    """Comparison of an inertial with some geometry. apart: its difference from that geometry filled evenly."""
 
     findings: list[Finding]
     impossible: bool
@@ -96,7 +96,7 @@ class Auditor:
     _meshes: dict[tuple, _Piece | Finding] = field(default_factory=dict)
 
     def audit(self, description: Description) -> Audit:
-        """Return what is wrong with each link of a description.
+        """Return the findings about each link of a description.
 
         Parameters
         ----------
@@ -163,7 +163,7 @@ class Auditor:
 
 
 def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
-    """An inertial beside its geometry. incomplete: whether some of that could not be read, and shows nothing."""
+    """Judge an inertial by its geometry. incomplete: True if some geometry could not be read, and shows nothing."""
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()
@@ -189,7 +189,7 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
 
 
 def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
-    """A surface with the moments of what it bounds, where that is certain."""
+    """Return a surface's hull points, with the moments of the body that it bounds, if certain."""
     points = np.asarray(surface.points, np.float64)
     try:
         solid = measure_solid(surface)
@@ -200,7 +200,7 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
 
 
 def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
-    """All shapes of a role, filled evenly; None where one of them bounds nothing certain."""
+    """Return all shapes of a role, filled evenly; None if one of them bounds no certain body."""
     placed = []
     for stated, piece in pieces:
         if piece.moments is None:
@@ -215,7 +215,7 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
 
 
 def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
-    """What the geometry would be, were the angles of its shapes stated in degrees."""
+    """Return the geometry as it would be if its shapes' angles were stated in degrees."""
     result = []
     for found in pieces.values():
         if any(stated.angles is not None and any(stated.angles) for stated, _ in found):

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one change that makes a stated inertial that of its geometry.
+"""The one change that makes a stated inertial agree with its geometry.
 
-A link's geometry, filled evenly, has a center and an inertia for each kilogram. Where what is stated differs, each of
-a list of common mistakes is undone; what then agrees to the digits that files have is no coincidence. Where none does,
-the mass may simply lie otherwise: that is no error, and only its factor is reported.
+A link's geometry, filled evenly, has a center and an inertia for each kilogram. If the stated values differ, each of a
+list of common mistakes is undone; agreement to the digits that files have is no coincidence. If none agrees, the mass
+may simply lie otherwise: that is no error, and only its factor is reported.
 """
 
 from __future__ import annotations
@@ -53,19 +53,19 @@ from .findings import (
 )
 from .stated import StatedInertial, rotation_of_angles
 
-AGREES, DIFFERS = 5e-3, 1e-2  # of radius of gyration and inertia: the same; more than digits can explain
+AGREES, DIFFERS = 5e-3, 1e-2  # For radius of gyration and inertia: equal; too different for digits to explain.
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
-USUAL_DENSITIES = (100.0, 12_000.0)  # of most of their parts: what a change that nothing else shows has to give
+USUAL_DENSITIES = (100.0, 12_000.0)  # Typical range; a change that only the density shows must lead into it.
 AXES = np.array(list(permutations(range(3))))[1:]
-OF_GEOMETRY = (AUDIT_MESH_UNIT, AUDIT_SHAPE_ANGLES_IN_DEGREES)  # what leaves the inertial as it is
+OF_GEOMETRY = (AUDIT_MESH_UNIT, AUDIT_SHAPE_ANGLES_IN_DEGREES)  # Changes that leave the inertial as it is.
 PRODUCT_NAMES = ("xy", "xz", "yz")
 
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """What a link's geometry is, filled evenly.
+    """A link's geometry, filled evenly.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ class Reference:
     inertia : (3, 3) array
         About the center for each kilogram, m².
     origins : tuple of (3,) array
-        Where its shapes have their own origins.
+        The origins of its shapes.
 
     Examples
     --------
@@ -98,7 +98,7 @@ class Reference:
         return max(apart, float(np.linalg.norm(inertia / mass - self.inertia) / np.linalg.norm(self.inertia)))
 
     def of(self, stated: StatedInertial) -> float:
-        """Return the `difference` of what is stated."""
+        """Return the `difference` of a stated inertial."""
         return self.difference(stated.mass, stated.center, stated.inertia)
 
     def uniform(self, mass: float) -> StatedInertial:
@@ -108,14 +108,14 @@ class Reference:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What is wrong with an inertial.
+    """Diagnosis of an inertial.
 
     Attributes
     ----------
     finding : Finding
         The change, or a note.
     repaired : StatedInertial or None
-        What it becomes; None where nothing of the inertial has to change.
+        The corrected inertial; None if nothing in it has to change.
 
     Examples
     --------
@@ -131,21 +131,21 @@ class Diagnosis:
 def diagnose(
     stated: StatedInertial, references: Sequence[Reference], otherwise: Sequence[tuple[Finding, Reference]] = ()
 ) -> Diagnosis | None:
-    """Return what one change would make right, or a note about where the mass lies.
+    """Return the one change that corrects an inertial, or a note about the place of the mass.
 
     Parameters
     ----------
     stated : StatedInertial
         Of positive mass and finite.
     references : sequence of Reference
-        What the geometry may be taken as, such as visual and collision shapes.
+        Candidates for the geometry, such as visual and collision shapes.
     otherwise : sequence of (Finding, Reference)
-        What the geometry would be if a shape were corrected.
+        The geometry with a shape corrected.
 
     Returns
     -------
     Diagnosis or None
-        None where it agrees.
+        None if it agrees.
     """
     if not references:
         return None
@@ -171,7 +171,7 @@ def diagnose(
 
 
 def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
-    """That mass and inertia together are a thousand times off, which only the density shows."""
+    """Diagnose mass and inertia that are both a thousand times off, which only the density shows."""
     density = stated.mass / reference.volume
     if DENSITIES[0] <= density <= DENSITIES[1]:
         return None
@@ -184,7 +184,7 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
 
 
 def _with_density(change: Finding, stated: StatedInertial, reference: Reference) -> Finding:
-    """Where both lengths may be wrong, the file's and the mesh's, the density decides."""
+    """Decide by the density if both the file's and the mesh's lengths may be wrong."""
     if change.code != AUDIT_LENGTH_UNIT:
         return change
     factor, density = change.values["factor"], stated.mass / reference.volume
@@ -195,7 +195,7 @@ def _with_density(change: Finding, stated: StatedInertial, reference: Reference)
 
 
 def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:
-    """The product, by a division where that keeps the decimals that the file has."""
+    """Return the product, by a division if that keeps the decimals of the file."""
     inverse = round(1.0 / factor)
     values = np.asarray(values, np.float64)
     return values / inverse if inverse and 1.0 / inverse == factor else values * factor
@@ -205,7 +205,7 @@ Change = tuple[str, dict, StatedInertial]
 
 
 def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """Each change that may make it right, with what it makes; the likelier ones first."""
+    """Yield each change that may correct an inertial, with its result, the likelier ones first."""
     yield from _units(stated, reference)
     yield from _points(stated, reference)
     yield from _frames(stated)

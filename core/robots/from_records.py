@@ -3,7 +3,7 @@
 """Records of measured objects become the links of a robot.
 
 A record has its numbers along the object's axes (frame "object") and an entry `link`, as `blender/read/robots.py`
-makes it: where the object stands, what it hangs on and how it may move. So whatever has a record can be a link.
+makes it: the object's place, parent and freedom of motion. So any object with a record can be a link.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ DEFAULT_NAME = "robot"
 
 
 def robot_of_document(document: Mapping[str, Any]) -> tuple[Robot, list[Finding]]:
-    """Return what the records of a file are as a robot, called like the file, and what was left out."""
+    """Return the records of a file as a robot named after the file, and findings about omitted records."""
     return robot_of_records(robot_name(document["file"]), document["objects"])
 
 
 def robot_name(file: str | None) -> str:
-    """Return what a robot of a file is called."""
+    """Return the name of a file's robot."""
     return PurePath(file).stem if file else DEFAULT_NAME
 
 
 def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[Robot, list[Finding]]:
-    """Return records as a robot, and what was left out.
+    """Return records as a robot, and findings about omitted ones.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[R
 
 
 def brief_record(name: str, measurement: Measurement, link: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what a link takes of a record, in the frame "object", from the measurement itself."""
+    """Return the entries of a record that a link needs, in the frame "object", from the measurement itself."""
     body = measurement.in_object_frame()
     return {
         "name": name,

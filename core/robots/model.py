@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links, joints and what they hold, as the writers of robot formats take them and the readers give them. SI units."""
+"""Links, joints and their contents, as the writers of robot formats take them and the readers give them. SI units."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from ..mesh.surface import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..numerics.arguments import check_type, float_array
 
-AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # of the largest entry
+AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # Relative to the largest entry.
 
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """Where a frame stands in another one: x_other = rotation @ x + position.
+    """The place of a frame in another one: x_other = rotation @ x + position.
 
     Attributes
     ----------
@@ -47,11 +47,11 @@ class Pose:
         object.__setattr__(self, "rotation", float_array("rotation", self.rotation, 3, 3))
 
     def __matmul__(self, other: Pose) -> Pose:
-        """Return where the other frame stands, given in this one."""
+        """Return the place of the other frame, given in this one."""
         return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
 
     def inverse(self) -> Pose:
-        """Return where the other frame stands in this one."""
+        """Return the place of the other frame in this one."""
         return Pose(-self.rotation.T @ self.position, self.rotation.T)
 
 
@@ -94,11 +94,11 @@ class Inertial:
     def with_agreeing_axes(
         cls, mass: float, center: NDArray, inertia: NDArray, moments: NDArray, axes: NDArray
     ) -> Inertial:
-        """Return an inertial whose principal pair gives its tensor to rounding.
+        """Return an inertial with a principal pair that gives its tensor to rounding.
 
-        Where two moments are all but equal, a measurement takes the axes nearest to the object's own, between which the
-        tensor still differs by up to a millionth. What reads the pair alone would miss that; so there the axes turn to
-        where the tensor has them.
+        If two moments are all but equal, a measurement takes the axes nearest to the object's own, between which the
+        tensor still differs by up to a millionth. Readers of the pair alone would miss that; so the axes then turn to
+        the tensor's own.
 
         Parameters
         ----------
@@ -117,7 +117,7 @@ class Inertial:
             values, turn = np.linalg.eigh(along)
             axes = axes @ turn
             axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
-            # Of a rod the least moment is known far better than the tensor has it.
+            # A rod's least moment is known far better than the tensor has it.
             moments = np.where(np.abs(values - moments) > AGREEING_RTOL * largest, values, moments)
             moments[2] = min(moments[2], moments[0] + moments[1])
         return cls(float(mass), center, inertia, moments, axes)
@@ -134,7 +134,7 @@ class Inertial:
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """What a link looks like, or collides as.
+    """A visual or collision shape of a link.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ class Shape:
     file : str
         Of a mesh, with slashes; relative to the file that names it.
     sheet : bool
-        Whether the mesh bounds no volume.
+        True if the mesh bounds no volume.
     surface : Surface, optional
         Of a mesh that is to be written, in meters along the axes of the shape.
 
@@ -178,7 +178,7 @@ class FreeAxis:
     axis : (3,) array
         Of unit length, in the child's frame.
     lower, upper : float
-        Limits in radians or meters, infinite where there is none.
+        Limits in radians or meters, infinite if unlimited.
 
     Examples
     --------
@@ -197,19 +197,19 @@ class FreeAxis:
 
     @property
     def is_limited(self) -> bool:
-        """Whether either limit is a number."""
+        """True if either limit is a number."""
         return self.lower > -inf or self.upper < inf
 
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """What holds a link to its parent. Its frame is the child's.
+    """The joint between a link and its parent. Its frame is the child's.
 
     Attributes
     ----------
     name, parent, child : str
     free : tuple of FreeAxis
-        In the order in which they turn, the one next to the parent first; none where the joint is fixed.
+        In the order in which they turn, the one next to the parent first; none if the joint is fixed.
 
     Examples
     --------
@@ -225,7 +225,7 @@ class Joint:
 
     @property
     def is_ball(self) -> bool:
-        """Whether it turns freely about every axis."""
+        """True if it turns freely about every axis."""
         turns = [free for free in self.free if free.kind == "rotate" and not free.is_limited]
         return len(turns) == len(self.free) == 3
 
@@ -243,7 +243,7 @@ class Link:
         In the world.
     shapes : tuple of Shape
     scale : (3,) array
-        What the source's own geometry is scaled by along the link's axes, where it is not written anew.
+        Scale of the source's own geometry along the link's axes, if it is not written anew.
 
     Examples
     --------
@@ -343,7 +343,7 @@ class Robot:
             waiting.extend(reversed(self.children(link.name)))
 
     def pose_in_parent(self, link: Link) -> Pose:
-        """Return where a link stands in its parent's frame; a root, in the world's."""
+        """Return the pose of a link in its parent's frame; of a root, in the world's."""
         joint = self.joint_of(link.name)
         return link.pose if joint is None else self.link(joint.parent).pose.inverse() @ link.pose
 
@@ -359,8 +359,8 @@ class Robot:
         return parts
 
     def rigid_inertial(self, link: Link) -> Inertial | None:
-        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None
-        where none of it has mass."""
+        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None if
+        none of it has mass."""
         to_link = link.pose.inverse()
         parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
         if len(parts) == 1 and parts[0][0] is link:

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What no non-negative density within a hull can have.
+"""Inertials that no non-negative density within a hull can have.
 
 A mass is positive. The second moments S = tr(I)/2 - I are no less than zero in any direction, which is the triangle
 inequality of the principal moments. The center lies in the convex hull. Along any direction n, in which the hull
 reaches from a to b, the variance of the mass is at most (b - mean)(mean - a) (Bhatia and Davis, Amer. Math. Monthly
-107, 2000). All of these are necessary; what breaks one is impossible, whatever the density.
+107, 2000). All of these are necessary; an inertial that breaks one is impossible for any density.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ from .findings import (
 from .stated import StatedInertial
 
 ROUNDING = 1e-3  # relatively: what numbers printed with few digits may break
-ZERO_RTOL = 1e-14  # of the largest moment: what finding the principal axes makes of zero
-CENTER_RTOL = 1e-3  # of the hull's size
+ZERO_RTOL = 1e-14  # Relative to the largest moment: zero after finding the principal axes.
+CENTER_RTOL = 1e-3  # Relative to the hull's size.
 SPREAD_RTOL = 5e-3
 MAX_STEPS = 200  # towards the nearest point of a hull
 DIRECTIONS = 400
@@ -37,7 +37,7 @@ DIRECTIONS = 400
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """The points whose convex hull a link's mass lies in.
+    """Points with a convex hull that contains a link's mass.
 
     Attributes
     ----------
@@ -103,25 +103,25 @@ class Hull:
         Returns
         -------
         (k,) array
-            Zero where the center is outside.
+            Zero if the center is outside.
         """
         heights = (self.points - center) @ directions.T
         return np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return why an inertial is that of no body, or of none within the hull.
+    """Return the reasons why no body, or none within the hull, has an inertial.
 
     Parameters
     ----------
     stated : StatedInertial
     hull : Hull or None
-        None where the link's geometry is unknown.
+        None if the link's geometry is unknown.
 
     Returns
     -------
     list of Finding
-        Empty where nothing that was tried excludes it.
+        Empty if no test excludes it.
     """
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not np.isfinite(numbers).all():
@@ -140,10 +140,10 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
 
 
 def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tuple[list[int], NDArray[np.float64]]:
-    """Those of the chosen points, and their shares, that make the point of their hull nearest to zero."""
+    """Return the chosen points, and their shares, that make the point of their hull nearest to zero."""
     while True:
         corners = points[chosen]
-        # of the plane through them: the shares that add up to one and leave nothing along it
+        # Foot on the plane through them: shares that add up to one and leave nothing along it.
         along = (corners[1:] - corners[0]).T
         rest = np.linalg.lstsq(along, -corners[0], rcond=None)[0]
         wanted = np.append(1.0 - rest.sum(), rest)
@@ -158,7 +158,7 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
 
 
 def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
-    """Of what is the inertial of a body, why it is that of none within the hull."""
+    """Return the reasons why no body within the hull has an otherwise possible inertial."""
     distance = hull.distance(stated.center)
     if distance > CENTER_RTOL * hull.size:
         return [finding(INERTIAL_CENTER_OUTSIDE, distance=distance)]

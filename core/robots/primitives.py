@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from .model import Inertial, Pose, Shape
 
-LEAST_SPREAD = float(np.finfo(np.float64).eps)  # of the largest one
+LEAST_SPREAD = float(np.finfo(np.float64).eps)  # Relative to the largest one.
 BISECTIONS = 200  # more than the digits of a float64 need
 
 
@@ -78,8 +78,8 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     Returns
     -------
     float, float
-        Of the capsule whose moment along its axis is the least one and across it the mean of the others; a ball where
-        none is that thick, of the mean of the three.
+        Of the capsule with the least moment along its axis and the mean of the others across it; if no capsule is that
+        thick, of a ball with the mean of the three.
 
     Notes
     -----
@@ -97,7 +97,7 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     if not along > across:
         return sqrt(5.0 * float(moments.mean()) / (2.0 * mass)), 0.0
     ratio = along / across
-    low, high = 0.0, ratio  # as long as that, its own would be larger
+    low, high = 0.0, ratio  # A capsule of this length would have a larger ratio.
     for _ in range(BISECTIONS):
         t = (low + high) / 2.0
         wide, far = _capsule(t)
@@ -143,7 +143,7 @@ def _capsule(t: float) -> tuple[float, float]:
 
 
 def _spreads(moments: NDArray) -> NDArray[np.float64]:
-    """(3,) I_j + I_k - I_i. Where rounding leaves nothing of it, as much as changes no moment: no side is zero."""
+    """Return (3,) I_j + I_k - I_i, at least as much as changes no moment, so that no side is zero."""
     first, second, third = moments
     spreads = np.array([second + third - first, third + first - second, first + second - third])
     return np.maximum(spreads, LEAST_SPREAD * spreads.max())

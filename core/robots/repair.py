@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A repaired copy of a description: its inertials replaced where they stand, every other byte as it was."""
+"""A repaired copy of a description: its inertials replaced in place, every other byte as it was."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, 
     ----------
     description : Description
     repairs : sequence of (StatedLink, StatedInertial)
-        Links whose inertial stands in the file, and what is to stand there.
+        Links with an inertial in the file, and its replacement.
 
     Returns
     -------

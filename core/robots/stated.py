@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a robot description states of its links, before anybody has judged it. SI units, as the format means them."""
+"""Statements of a robot description about its links, not yet judged. SI units, as the format means them."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class StatedInertial:
     rotation : (3, 3) array
         The inertial frame's axes in the link's.
     angles : tuple of float, optional
-        Roll, pitch and yaw, where that is how the rotation was stated.
+        Roll, pitch and yaw, if the rotation was stated so.
     quaternion : tuple of float, optional
-        Four numbers in the order of the file, where that is how it was stated.
+        Four numbers in the order of the file, if the rotation was stated so.
 
     Examples
     --------
@@ -64,11 +64,11 @@ class StatedShape:
     Attributes
     ----------
     shape : Shape
-        Of a mesh, `file` is what the description names.
+        For a mesh, `file` is the name in the description.
     role : str
         "visual" or "collision".
     angles : tuple of float, optional
-        Roll, pitch and yaw, where that is how its pose was stated.
+        Roll, pitch and yaw, if its pose was stated so.
     points, triangles : arrays, optional
         Of a mesh that stands in the description itself.
 
@@ -97,13 +97,13 @@ class StatedLink:
     inertial : StatedInertial, optional
     shapes : tuple of StatedShape
     span : tuple of int, optional
-        Where the inertial stands in the file, in bytes.
+        Range of the inertial in the file, in bytes.
     moves : bool
-        Whether a missing inertial matters.
+        True if a missing inertial matters.
     findings : tuple of Finding
-        What the reader could not take.
+        About content that the reader could not use.
     local : (4, 4) array, optional
-        Where the file's coordinates are not the link's axes in its unit: from the former to the latter.
+        If the file's coordinates are not the link's axes in its unit: from the former to the latter.
 
     Examples
     --------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a surface bounds a solid, what has to be repaired to measure it, and its moments."""
+"""Solids bounded by surfaces: classification, repair and moments."""
 
 from ..lazy import lazy_names
 

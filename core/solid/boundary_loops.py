@@ -20,7 +20,7 @@ from ..numerics.arrays import segment_ranges, unique_pairs
 from ..numerics.graph import connected_components
 
 MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
-MAX_END_PAIRS = 4_000_000  # of ends that meet; beyond, ends are joined in the order of their numbers
+MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in the order of their numbers.
 
 
 def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
@@ -48,24 +48,24 @@ def join_sides(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
     """Join the sides of boundaries at their ends.
 
-    Where an even number of sides meet (of them as many arriving as leaving) all are joined in pairs, the sharpest
+    If an even number of sides meet (as many arriving as leaving) all are joined in pairs, the sharpest
     turns first.
 
     Parameters
     ----------
     begin, end : (r, 3) float64
-        Where each side begins and ends.
+        Begin and end of each side.
     start, stop : (r,) int
-        Numbers of these places, equal where sides may be joined.
+        Numbers of these places, equal if sides may be joined.
     directed : bool
-        Whether only head to tail will do.
+        True to join only head to tail.
 
     Returns
     -------
     first, second : (k,) int
         Sides that are joined.
     follows : (k,) bool
-        Whether they run head to tail.
+        True for sides that run head to tail.
     """
     count = len(start)
     vertex = np.concatenate([start, stop])
@@ -96,7 +96,7 @@ def join_sides(
 
 
 def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[NDArray, NDArray]:
-    """Pairs of ends that meet at a vertex: all of them, or where that would be too many, neighbors in `order`."""
+    """Return pairs of ends that meet at a vertex: all, or only neighbors in `order` if there are too many."""
     pairs = degree * (degree - 1) // 2
     if pairs.sum() > MAX_END_PAIRS:
         within = np.concatenate([np.ones(len(order) - 1, bool), [False]])
@@ -113,7 +113,7 @@ def _candidate_pairs(order: NDArray, first: NDArray, degree: NDArray) -> tuple[N
 
 
 def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tuple[NDArray, NDArray]:
-    """The greedy matching of candidates that come best first: in each round those that are best for both their ends."""
+    """Match candidates, sorted best first, greedily: each round takes the candidates that are best for both ends."""
     left, right = [first_end[:0]], [second_end[:0]]
     while len(first_end):
         rank = np.arange(len(first_end))
@@ -141,7 +141,7 @@ class BoundaryLoops:
     of_side : (r,) int
         The loop of each side.
     complete : (l,) bool
-        Whether all the loop's sides are joined at both ends.
+        True if all the loop's sides are joined at both ends.
     perimeter : (l,) float
         In unit.
     centroid : (l, 3) float
@@ -149,7 +149,7 @@ class BoundaryLoops:
     cone_area, planar_area : (l,) float
         The area of the cone to the centroid, and the norm of the loop's area vector (unit²).
     out_of_plane : (l,) float
-        How far from its plane the loop goes (unit); infinite where it has none.
+        Distance of the loop from its plane (unit); infinite if it has none.
     """
 
     of_side: NDArray[np.intp]
@@ -168,18 +168,18 @@ class BoundaryLoops:
     def of_each(self, side_values: NDArray) -> NDArray:
         """(l,) the value of the first side of each loop. side_values: (r,)."""
         values = np.empty(len(self.perimeter), side_values.dtype)
-        values[self.of_side[::-1]] = side_values[::-1]  # of equal indices the last is kept
+        values[self.of_side[::-1]] = side_values[::-1]  # The last of equal indices wins.
         return values
 
     def caps(self, tolerance: float | NDArray[np.float64]) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray]:
-        """(l,) of the cone over each loop: whether it is a flat cap, whether a curved one, and the area of the cap.
+        """Return (l,) masks of flat and of curved caps among the cones over the loops, and the caps' areas.
         tolerance: as for `has_area`."""
         is_flat = self.out_of_plane <= tolerance
         return is_flat, ~is_flat, np.where(is_flat, self.planar_area, self.cone_area)
 
     def apexes(self, start: NDArray[np.integer], centroid: NDArray[np.integer]) -> NDArray[np.integer]:
-        """(l,) the vertices of the cones' tips: the centroids, but over three sides, where the start of the first makes
-        it one triangle. start: (r,) of each side; centroid: (l,) the vertex that each centroid would be."""
+        """Return (l,) vertices of the cones' tips: the centroid, or the start of the first of three sides, for one
+        triangle. start: (r,) of each side; centroid: (l,) the vertex of each centroid."""
         return np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroid)
 
 
@@ -191,9 +191,9 @@ def find_loops(
     Parameters
     ----------
     begin, end : (r, 3) float64
-        Where each side begins and ends.
+        Begin and end of each side.
     links : three arrays
-        What `join_sides` gives for them.
+        Result of `join_sides` for the sides.
     """
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holes of many small surfaces capped at once: of those that need nothing else.
+"""Caps for many small surfaces at once, if they need no other repair.
 
-That is where every edge has one face, or two that agree, where at each vertex along a boundary one side arrives and one
-leaves, every loop has an area, and no vertices touch that a repair would weld. The caps are those of `cap_holes`, to
-the bit. What needs more is repaired by itself.
+The conditions: every edge has one face, or two that agree; at each boundary vertex one side arrives and one leaves;
+every loop has an area; no vertices touch that a repair would weld. The caps are those of `cap_holes`, to the bit. Other
+surfaces are repaired one by one.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class StackCaps:
     is_capped : (n,) bool
         The surfaces that have caps.
     triangles : TriangleStack
-        Those of all surfaces, of each its caps last.
+        The triangles of all surfaces; each surface's caps come last.
     part : (t,) int
         The component of each.
     cap_counts : (n,) int
@@ -55,7 +55,7 @@ class StackCaps:
     edge_counts: NDArray[np.intp]
 
     def add_to(self, volume: Moments) -> Moments:
-        """The volumes of the surfaces with those of their caps, about the same points."""
+        """Return the volume moments of the surfaces with their caps, about the same points."""
         rows = np.flatnonzero(self.is_capped)
         stack, counts, center = self.triangles.some(rows), self.cap_counts[rows], volume.about[rows]
         low, high = stack.box
@@ -78,7 +78,7 @@ class StackCaps:
         return replace(volume, **changed)
 
     def edges_of(self, i: int) -> NDArray[np.intp]:
-        """(k, 2) those of one surface."""
+        """Return the (k, 2) edges of one surface."""
         stop = self._edge_stops[i]
         return self.edges[stop - self.edge_counts[i] : stop]
 
@@ -100,11 +100,11 @@ def cap_stack(
     usable : (n,) bool
         Which surfaces may be capped at all.
     tolerance : (n,) float
-        What counts as touching (unit).
+        Distance below which points touch (unit).
 
     Returns
     -------
-    StackCaps, or None where nothing can be capped
+    StackCaps, or None if nothing can be capped
     """
     can = usable & links.is_open
     start, stop = links.open_sides
@@ -154,8 +154,8 @@ def _capped(
     loops: BoundaryLoops,
     of_loop: NDArray[np.intp],
 ) -> StackCaps:
-    """The surfaces with the cones over their loops. part: (t,) the component of each triangle. sides: the triangle of
-    each side, where it starts and where it stops; of_loop: the surface of each loop."""
+    """Add the cones over their loops to the surfaces. part: (t,) the component of each triangle. sides: the triangle of
+    each side, its start and its stop; of_loop: the surface of each loop."""
     triangle, start, stop = sides
     count, body = len(stack), stack.point_owners[start]
     loop_counts = np.bincount(of_loop, minlength=count)

@@ -91,7 +91,7 @@ def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Find
 
 
 def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Find the components that no caps can close, and what those with edges of three faces or more leave over."""
+    """Find the components that no caps can close, and the loops left over by edges of three faces or more."""
     edges = mesh.state.edges
     if np.any(edges.count > 2) and mesh.number > 1:
         # Components that meet in an edge are judged one by one, each with vertices of its own.
@@ -109,7 +109,7 @@ def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> Repaired
 
 
 def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Fill the gaps without area, and report what boundary is left."""
+    """Fill the gaps without area, and report the remaining boundary."""
     edges, gaps, folded, given = mesh.state.edges, mesh.state.gaps, mesh.state.folded, mesh.state.given
     closed_already = np.zeros(edges.of_side.shape, bool)
     closed_already[folded.sides] = True
@@ -148,7 +148,7 @@ def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Report whether all components are closed, and why those that are not cannot be."""
+    """Report the components that cannot be closed, with the reasons."""
     elements, findings = mesh.report.defective_elements, []
     count = int(np.count_nonzero(mesh.state.one_sided))
     if count:
@@ -176,8 +176,8 @@ def _find_folded_loops(
     unclosable: NDArray[np.bool_],
     tolerance: float,
 ) -> FoldedLoops:
-    """Components with edges of three faces or more that close nevertheless, as all that they leave over are loops
-    without area: letters whose outline turns back on itself.
+    """Find components with edges of three faces or more that close nevertheless, as they leave over only loops without
+    area: letters with an outline that turns back on itself.
 
     edges: of the components; signed_count: of these edges. unclosable: (c,) the components to look at.
     """

@@ -16,9 +16,9 @@ from ..mesh.surface import normals
 class ClosedParts:
     """The triangles whose signed sum is the body, and the closed part that each bounds.
 
-    points: (n, 3); triangles: (t, 3), as measured: turned where that was needed, caps included. face: (t,) the mesh
-    face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) whose material a part counts with: its
-    own, or of a cavity that of the part it is cut from.
+    points: (n, 3); triangles: (t, 3), as measured: turned if needed, caps included. face: (t,) the mesh face of each,
+    -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part that a part's volume counts with: itself,
+    or for a cavity the part it is cut from.
     """
 
     points: NDArray[np.floating]

@@ -28,7 +28,7 @@ from ..verdict.tolerances import MAX_COORDINATE, check_size, welding_tolerance
 from .findings import INVALID_FACES, NON_FINITE_VERTICES, OBJECT_TOO_LARGE
 from .repaired_mesh import RepairedMesh
 
-SUM_ROUNDING = 1e-13  # of a sum of numbers of one sign: by how much rounding may change it
+SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,13 +40,13 @@ class CheckedSurface:
     surface : Surface
         Without the vertices that no face uses.
     vertices : (n,) int, optional
-        The input's number of each vertex; None where all are used.
+        The input's number of each vertex; None if all are used.
     size : float
         The diagonal of the bounding box (unit).
     error : float
         How far storing the points may have moved them (unit).
     tolerance : float
-        What counts as touching (unit).
+        Distance below which points touch (unit).
     """
 
     surface: Surface
@@ -58,7 +58,7 @@ class CheckedSurface:
 
 @dataclass(frozen=True, eq=False)
 class GivenIntegrals:
-    """What the faces come to as they are given.
+    """Integrals over the faces as they are given.
 
     Attributes
     ----------
@@ -69,9 +69,9 @@ class GivenIntegrals:
     planarity : Planarity
         How flat the faces are.
     all_cones_agree : bool
-        Whether all the cones over the faces, from the reference point, are known to have the same sign.
+        True if all the cones over the faces, from the reference point, are known to have the same sign.
     proven : RepairedMesh, optional
-        The mesh where its own edges prove it closed and oriented; None where they do not.
+        The mesh if its own edges prove it closed and oriented, else None.
     """
 
     volume: Moments
@@ -87,7 +87,7 @@ def check_surface(surface: Surface) -> CheckedSurface:
     Raises
     ------
     MeasureError
-        Where there are no faces, faces name vertices that do not exist, or positions are not finite, or too large or
+        If there are no faces, faces name vertices that do not exist, or positions are not finite, or too large or
         too small for their powers to be numbers.
     """
     check_type("surface", surface, Surface)
@@ -131,15 +131,15 @@ def check_surface(surface: Surface) -> CheckedSurface:
 
 
 def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
-    """Integrate over the faces as they are given, and look whether their edges prove the surface closed.
+    """Integrate over the faces as they are given, and test if their edges prove the surface closed.
 
-    Sums and proof run side by side where that is worth a thread.
+    Sums and proof run in parallel if that is worth a thread.
 
     Parameters
     ----------
     checked : CheckedSurface
     shell : bool
-        Whether the area's moments are wanted to order 3; else to order 0.
+        True for area moments to order 3; else order 0.
     threads : int
     """
     surface = checked.surface
@@ -165,13 +165,12 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
 
 def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
-    """Whether numbers have the same sign, or are but rounding, that add up to so much without their signs and with
-    them."""
+    """Return whether numbers of one sign, rounding aside, give the sums `total` (of absolute values) and `signed`."""
     return total - abs(signed) <= SUM_ROUNDING * total
 
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:
-    """Give the mesh in need of no repair where its own edges prove it closed and oriented; else None.
+    """Return the mesh, in need of no repair, if its own edges prove it closed and oriented; else None.
 
     The triangles of a single component are left out: nothing asks for them.
     """
@@ -196,7 +195,8 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
 
 
 def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
-    """The component of each mesh face, and how many; None where nothing proves the surface closed and oriented."""
+    """Return the component of each mesh face and their number; None if the surface is not proven closed and
+    oriented."""
     if surface.corner_edges is not None:
         sides = closed_side_faces(surface)
         return None if sides is None else connected_components(int(sides.max()) + 1, *sides)

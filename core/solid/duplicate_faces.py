@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A step of a repair: copies of faces are left out where the edges around them say so."""
+"""A repair step: copies of faces are left out if the edges around them show that they are surplus."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from .repaired_mesh import RepairedMesh
 
 
 def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Leave out faces on the same vertices as an earlier one, where one layer of them is meant.
+    """Leave out faces on the same vertices as an earlier face, if one layer of them is meant.
 
-    A region of copied faces is reduced to one layer where an odd number of other faces meets its boundary, so that one
-    layer closes it. Where an even number does, both layers belong: a wall between two boxes that touch, a two-sided
-    fin. A region with no others at its boundary is reduced where its layers run the same way, or where one layer is
-    closed: a two-sided body, which would cancel itself.
+    A region of copied faces is reduced to one layer if an odd number of other faces meets its boundary, so that one
+    layer closes it. If an even number does, both layers belong: a wall between two boxes that touch, a two-sided fin. A
+    region with no other faces at its boundary is reduced if its layers run the same way, or if one layer is closed: a
+    two-sided body, which would cancel itself.
     """
     edges, face = mesh.state.edges, mesh.face
     if edges.count.max() <= 2:  # copies of faces would have no others beside them
@@ -50,7 +50,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     mesh = mesh.with_report(duplicate_faces=len(copies), elements={"duplicate_faces": copies})
 
     vector = normals(mesh.points, mesh.triangles)
-    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)  # of each face
+    vector = np.stack([np.bincount(face, vector[:, k]) for k in range(3)], axis=1)  # Sum over each face.
     agree = np.sign(np.einsum("ij,ij->i", vector[face], vector[group])) * np.linalg.norm(vector[face], axis=1)
     reduced = _regions_of_one_layer(edges, later, is_duplicated(group, face), agree)
     left_out = later & reduced
@@ -73,7 +73,7 @@ def copied_faces(surface: Surface) -> NDArray[np.integer]:
 
 
 def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """(m,) which triangles are of faces on the vertices of another one. group: what `same_vertices_groups` gives."""
+    """Return a (m,) mask of triangles of faces on another face's vertices. group: from `same_vertices_groups`."""
     copied = np.zeros(int(face.max()) + 1, bool)
     copied[group[group != face]] = True
     return copied[group]
@@ -82,8 +82,8 @@ def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDAr
 def _regions_of_one_layer(
     edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """(m,) which triangles are in regions to be reduced to one layer. later, copied: (m,) which are of later copies,
-    and of faces with copies at all; agree: (m,) positive where a triangle's face runs as the first of its copies."""
+    """Return a (m,) mask of triangles in regions to be reduced to one layer. later, copied: (m,) masks of later copies,
+    and of faces with copies at all; agree: (m,) positive if a triangle's face runs as the first of its copies."""
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
     meet = np.empty(len(edges.count), np.intp)

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How solids that stand in several places lie to each other.
+"""Overlaps between solids that stand in several places.
 
-Each is measured by itself, with its own cavities. What it has in common with another one is not taken away from either:
-it counts twice, and is reported.
+Each is measured by itself, with its own cavities. A volume common to two counts twice, and is reported.
 """
 
 from __future__ import annotations
@@ -22,17 +21,17 @@ from .solid_verdict import SolidIntegrals
 
 @dataclass(frozen=True, eq=False)
 class PlaceComparison:
-    """What solids have in common with other ones.
+    """Solids inside other ones, or overlapping them.
 
     Attributes
     ----------
     nested, overlapping : (k, 2) int
-        [solid, component] of components in the material of others, and of those that share a part of their interiors
-        with another one; once for each place.
+        [solid, component] of components in the material of others, and of components that share a part of their
+        interiors with another one; once for each place.
     undecided_pairs : int
         Pairs that would have been too much work.
     nested_slightly, overlapping_slightly : bool
-        Whether these components, and the smaller ones of these pairs, are too small to matter, wherever they are.
+        True if these components, and the smaller ones of these pairs, are too small to matter in any place.
     """
 
     nested: NDArray[np.intp]
@@ -43,12 +42,12 @@ class PlaceComparison:
 
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
-    """Find what solids have in common that stand in several places.
+    """Find solids that overlap or contain each other in their places.
 
     Parameters
     ----------
     solids : sequence of (SolidIntegrals, (k, 4, 4) array)
-        What was measured, and the maps to where it stands.
+        Measured solids, and the maps to their places.
 
     Returns
     -------
@@ -87,7 +86,7 @@ def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]])
     inner, outer = relations.contained_in.T
     elsewhere = place[inner] != place[outer]
     inner, outer = inner[elsewhere], outer[elsewhere]
-    # how often each other place surrounds a component: 0 in a cavity of it
+    # Count how often each other place surrounds a component: 0 in its cavities.
     key, pair = np.unique(inner * places + place[outer], return_inverse=True)
     surrounds = np.bincount(pair.ravel(), np.sign(components.volume[outer])) > 0.0
     nested = np.unique((key // places)[surrounds])

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What kind of body a surface is, what had to be repaired to measure it, and its moments.
+"""Measurement of a surface's body: its kind, the repairs that it needed, and its moments.
 
 A mesh whose own edges prove it closed is measured as it stands. Any other is repaired on a copy, one decision after the
 other, and each decision is reported: equal positions are welded, then, along open edges only, positions that differ by
 rounding; copies of faces that keep edges from closing are left out; faces that run against the rest of their part are
 turned; gaps without area (T-junctions) close; other boundary loops are capped. Then the components are compared: one
-that is inside out and in no other's material is turned. What is still not closed is measured as a signed sum about the
-reference point, and called open.
+that is inside out and in no other's material is turned. A surface still not closed is measured as a signed sum about
+the reference point, and called open.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .repair import repair_surface
 from .self_intersection import find_self_intersection
 from .solid_verdict import SolidIntegrals, judge
 
-MAX_WELDED_SHARE = 0.1  # of the volume: where welding may change that much, what it closes is no gap left by rounding
+MAX_WELDED_SHARE = 0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
 
 
 def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) -> SolidIntegrals:
@@ -38,8 +38,8 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     surface : Surface
         Any polygons; closed or not.
     shell : bool
-        Whether it is the surface that has the mass: then the area's moments are found to order 3, else to order 0,
-        and what only spoils a volume, self-intersection, is not looked for.
+        True if the surface has the mass: the area's moments are found to order 3 instead of 0, and self-intersection,
+        which only spoils a volume, is not looked for.
     threads : int
         For the sums over faces, and for the proof of closedness.
 
@@ -51,7 +51,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     Raises
     ------
     MeasureError
-        Where there are no faces, or a face uses a vertex that has no finite position.
+        If there are no faces, or a face uses a vertex that has no finite position.
 
     Examples
     --------

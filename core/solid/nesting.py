@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How the closed components of one body lie to each other: apart, one in another, or through one another.
+"""Relations between the closed components of one body: apart, nested or intersecting.
 
 Pairs whose boxes overlap are found by a sweep. Each pair is then asked twice (`core/mesh/bvh.py`): points just under
 the skin of the smaller component are located in the larger one; then edges of one that pierce triangles of the other
-are looked for. What touches within the tolerance does not cross.
+are looked for. Contact within the tolerance is no crossing.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ..numerics.arrays import segment_ranges
 
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)
-MAX_COMPONENT_PAIRS = 100_000  # of components
+MAX_COMPONENT_PAIRS = 100_000
 # points under the skin of a component of few faces that are asked whether it surrounds them twice
 MAX_OVERLAP_SAMPLES = 4096
 SAMPLES_PER_PAIR = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
@@ -30,7 +30,7 @@ MAX_STEPS_PER_EDGE = 16
 
 @dataclass(frozen=True, eq=False)
 class ComponentRelations:
-    """How components lie to each other.
+    """Relations between components.
 
     Attributes
     ----------
@@ -41,8 +41,8 @@ class ComponentRelations:
     undecided_pairs : int
         Pairs that would have been too much work.
     mostly_in : (k, 2) int
-        Pairs (inner component, outer component) among the intersecting ones, of opposite orientation, most of whose
-        inner component is in the outer one: what a cavity that breaks through its wall looks like.
+        Pairs (inner component, outer component) among the intersecting ones, of opposite orientation, with most of the
+        inner component in the outer one, as a cavity that breaks through its wall.
     breakthrough : (k,) float
         How far these reach out of each other (unit).
     """
@@ -70,9 +70,9 @@ def classify_pairs(
     components : SortedComponents
         Over these points.
     candidates : (c,) bool
-        Those to be compared: closed, and none of them flat.
+        Components to compare: closed and not flat.
     tolerance : float
-        What counts as touching (unit).
+        Distance below which points touch (unit).
     """
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
@@ -146,8 +146,8 @@ def surfaces_intersect(
     vertex: NDArray[np.integer],
     tolerance: float,
 ) -> bool:
-    """Whether surfaces go through each other, or through themselves, by more than the tolerance, as far as is found
-    within bounds of time. Triangles that share a vertex are neighbors and do not count.
+    """Return whether surfaces are found, in limited time, to go through each other or themselves by more than
+    `tolerance`. Triangles that share a vertex are neighbors and do not count.
 
     triangles: (m, 3), component: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex:
     (n,) which vertex a point is.
@@ -160,8 +160,8 @@ def surfaces_intersect(
 def self_overlaps(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> bool:
-    """Whether a closed component selected by `candidates` surrounds a point under its own skin more than once, of those
-    that are tried. So it does where it has run into itself, though no edge need pierce a face then."""
+    """Return whether a closed component among `candidates` surrounds a sampled point under its own skin more than once:
+    it has run into itself, though no edge need pierce a face."""
     chosen = np.flatnonzero(candidates)
     if not len(chosen):
         return False
@@ -179,11 +179,11 @@ def self_overlaps(
 def orient_nested_components(
     components: SortedComponents, relations: ComponentRelations, candidates: NDArray[np.bool_]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Decide which components to turn, and which are then outward ones in the material of others, or cavities.
+    """Decide which components to turn, and classify them as outward ones in the material of others, or cavities.
 
-    From the outermost inward: an inward component that no material surrounds is inside out. It is turned, and so is
-    what it contains where that was consistent with it (a hollow body turned inside out as a whole). A cavity that
-    breaks through its wall is one still.
+    From the outermost inward: an inward component that no material surrounds is inside out. It is turned, with any
+    consistent contents (a hollow body turned inside out as a whole). A cavity that breaks through its wall is one
+    still.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ def orient_nested_components(
         With their signed volumes.
     relations : ComponentRelations
     candidates : (c,) bool
-        Those with a volume.
+        Components with a volume.
 
     Returns
     -------
@@ -219,8 +219,8 @@ def orient_nested_components(
 
 
 def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """(c,) for each cavity the component whose material it takes away: the innermost around it that no other cavity
-    takes away before. For the others themselves."""
+    """Return (c,) the component that each cavity is cut from: the innermost around it that no other cavity is cut from
+    before; for others, themselves."""
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
@@ -246,8 +246,8 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
 def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """For each pair: how many points under the skin of the smaller component are inside the larger one, and how many
-    are outside, of those that could be decided."""
+    """Count, for each pair, the decidable points under the smaller component's skin inside and outside the larger
+    one."""
     most, least, together = SAMPLES_PER_PAIR
     number = np.clip(together // len(small), least, most)
     pair = np.repeat(np.arange(len(small)), number)

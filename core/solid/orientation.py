@@ -24,17 +24,17 @@ from .repaired_mesh import RepairedMesh
 
 @dataclass(frozen=True, eq=False)
 class ComponentComparison:
-    """What comparing the components of a body came to.
+    """Result of comparing the components of a body.
 
     Attributes
     ----------
     flipped : (c,) bool
-        Those to be turned.
+        Components to turn.
     solid : (c,) bool
-        Those with a volume.
+        Components with a volume.
     nested, cavities, intersecting : (c,) bool
-        Outward ones in the material of others; inward ones in the material of others; and those that share a part of
-        their interiors with another one, or are a copy of it, but for cavities that break through.
+        Outward ones in the material of others; inward ones in the material of others; and components that share a part
+        of their interiors with another one, or are a copy of it, but for cavities that break through.
     breaking : (c,) bool
         The cavities that break through the wall of the component they are in.
     breakthrough : float
@@ -97,21 +97,21 @@ class OrientedSolid:
     mesh : RepairedMesh
         As it was repaired.
     is_proven : bool
-        Whether nothing had to be repaired, so that ``surface`` has the input's faces.
+        True if nothing had to be repaired, so that ``surface`` has the input's faces.
     surface : Surface
-        The one whose signed sum is ``volume``: without flat parts, with caps.
+        The surface with the signed sum ``volume``: without flat parts, with caps.
     volume : Moments
-        Not negative; of a flat body what rounding leaves, with either sign.
+        Not negative, but for rounding noise in flat bodies, of either sign.
     is_solid : bool
-        Whether anything has a volume.
+        True if any component has a volume.
     solid : (c,) bool
         The components that have one.
     turned : (c,) bool
         The components that had to be turned as a whole.
     reversed : (c,) bool
-        The components whose triangles in ``mesh`` run against those in ``surface``.
+        Components with triangles in ``mesh`` that run against ``surface``.
     comparison : ComponentComparison, optional
-        Where there are several components.
+        Only for several components.
     """
 
     mesh: RepairedMesh
@@ -149,13 +149,13 @@ class OrientedSolid:
 def orient_components(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, threads: int
 ) -> OrientedSolid:
-    """Compare the components of a body, turn those that are inside out, and integrate what comes of it.
+    """Compare the components of a body, turn components that are inside out, and integrate the result.
 
     Parameters
     ----------
     checked : CheckedSurface
     given : GivenIntegrals
-        Of the same surface; used again where nothing but caps was added.
+        Of the same surface; reused if only caps were added.
     mesh : RepairedMesh
         ``given.proven``, or the surface repaired.
     threads : int
@@ -175,7 +175,7 @@ def orient_components(
     is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
     if comparison is None:
         solid = np.full(mesh.number, is_solid)
-        # what is open has no inside
+        # An open surface has no inside.
         turned = np.full(mesh.number, is_solid and total < 0.0 and not has_open)
     else:
         solid, turned = comparison.solid, flipped
@@ -188,14 +188,14 @@ def orient_components(
 
 
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
-    """Find which components have a volume, and how those lie to each other.
+    """Find the components with a volume, and their relations.
 
     Parameters
     ----------
     mesh : RepairedMesh
         With its triangles.
     tolerance : float
-        What counts as touching (unit).
+        Distance below which points touch (unit).
     error : float
         How far storing the points may have moved them (unit).
     """
@@ -209,16 +209,16 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """The volume that is none: what rounding leaves of a closed sheet, and what capping leaves of a flat one."""
+    """Return the volume that counts as zero: the rounding noise of a closed sheet, or a flat sheet's after capping."""
     return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
 
 
 def _oriented_surface(
     surface: Surface, mesh: RepairedMesh, flip: NDArray[np.bool_], solid: NDArray[np.bool_], proven: bool
 ) -> Surface:
-    """The surface whose signed sum is the body's."""
+    """Return the surface with the signed sum of the body."""
     flipped = mesh.flipped ^ flip[mesh.component]
-    included = (mesh.open | solid)[mesh.component]  # of flat parts only rounding would count
+    included = (mesh.open | solid)[mesh.component]  # Flat parts would only add rounding.
     if not (mesh.topology_changed or flipped.any() or (mesh.face < 0).any()) and (included.all() or not included.any()):
         return surface
     if proven:
@@ -243,7 +243,7 @@ def _integrate_oriented(
     measured: Surface,
     threads: int,
 ) -> Moments:
-    """The volume's moments of the surface that is measured, of its caps alone where the rest is as given."""
+    """Return the volume moments of the measured surface; only its caps are integrated if the rest is as given."""
     caps = _caps_only(surface, mesh, flip, measured)
     about = None if caps is None else given.volume.about
     volume = polyhedron_moments(caps or measured, area_order=0, about=about, threads=threads, allow_open=True)[0]
@@ -251,7 +251,7 @@ def _integrate_oriented(
 
 
 def _caps_only(surface: Surface, mesh: RepairedMesh, flip: NDArray[np.bool_], measured: Surface) -> Surface | None:
-    """The caps, where they are all by which `measured` differs from `surface`."""
+    """Return the caps if `measured` differs from `surface` by nothing else, or None."""
     caps = mesh.face < 0
     if (
         mesh.topology_changed

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface that its mesh does not prove closed, repaired on a copy as far as it can be: a chain of steps.
+"""A chain of steps that repair, on a copy, a surface that its mesh does not prove closed.
 
-Each step takes a `RepairedMesh` and gives another one, with its findings added. Only what is not closed by itself is
-touched at any step.
+Each step takes a `RepairedMesh` and gives another one, with its findings added. No step touches parts that are closed
+by themselves.
 """
 
 from __future__ import annotations
@@ -48,14 +48,14 @@ def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -
     surface : Surface
         With at least one face; every vertex belongs to one.
     tolerance : float
-        Positions nearer than this (unit) are one where edges are open, and loops narrower than this have no area.
+        Positions nearer than this (unit) count as equal at open edges, and loops narrower than this have no area.
     weld_near : bool
-        Whether positions that differ are welded at all.
+        True to weld positions that differ.
 
     Returns
     -------
     RepairedMesh
-        Without triangles and components where nothing but edges is left of all faces.
+        Without triangles and components if nothing but edges is left of all faces.
     """
     mesh = split_into_triangles(surface)
     for step in STEPS:

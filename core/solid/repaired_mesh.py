@@ -22,16 +22,16 @@ UNKNOWN: Any = None  # until a step finds it; the order of the steps sees to it 
 
 @dataclass(frozen=True, eq=False)
 class OpenParts:
-    """What welding may touch: the connected parts that are not closed.
+    """Connected parts that are not closed; only these may be welded.
 
     Attributes
     ----------
     rows : (k,) int
         Their triangles with three different vertices.
     vertices : (v,) int
-        Sorted, the vertices along their open edges, or all of theirs where no edge is known.
+        Sorted, the vertices along their open edges, or all their vertices if no edge is known.
     are_all : bool
-        Whether no other triangle has three different vertices.
+        True if no other triangle has three different vertices.
     """
 
     rows: NDArray[np.intp]
@@ -50,7 +50,7 @@ class ZeroAreaLoops:
     first, second : (l,) int
         Sides that are joined.
     misoriented : (l,) bool
-        Whether the faces at such a joint disagree.
+        True if the faces at such a joint disagree.
     """
 
     sides: NDArray[np.intp]
@@ -63,12 +63,12 @@ class ZeroAreaLoops:
 
 @dataclass(frozen=True, eq=False)
 class FoldedLoops:
-    """What components with edges of three faces or more leave over, where that is loops without area.
+    """Loops without area that components with edges of three faces or more leave over.
 
     Attributes
     ----------
     components : (c,) bool
-        Those that close after all.
+        Components that close after all.
     sides : (k,) int
         A side on each edge that they leave over.
     caps : (k, 3) int
@@ -85,18 +85,18 @@ class FoldedLoops:
 
 @dataclass(frozen=True, eq=False)
 class RepairState:
-    """What earlier steps know and later ones need; dropped when the repair is done.
+    """Knowledge of earlier steps for later ones; dropped when the repair is done.
 
     Attributes
     ----------
     given : (t, 3) int
         The triangles over the input's vertices. Side 3t + i runs from corner i of triangle t to the next one.
     edges : Edges
-        Of the triangles with three different vertices, where they are known.
+        Edges of the triangles with three different vertices, if known.
     component_edges : Edges
         The same with vertices of its own for each component.
     open_parts : OpenParts, optional
-        None where nothing is left to weld.
+        None if nothing is left to weld.
     gaps : ZeroAreaLoops
     folded : FoldedLoops
     one_sided : (c,) bool
@@ -136,15 +136,15 @@ class RepairedMesh:
     caps : (number, 3) float
         Of each component how many flat caps and curved caps it has, and their area (unit²).
     report : MeshHealth
-        What the input is like, as far as the steps have seen it. Its edges are pairs of the surface's vertices.
+        State of the input, as far as the steps have seen it. Its edges are pairs of the surface's vertices.
     topology_changed : bool
-        Whether the triangles, apart from their direction and from caps, are not simply the input's.
+        True if the triangles, apart from their direction and from caps, differ from the input's.
     max_displacement : float
         How far welding has moved a vertex at most (unit).
     capped_edges, capped_component : (k, 2) int and (k,) int
         The boundary edges of capped holes, and the component of each.
     findings : tuple of Finding
-        What was decided, but for welding and caps, whose effect depends on the volume.
+        Decisions, but for welding and caps, which depend on the volume.
     state : RepairState
         Dropped after the last step.
     """
@@ -166,17 +166,17 @@ class RepairedMesh:
     state: RepairState = UNKNOWN
 
     def with_state(self, **changes: Any) -> RepairedMesh:
-        """The same mesh, with more known for later steps."""
+        """Return the mesh with more knowledge for later steps."""
         return replace(self, state=replace(self.state, **changes))
 
     def with_report(self, *, elements: dict[str, NDArray[np.integer]] | None = None, **counts: Any) -> RepairedMesh:
-        """The same mesh, with entries of its report replaced. elements: of its `DefectiveElements`."""
+        """Return the mesh with entries of its report replaced. elements: entries of its `DefectiveElements`."""
         if elements:
             counts["defective_elements"] = replace(self.report.defective_elements, **elements)
         return replace(self, report=replace(self.report, **counts))
 
     def with_findings(self, *findings: Finding) -> RepairedMesh:
-        """The same mesh, with more findings."""
+        """Return the mesh with more findings."""
         return replace(self, findings=(*self.findings, *findings))
 
     def with_rows(self, rows: NDArray[np.integer]) -> RepairedMesh:
@@ -191,7 +191,8 @@ class RepairedMesh:
         )
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
-        """The mesh with more triangles, but for those without area. owner: (k,) a triangle of each one's component."""
+        """Return the mesh with more triangles, without degenerate ones. owner: (k,) a triangle of each one's
+        component."""
         useful = has_distinct_vertices(caps)
         caps, owner = caps[useful], owner[useful]
         return replace(

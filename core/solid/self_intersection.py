@@ -1,15 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a closed surface goes through itself, and how much of its volume is then counted twice or as negative.
+"""Self-intersection of closed surfaces, and the volume that it counts twice or as negative.
 
-A surface whose cones from some point all have the same sign, and whose sum surrounds that point once, is the radial
+If all cones of a surface from some point have the same sign, and their sum surrounds that point once, it is the radial
 image of a sphere: it cannot meet itself. So it is with every convex body, about its center of mass. The sums over the
 faces show it of most bodies on the way; for the others it is a pass that ends with the first face that looks away.
 
-What is not proved that way is looked at along lines. Each place on a line must be in a closed part once or not at all,
-where the part faces outward. The lengths for which that does not hold, times the lines' distances, are the volume that
-counts wrongly. A region is found where a line meets it, as one does in every region as wide as their distance; the
-number of lines follows from that of the faces, so that looking takes a part of the time that measuring does.
+Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
+faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. A region is
+found if a line meets it, which holds for every region as wide as their distance; the number of lines follows from that
+of the faces, so that looking takes a part of the time that measuring does.
 """
 
 from __future__ import annotations
@@ -29,19 +29,19 @@ from ..verdict.health import Intersection
 from .closedness import CheckedSurface, GivenIntegrals, same_sign
 from .orientation import OrientedSolid
 
-MAX_UNSURE_LINES = 0.05  # of the lines: where more do not enter as often as they leave, the rest says nothing
+MAX_UNSURE_LINES = 0.05  # Share of lines: if more enter and leave unequally often, the rest says nothing.
 FACES_LOOKED_AT_FIRST = 1024
 
 
 @dataclass(frozen=True, eq=False)
 class SelfIntersection:
-    """What looking came to.
+    """Result of the search for self-intersections.
 
     Attributes
     ----------
     state : Intersection
     volume : float
-        What counts twice, or as negative (unit³), as often as it does too much: an estimate.
+        Estimated volume that counts twice, or as negative (unit³), as often as it does too much.
     effect : float
         The larger one of its shares of the volume and of the second moment about the center.
     """
@@ -52,7 +52,7 @@ class SelfIntersection:
 
 
 def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid) -> SelfIntersection:
-    """Look whether the surface of a solid goes through itself.
+    """Search the surface of a solid for self-intersections.
 
     Parameters
     ----------
@@ -96,8 +96,8 @@ def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -
 
 
 def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
-    """Whether all faces have the same side toward a point, or their planes contain it. Such a surface may still go
-    around the point several times."""
+    """Return whether all faces have the same side toward a point, or their planes contain it. Such a surface may still
+    go around the point several times."""
     total = signed = 0.0
     for corners in _corner_blocks(surface):
         a, b, c = (corner - center[:, None] for corner in corners)
@@ -123,21 +123,22 @@ def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
 
 
 def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) -> bool:
-    """Whether a closed surface goes around a point once, one way or the other."""
+    """Return whether a closed surface goes around a point once, one way or the other."""
     found = find_crossings(surface, LineGrids.through_points(point[None], np.array([size])))
     return abs(int(found.sign[found.along > 0.0].sum())) == 1
 
 
 @dataclass(frozen=True, eq=False)
 class Excess:
-    """What closed parts hold more than once, or less than not at all.
+    """Volume that closed parts hold more than once, or less than not at all.
 
     Attributes
     ----------
     volume, second_moment : (b,) float
         Of each body, as often as it is too much; the latter about the center of the body's box.
     unsure : (b,) float
-        The share of the crossed lines that do not enter as often as they leave, and say nothing; 1 where there is none.
+        The share of the crossed lines that do not enter as often as they leave, and say nothing; 1 if no line is
+        crossed.
     """
 
     volume: NDArray[np.float64]
@@ -148,7 +149,7 @@ class Excess:
 def measure_excess(
     crossings: Crossings, grids: LineGrids, tolerance: NDArray[np.float64], part: NDArray[np.integer] | None = None
 ) -> Excess:
-    """Measure along lines what is in a closed part more than once, or less than not at all.
+    """Measure along lines the volume in a closed part more than once, or less than not at all.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Welded bodies that touch: which of the two layers of the wall between them belongs to which.
+"""Assignment of the two layers of a wall between welded bodies to the bodies.
 
-Where two bodies share the vertices of a face that each of them has, four faces meet along its border: one of either
-body, and both layers. Nothing but the layers' directions distinguishes them, and these say nothing where one body is
-inside out. So a layer goes with one body along its whole border, the other one with the other, each with the body whose
-faces it agrees with where that decides.
+If two bodies share the vertices of a face that each of them has, four faces meet along its border: one of either body,
+and both layers. Nothing but the layers' directions distinguishes them, and these say nothing if one body is inside out.
+So a layer goes with one body along its whole border, the other one with the other, each with the body that it agrees
+with in direction, if that decides.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..numerics.graph import connected_components
 from .duplicate_faces import is_duplicated
 from .repaired_mesh import NO_INDICES
 
-FLAT_RTOL = 1e-9  # of the area: by how much the sum of a flat piece's normals may be shorter
+FLAT_RTOL = 1e-9  # Relative to the area: allowed shortfall of the sum of a flat piece's normals.
 NO_LINKS = NO_INDICES, NO_INDICES
 
 
@@ -65,7 +65,7 @@ def wall_links(
         np.concatenate([pairs[0] // 3, layers[:, 0] // 3]),
         np.concatenate([pairs[1] // 3, layers[:, 1] // 3]),
     )
-    for columns in np.array([[0, 1], [2, 3]]):  # the same body, and the same layer, in a column along the whole border
+    for columns in np.array([[0, 1], [2, 3]]):  # A column keeps its body and its layer along the whole border.
         swap = np.diff(part[border[:, columns] // 3])[:, 0] < 0
         border[np.ix_(swap, columns)] = border[np.ix_(swap, columns[::-1])]
     # a wall is between two bodies only, the same along its border
@@ -77,7 +77,7 @@ def wall_links(
     decided = sums_by_index(wall, ~one_pair)[wall] == 0.0
     border, wall = border[decided], wall[decided]
     up = edges.upward[border]
-    agree = (up[:, :2, None] != up[:, None, 2:]).astype(float)  # of each body with each layer
+    agree = (up[:, :2, None] != up[:, None, 2:]).astype(float)  # Compare each body with each layer.
     straight = agree[:, 0, 0] + agree[:, 1, 1] - agree[:, 0, 1] - agree[:, 1, 0]
     swapped = sums_by_index(wall, straight)[wall] < 0.0
     border[swapped] = border[swapped][:, [0, 1, 3, 2]]
@@ -92,7 +92,7 @@ def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp])
     Which copy of a face is the first one is an accident: a copy goes with the one of its neighbors that it agrees with.
     """
     crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
-    within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)  # of one face, and of the other, twice
+    within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)  # Corners of one face, then the other, twice.
     up = edges.upward[within]
     straight = (up[:, 0] != up[:, 1]).astype(int) + (up[:, 2] != up[:, 3])
     across = (up[:, 0] != up[:, 3]).astype(int) + (up[:, 2] != up[:, 1])
@@ -107,9 +107,9 @@ def _layers(
     face: NDArray[np.integer],
     piece: NDArray[np.intp],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """(t,) 1 and 2 for the triangles of the first and of the other layer of walls, 0 for others; and (t,) a number that
-    both layers of a wall share. They are faces on the same vertices, or flat pieces with the same border that are cut
-    into triangles differently. piece: (t,) what is connected across edges of two faces."""
+    """Return (t,) 1 and 2 for triangles of the first and of the other layer of walls, else 0; and (t,) a number that
+    both layers of a wall share. Layers are faces on the same vertices, or flat pieces with the same border that are cut
+    into triangles differently. piece: (t,) the piece of each triangle, connected across edges of two faces."""
     group = same_vertices_groups(triangles, face)
     layer = is_duplicated(group, face).astype(np.intp) + (group != face)
     vector = normals(points, triangles)

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many small solids measured at once: those that are closed as they are, or by caps alone, and outward, in one piece
-or in several that stand apart.
+"""Many small solids measured at once, if closed as they are or by caps alone, outward, in one or several separate
+pieces.
 
-What is certain here is what `measure_solid` would call exact or capped, with the same numbers. Everything else is for
-`measure_solid`, one by one.
+Results are exact or capped, with the same numbers as from `measure_solid`, which measures all other solids one by one.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
 from .solid_verdict import SolidIntegrals, cap_finding, shape_findings
 
-MAX_COMPONENTS = 16  # of one body: each is compared with each
+MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
 CLEAR_VOLUME = 4.0  # times what counts as none: a component of less is looked at by itself
 
 
@@ -46,7 +45,7 @@ class SolidStack:
     is_measured : (n,) bool
         Which of them are closed, as they are or by caps; the others have to be measured one by one.
     volume, area : Moments
-        Of each, to order 3 and 0, about a point of its own; only those that are measured mean anything. The area is
+        Moments of each body to order 3 and 0, about its own point; meaningless for unmeasured bodies. The area is
         without caps.
     size : (n,) float
         The diagonal of the bounding box (unit).
@@ -54,7 +53,7 @@ class SolidStack:
     intersection : (n,) array of Intersection
     component_counts : (n,) int
     caps : StackCaps
-        With what bounds the bodies.
+        The boundaries of the bodies.
     """
 
     is_measured: NDArray[np.bool_]
@@ -67,7 +66,7 @@ class SolidStack:
     caps: StackCaps
 
     def health(self, i: int) -> MeshHealth:
-        """What the surface of a measured one is like."""
+        """Return the state of a measured body's surface."""
         flat, edges = self.planarity, self.caps.edges_of(i)
         return MeshHealth(
             closed=not len(edges),
@@ -81,7 +80,7 @@ class SolidStack:
         )
 
     def findings(self, i: int) -> tuple[Finding, ...]:
-        """What is to be reported of a measured one."""
+        """Return the findings about a measured body."""
         flat, found = self.planarity, []
         if self.caps.is_capped[i]:
             share, total = self._cap_share(i), float(self.volume.raw[i, 0])
@@ -123,12 +122,12 @@ def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Mome
 
 
 def is_small(surface: Surface) -> bool:
-    """Whether a surface has so few triangles that it is taken together with others."""
+    """Return whether a surface has few enough triangles to be stacked with others."""
     return len(surface.triangles) + 2 * len(surface.quads) <= MAX_SMALL_TRIANGLES
 
 
 def can_be_stacked(surface: Surface) -> bool:
-    """Whether a surface may be one of those that `measure_stack` measures."""
+    """Return whether `measure_stack` can measure a surface."""
     return is_small(surface) and SurfaceStack.takes(surface)
 
 
@@ -207,11 +206,11 @@ def _stand_apart(
     capped: NDArray[np.bool_],
     error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
-    """(k,) whether the components of some of the bodies, the `part` of each triangle of all, face outward, each with a
-    volume that is certain, and have boxes that do not touch. counts, tolerance, capped, error: of all bodies."""
+    """Return a (k,) mask of the bodies in `rows` with outward components of certain volume and boxes that do not touch.
+    part: the component of each triangle of all bodies; counts, tolerance, capped, error: of all bodies."""
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
-    body = np.repeat(np.arange(len(rows)), counts[rows])  # of each part: they are numbered one body after the other
+    body = np.repeat(np.arange(len(rows)), counts[rows])  # The body of each part; parts are numbered body by body.
     corners = stack.points[stack.triangles[chosen]].astype(np.float64)
     corners -= np.repeat(stack.box[0][rows], stack.triangle_counts[rows], axis=0)[:, None]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -231,7 +230,7 @@ def _stand_apart(
 
 
 def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
-    """(n,) whether the cones over all faces of a surface, from its point, (n, 3), agree and surround it once: by their
+    """Return a (n,) mask of surfaces with cones from their points, (n, 3), that agree and surround them once, by their
     solid angles (van Oosterom and Strackee 1983)."""
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
@@ -246,8 +245,8 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 
 def _looked_for(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
-    """(k,) whether surfaces go through themselves, as `find_self_intersection` finds by lines. part: (t,) the component
-    of each triangle."""
+    """Return (k,) results of the search for self-intersections along lines, as `find_self_intersection`. part: (t,) the
+    component of each triangle."""
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
     grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last stage of measuring a solid: its verdict, what is to be reported of it, and its health."""
+"""The last stage of measuring a solid: its verdict, findings and health."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ from .orientation import ComponentComparison, OrientedSolid
 from .repaired_mesh import RepairedMesh
 from .self_intersection import SelfIntersection
 
-MIN_REPORTED_AMBIGUITY = 1e-6  # of the volume: below, nobody needs to know
+MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
 
 # Codes about components that have a second one, where the components are too small to matter
 WITH_SLIGHT = (CAVITIES_BREAK_THROUGH, COMPONENTS_NESTED, COMPONENTS_OVERLAP, FLAT_COMPONENTS)
@@ -57,8 +57,8 @@ WITH_SLIGHT = (CAVITIES_BREAK_THROUGH, COMPONENTS_NESTED, COMPONENTS_OVERLAP, FL
 class SolidIntegrals:
     """The moments of the body that a surface bounds, and how they came about.
 
-    Of a body that is flat the volume's moments are zero; of an open one they depend on the reference point. Where
-    vertices were welded across gaps, `input_error` bounds what that may have changed too.
+    A flat body's volume moments are zero; an open body's depend on the reference point. If vertices were welded across
+    gaps, `input_error` includes the possible change.
 
     Attributes
     ----------
@@ -67,11 +67,11 @@ class SolidIntegrals:
     area : Moments
         Of the input's faces, without caps.
     health : MeshHealth
-        What the input is like.
+        State of the input.
     method : Verdict
         EXACT, CAPPED, REORIENTED or OPEN.
     findings : tuple of Finding
-        The decisions taken; those about the whole surface have no elements.
+        The decisions taken; findings about the whole surface have no elements.
     oriented : OrientedSolid
         The surface that was measured, and its components.
     given_surface : Surface
@@ -98,7 +98,7 @@ class SolidIntegrals:
 
     @property
     def repaired_surface(self) -> Surface:
-        """The surface whose signed sum ``volume`` is."""
+        """The surface with the signed sum ``volume``."""
         return self.oriented.surface
 
     def moments(
@@ -107,14 +107,14 @@ class SolidIntegrals:
         """Return the body's moments to any order.
 
         They are about the middle of the given points' bounding box, the point of ``volume``, unless `about` says
-        otherwise. Those of an open body depend on it.
+        otherwise. For open bodies they depend on it.
 
         Parameters
         ----------
         order : int
             Of the volume's moments.
         area_order : int, optional
-            Of the area's, which are those of the faces that were given, as ``area`` is. By default none.
+            Order of the area moments of the given faces, as in ``area``. By default none.
         about : (3,) array_like, optional
             The reference point.
         threads : int
@@ -122,7 +122,7 @@ class SolidIntegrals:
         Returns
         -------
         volume : Moments
-        area : Moments, or None where none is asked for
+        area : Moments, or None if `area_order` is None
 
         Raises
         ------
@@ -133,7 +133,7 @@ class SolidIntegrals:
         volume, area = polyhedron_moments(
             self.repaired_surface, order, about=reference, exact=True, threads=threads, allow_open=True
         )
-        if not self.volume.raw.any():  # what rounding leaves of a flat body
+        if not self.volume.raw.any():  # Rounding noise of a flat body has no moments.
             error = volume.rounding_error + np.abs(volume.raw)
             volume = replace(volume, raw=np.zeros_like(volume.raw), rounding_error=error)
         if area_order is not None:
@@ -145,18 +145,18 @@ class SolidIntegrals:
         return volume.about_point(about), None if area is None else area.about_point(about)
 
     def parts(self) -> ClosedParts:
-        """The same surface by closed part."""
+        """Return the surface by closed part."""
         return self.oriented.closed_parts()
 
     def exact_third_order(self, threads: int = 1) -> Moments:
-        """`volume` with its third order exact to rounding, for what its bounds leave undecided."""
+        """Return `volume` with its third order exact to rounding, for decisions that its bounds leave open."""
         return polyhedron_moments(self.repaired_surface, exact=True, threads=threads, allow_open=True)[0]
 
 
 def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
-    """Give a verdict on what was measured, and report all that was decided on the way.
+    """Give a verdict on the measured body, and report all decisions.
 
     Parameters
     ----------
@@ -164,11 +164,11 @@ def judge(
     given : GivenIntegrals
     oriented : OrientedSolid
     intersection : SelfIntersection, optional
-        All of the same surface; None where nobody asks.
+        All of the same surface; None if not searched.
     """
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
-    if not oriented.is_solid and not has_open:  # what rounding leaves of nothing would pass for a tiny body
+    if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
         volume = replace(
             volume, raw=np.zeros_like(volume.raw), rounding_error=volume.rounding_error + np.abs(volume.raw)
         )
@@ -251,13 +251,13 @@ def _health(
 
 
 def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
-    """The finding with edges in the input's vertices, where those of no face were left out before."""
+    """Return the finding with edges in the input's vertices, if unused vertices were left out before."""
     elements = np.asarray(item.elements)
     return replace(item, elements=vertices[elements]) if elements.ndim == 2 and vertices is not None else item
 
 
 def _float32_step(surface: Surface) -> float:
-    """How far the same place may be from itself in float32: a step of the largest coordinate along each axis."""
+    """Return how far float32 may move a point: the length of one step of the largest coordinate along each axis."""
     largest = np.minimum(np.abs(surface.box).max(axis=0), 2.0**127)
     return float(np.linalg.norm(np.spacing(largest.astype(np.float32)).astype(np.float64)))
 
@@ -268,8 +268,7 @@ def _weld_finding(displacement: float, size: float, area: float, volume: float) 
 
 
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
-    """Whether these triangles are too small to matter, however they are decided about: their moments, all together, are
-    below their area times the body's size. rows: (t,)."""
+    """Return whether triangles are too small to matter, by their area times the body's size. rows: (t,)."""
     return bool(_areas(mesh, rows).sum() * size < NEGLIGIBLE * volume)
 
 
@@ -330,7 +329,7 @@ def _component_findings(
 
 
 def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Some components but for the one with the largest area: what they share is in the others."""
+    """Return a mask without its component of the largest area: the others contain the shared volume."""
     rows = which[mesh.component]
     areas = np.bincount(mesh.component[rows], _areas(mesh, rows))
     others = which.copy()
@@ -347,7 +346,7 @@ def _intersection_findings(intersection: SelfIntersection, volume: float) -> lis
 
 
 def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> list[Finding]:
-    """About a surface without a volume, and about faces whose diagonals make a difference."""
+    """Return findings about a surface without volume, and about faces with diagonals that make a difference."""
     if not is_solid:
         return [finding(FLAT_SURFACE)]
     total = volume.total

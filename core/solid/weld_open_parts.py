@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first steps of a repair: vertices of open parts that are one in space become one in the mesh.
+"""The first steps of a repair: vertices of open parts with equal positions become one vertex in the mesh.
 
-What is closed by itself is not touched.
+Parts closed by themselves are not touched.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMe
 def _find_open_parts(
     surface: Surface, triangles: NDArray[np.intp], face: NDArray[np.intp]
 ) -> tuple[Edges | None, OpenParts | None]:
-    """The edges of the triangles with three different vertices, where they are known, and the parts to be welded."""
+    """Return the edges of the triangles with three different vertices, if known, and the parts to weld."""
     rows = np.flatnonzero(has_distinct_vertices(triangles))
     if not len(rows):
         return None, None
@@ -119,7 +119,7 @@ def _find_open_parts(
     is_open = np.zeros(number, bool)
     is_open[part[edges.first[odd] // 3]] = True
     whole = ~is_open[part]
-    if whole.any():  # what is closed by copies of its own faces alone is a piece of another part
+    if whole.any():  # A part closed only by copies of its own faces is a piece of another part.
         single = np.zeros(len(rows), bool)
         whole_face = face[rows[whole]]
         single[whole] = ~is_duplicated(same_vertices_groups(triangles[rows[whole]], whole_face), whole_face)
@@ -130,8 +130,8 @@ def _find_open_parts(
 def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
-    """The mesh with each of some vertices replaced by another one of them, in some triangles; and (n,) which vertex
-    each has become. same: (v,) where in ``vertices`` the other one is."""
+    """Return the mesh with some vertices replaced in the triangles `rows`, and (n,) the new vertex of each vertex.
+    same: (v,) the position in ``vertices`` of each replacement."""
     triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]

@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether bodies stand and how they rest; derivatives by every vertex, and the least change of shape that moves the
-center.
-"""
+"""Standing and resting bodies; derivatives by every vertex, and the least change of shape that moves the center."""
 
 from ..lazy import lazy_names
 

@@ -10,7 +10,7 @@ For G and a, every face is taken as the fan around its middle, so that the diago
 little as they can: the center itself is that of the faces as they are cut.
 
 The center is not a linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
-step, until the center is there to rounding. The moves are then least to first order: those of the least sum differ by
+step, until the center is there to rounding. The moves are then least to first order: moves of the least sum differ by
 terms of their square. They are not looked for, because on fine meshes they wrinkle: a shell gains area by nothing as
 cheaply as by folds.
 """
@@ -39,16 +39,16 @@ from .findings import (
 )
 from .gradient import Gradient, area_gradient, volume_gradient
 
-MAX_NEWTON_STEPS = 100  # of Newton's method at most; it takes a few
-MAX_STEP_HALVINGS = 20  # of one step, until the center comes nearer
-REACHED_TOLERANCE = 64.0 * U  # of the body's size and how far it or its target lies: what rounding leaves
-MIN_RELATIVE_EFFECT = 1e-12  # of what the most effective direction does
-SLIVER_RTOL = 1e-9  # of its longest side squared: a triangle without a normal
+MAX_NEWTON_STEPS = 100  # Limit for Newton's method; it takes a few.
+MAX_STEP_HALVINGS = 20  # Limit for one step, until the center comes nearer.
+REACHED_TOLERANCE = 64.0 * U  # Rounding relative to the body's size and the distances of it and its target.
+MIN_RELATIVE_EFFECT = 1e-12  # Relative to the effect of the most effective direction.
+SLIVER_RTOL = 1e-9  # Relative to the longest side squared: smaller triangles have no normal.
 
 
 @dataclass(frozen=True, eq=False)
 class BalanceResult:
-    """Where vertices go so that the center comes to its target.
+    """Moved vertices that bring the center to its target.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ def balance(
     limit : float
         How far a vertex may move.
     shell : bool
-        Whether the mass is in the surface, otherwise in the body it bounds, which must be closed. Uniform density, and
+        True if the mass is in the surface, otherwise in the body it bounds, which must be closed. Uniform density, and
         all lengths in one unit.
 
     Returns
@@ -149,7 +149,7 @@ def balance(
 def _newton_solve(
     problem: _Problem, start: tuple[NDArray, NDArray, NDArray], step_directions: NDArray, movable: NDArray, limit: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """(n, 3) and (3,) the points and the center, and how far it stays from its target, 0 where it comes there. start:
+    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached. start:
     as of `_Problem.evaluate`."""
     points, (center, residual, gradient) = problem.start, start
     multiplier = np.zeros(len(step_directions))
@@ -177,7 +177,7 @@ def _newton_solve(
 
 
 def _is_solvable(system: NDArray) -> bool:
-    """Whether the (r, r) system can be solved: none of its directions is without effect."""
+    """Return whether the (r, r) system can be solved: none of its directions is without effect."""
     strength = np.linalg.svd(system, compute_uv=False)
     return bool(np.isfinite(strength).all() and strength[-1] > MIN_RELATIVE_EFFECT * strength[0])
 
@@ -209,7 +209,7 @@ def _center_jacobian(
 
 
 class _Problem:
-    """The center of one surface as a function of its points, and what comes of them."""
+    """The center of one surface as a function of its points."""
 
     def __init__(self, surface: Surface, shell: bool, across: NDArray, target: NDArray):
         triangles, _ = surface.all_triangles()
@@ -229,8 +229,8 @@ class _Problem:
         return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """(3,) the center, (r,) how far it is from its target, and (r, n, 3) its derivatives; None where the body has
-        turned inside out."""
+        """Return (3,) the center, (r,) its distances from the target, and (r, n, 3) its derivatives; None if the body
+        has turned inside out."""
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
             return None
@@ -244,7 +244,7 @@ class _Problem:
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
-        """MeasureError where a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must
+        """Raise MeasureError if a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must
         stay positive to s = 1."""
         moved = np.zeros(len(points), bool)
         moved[movable] = True
@@ -269,7 +269,7 @@ class _Problem:
 class _Fans:
     """The faces of a surface as triangles around the mean of each face's vertices; triangles stay as they are.
 
-    areas: (n,) what each vertex stands for, an equal share of each of its faces.
+    areas: (n,) the area for each vertex, an equal share of each of its faces.
     """
 
     def __init__(self, surface: Surface, shell: bool):
@@ -293,7 +293,7 @@ class _Fans:
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
         facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[owners]
-        self.opposed = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # where a face is not convex
+        self.opposed = (normals(self.points, fan) * facing).sum(axis=1) < 0.0  # Faces that are not convex.
         self.fan = fan
 
     def center_gradient(self, center: NDArray) -> NDArray[np.float64]:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Derivatives of moments to second order by every vertex, in one pass.
 
-A vertex that moves by δ carries its surface with it by λ δ, λ its barycentric coordinate, and what passes through the
+A vertex that moves by δ carries its surface with it by λ δ, λ its barycentric coordinate, and the flow through the
 surface is the change of the body (Reynolds): with N = (b-a) × (c-a) of each triangle around the vertex v,
 
     ∂/∂v ∫ f dV = Σ N ∫ f λ_v,   the integral over the unit triangle: f = 1: 1/6;   x: (s + x_v) / 24;
@@ -45,7 +45,7 @@ class Gradient:
     measure : Measure
         Volume or area.
     scale : (n,) array
-        What the triangles at a vertex add up to at most, where the integrand is one.
+        Upper bound of the sum over the triangles at a vertex, for the integrand one.
     reach : (3,) array
         Of the points from `about`.
     valence : int
@@ -69,7 +69,7 @@ class Gradient:
     valence: int
 
     def error(self) -> NDArray[np.float64]:
-        """Return bounds, (n, K), of what rounding may have changed each component by."""
+        """Return (n, K) bounds of the rounding of each component."""
         exponents = monomials(2)[: self.by_vertex.shape[1]]
         sizes = np.multiply.reduce(self.reach**exponents, axis=1)
         if self.measure == Measure.AREA:  # |N| ∂m has one power of the reach less and one of the sides more
@@ -124,7 +124,7 @@ def area_gradient(surface: Surface, about: ArrayLike, order: int = 2) -> Gradien
     Parameters
     ----------
     surface : Surface
-        A triangle without area has no derivative; what its vertices could give it is left out.
+        A triangle without area has no derivative; the area that its vertices could give it is left out.
     about : (3,) array_like
         The fixed point that the moments are about.
     order : int
@@ -192,7 +192,7 @@ def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int
 
 
 def _area_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int) -> Iterator[NDArray]:
-    """As `_volume_shares`, of areas."""
+    """Yield the shares as `_volume_shares`, of areas."""
     double = np.sqrt(np.einsum("im,im->m", normal, normal))
     unit = normal / np.where(double > 0.0, double, 1.0)
     total = local[0] + local[1] + local[2]

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume and center of bodies whose vertices are mixed from several shapes.
+"""Volume and center of bodies with vertices mixed from several shapes.
 
-Where every vertex is p + Σ v_k d_k, the moments of order n of the volume are polynomials of degree 3 + n in the mixing
+If every vertex is p + Σ v_k d_k, the moments of order n of the volume are polynomials of degree 3 + n in the mixing
 values v: the integral over a cone to a triangle is the determinant of its corners times a polynomial of degree n of
-them. So the moments of as many mixes as the polynomial has coefficients give those of all mixes, inside the range of
-the samples and beyond it.
+them. So the moments of as many mixes as the polynomial has coefficients give the moments of all mixes, inside the range
+of the samples and beyond it.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.surface import Surface
 from ..polyhedron.integration import polyhedron_moments
 
-DEGREE = 4  # of the first moments
-MIN_SHARE = 1e-6  # of a volume in the terms that it is the sum of, below which these cancel
+DEGREE = 4  # The degree of the first moments.
+MIN_SHARE = 1e-6  # Smaller volumes, relative to their terms, are lost to cancellation.
 
 
 @dataclass(frozen=True, eq=False)

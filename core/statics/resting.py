@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The poses in which a body rests on a plane, and how likely it is to end in each.
+"""The poses in which a body rests on a plane, and their probabilities.
 
-A rigid body rests on faces of its convex hull. It rests stably on those that have the foot of the center of mass
+A rigid body rests on faces of its convex hull. It rests stably on faces that have the foot of the center of mass
 inside; from any other face it tips over the edge that the foot is farthest outside of, onto the next face, and ends in
 a stable one, for the center sinks all the time. The share of a pose is the quasi-static estimate of Wiegley, Rao and
-Goldberg ("Computing a statistical distribution of stable poses for a polyhedron", Allerton 1992): all orientations
-are equally likely when the body is let go, the face below the center is the one that it lands on, so that its
-probability is the solid angle of the face seen from the center, and nothing bounces. A face that is not stable adds its
-probability to the face that the body tips onto.
+Goldberg ("Computing a statistical distribution of stable poses for a polyhedron", Allerton 1992): all orientations are
+equally likely when the body is let go, the face below the center is the one that it lands on, so that its probability
+is the solid angle of the face seen from the center, and nothing bounces. A face that is not stable adds its probability
+to the face that the body tips onto.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
 from .findings import CENTER_OUTSIDE_HULL, NO_STABLE_POSE
 
-PLANE_RTOL = 1e-6  # of the body's extent: corners that far from a plane are on it, margins below are none
-ALIKE_COSINE = 0.5  # of normals: across the edge of a face they differ by more, mostly
+PLANE_RTOL = 1e-6  # Relative to the body's extent: nearer corners are in a plane, smaller margins count as none.
+ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ by more.
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +90,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
         Its center of mass.
     tolerance : float
         Of the hull's largest extent: triangles with corners that near to one plane are one face, and faces with a
-        smaller margin are not stable. At least twice what points may be outside the hull.
+        smaller margin are not stable. At least twice the distance of points outside the hull.
 
     Returns
     -------
@@ -99,7 +99,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     Raises
     ------
     MeasureError
-        If the center is outside the hull, where no body can have it, or no pose is stable.
+        If the center is outside the hull, which no body allows, or no pose is stable.
 
     Examples
     --------
@@ -117,7 +117,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     if faces.heights.min() < -least or hull.is_flat and faces.margins.max() < -least:
         raise MeasureError(CENTER_OUTSIDE_HULL)
     shares = sums_by_index(faces.face, _solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
-    # Of a face that the center lies in the solid angle is not certain: it is what the others leave.
+    # A face that contains the center has an uncertain solid angle: it gets the rest of the others.
     around = faces.heights <= 1e-9 * extent
     if around.any():
         shares[around] = (1.0 - shares[~around].sum()) / np.count_nonzero(around)
@@ -175,11 +175,11 @@ def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
 def _coplanar(
     points: NDArray, triangles: NDArray, neighbors: NDArray, double: NDArray, least: float
 ) -> tuple[NDArray[np.intp], int]:
-    """(m,) the face that each triangle is part of, and how many there are.
+    """Return (m,) the face of each triangle, and the number of faces.
 
-    Neighbors are in one plane where the corner of the smaller one is in the plane of the larger. What is joined so but
-    is not in one plane after all, as slivers may join what they are between, is joined once more where neighbors face
-    alike; what is still in no plane, such as a fine rounding, stays apart.
+    Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. Groups joined so but not
+    in one plane after all, as slivers may join both their sides, are joined anew by neighbors that face alike; groups
+    still in no plane, such as a fine rounding, stay apart.
     """
     lengths = np.linalg.norm(double, axis=1)
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
@@ -195,7 +195,7 @@ def _coplanar(
     order = np.argsort(lengths, kind="stable")
 
     def joined(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """(m,) what each triangle is joined to by these pairs, and whether that is in no plane."""
+        """Return (m,) the group of each triangle, joined by these pairs, and a mask of groups in no plane."""
         face, count = connected_components(len(triangles), triangle[pairs], other[pairs])
         largest = np.empty(count, np.intp)
         largest[face[order]] = order  # the last one written is the largest

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a body stands: its support polygon and where the center of mass is over it.
+"""Standing bodies: the support polygon and the place of the center of mass over it.
 
 A rigid body at rest on a plane stands if the foot of the plumb line through its center is inside the convex hull of its
 contact points, the support polygon. The margin is the foot's distance from the nearest edge; about that edge the body
@@ -18,13 +18,13 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import check_filled, float_array
 
-CONTACT_RTOL = 1e-6  # of the body's extent: points that high above the lowest one touch the ground
-ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # of the corners' distances: what rounding makes of none
+CONTACT_RTOL = 1e-6  # Relative to the body's extent: points up to this height above the lowest one touch the ground.
+ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # Relative to the corners' distances: zero after rounding.
 
 
 @dataclass(frozen=True, eq=False)
 class Support:
-    """How a body stands on the ground, in the unit and the frame of its points.
+    """The stand of a body on the ground, in the unit and the frame of its points.
 
     Attributes
     ----------
@@ -35,9 +35,9 @@ class Support:
     height : float
         Of the center above the ground.
     margin : float
-        Distance of the foot from the nearest edge, negative where the foot is outside the polygon.
+        Distance of the foot from the nearest edge, negative if the foot is outside the polygon.
     direction : (3,) array
-        Unit vector on the ground: over the nearest edge, where the body tips first or falls to.
+        Unit vector on the ground: over the nearest edge, over which the body tips first or falls.
     up : (3,) array
         Unit vector against gravity.
 
@@ -59,12 +59,12 @@ class Support:
 
     @property
     def stands(self) -> bool:
-        """Whether the foot is inside the polygon. A body balanced on an edge, a line or a point does not stand."""
+        """True if the foot is inside the polygon. A body balanced on an edge, a line or a point does not stand."""
         return self.margin > 0.0
 
     @property
     def tipping_angle(self) -> float:
-        """By how much the ground can be tilted before the body tips, in radians; negative where it tips by itself."""
+        """The tilt of the ground at which the body tips, in radians; negative if it tips by itself."""
         return atan2(self.margin, self.height)
 
 
@@ -108,7 +108,7 @@ def find_support(
     down : (3,) array_like
         Direction of gravity.
     tolerance : float
-        Of the largest extent of the points: what is higher above the ground does not touch it.
+        Relative to the largest extent of the points: higher points do not touch the ground.
 
     Returns
     -------

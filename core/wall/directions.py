@@ -1,20 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the vertices of a surface go when its faces move along their normals.
+"""Offset directions: the movement of a surface's vertices if its faces move along their normals.
 
 Every vertex moves along a direction d that moves the planes of its faces by one: n·d = 1 for each normal n around it
-(Blender's Solidify calls that even thickness; on a cube it is the mitre). Where three planes or fewer meet, that is
-solved exactly, by the shortest d; planes that differ by less than about one degree count as one, for d would have to
-run far along the crease between them to meet both. Where more than three meet, there may be no such d: it is then the
+(Blender's Solidify calls that even thickness; on a cube it is the mitre). If three planes or fewer meet, that is solved
+exactly, by the shortest d; planes that differ by less than about one degree count as one, for d would have to run far
+along the crease between them to meet both. If more than three meet, there may be no such d: it is then the
 least-squares solution, each face weighed by its angle at the vertex, which does not depend on how flat faces are cut,
 and planes within about 15 degrees are taken as the round surface that they stand for: the vertex goes along their mean
-normal, and none of it slides along the surface. Where that would run behind one of the faces, d is the direction that
-is most in front of all of them (found by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
+normal, and none of it slides along the surface. If that would run behind one of the faces, d is the direction most in
+front of all of them (found by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
 
 Inside a flat side and along a straight edge a vertex may slide: that changes nothing of the planes. There d is made as
-even as it can be, Σ cot |d_i - d_j|² least, so that the finely cut sides of a thick-walled box do not fold over where
-its edges move inward: with the cotangent weights of Pinkall and Polthier (Experiment. Math. 2, 1993) the side shrinks
-as a whole.
+even as it can be, Σ cot |d_i - d_j|² least, so that the finely cut sides of a thick-walled box do not fold over if its
+edges move inward: with the cotangent weights of Pinkall and Polthier (Experiment. Math. 2, 1993) the side shrinks as a
+whole.
 """
 
 from __future__ import annotations
@@ -29,27 +29,26 @@ from ..mesh.edges import find_edges
 from ..moments.moments import U
 
 TRIANGLES_PER_BLOCK = 4096  # triangles at a time
-SAME_PLANE_RTOL = 1e-4  # of the largest eigenvalue of Σ θ n n': planes that span less are one, φ²/4 for two φ apart
-LEAST_SQUARES_RTOL = 2e-2  # the same where not all planes can be met
-SLIVER_RTOL = 1e-9  # of the longest side: a lower triangle has no normal to speak of
+SAME_PLANE_RTOL = 1e-4  # Of the largest eigenvalue of Σ θ n n', φ²/4 for planes φ apart: less is one plane.
+LEAST_SQUARES_RTOL = 2e-2  # The same if not all planes can be met.
+SLIVER_RTOL = 1e-9  # Relative to the longest side: lower triangles have no reliable normal.
 NOISY_HEIGHT_FACTOR = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
 UNEVEN_RTOL = 1e-6  # relative deviation from the thickness that counts as one
-MIN_ADVANCE = 0.1  # of the thickness: where a face would get less, its vertices look for a better direction
-MAXIMIN_STEPS = 400  # of the search for it
-RANK_RTOL = 1e-12  # of the largest eigenvalue: planes that span less are the same to rounding
+MIN_ADVANCE = 0.1  # Share of the thickness: if a face would get less, its vertices need a better direction.
+MAXIMIN_STEPS = 400  # Steps of the search for it.
+RANK_RTOL = 1e-12  # Relative to the largest eigenvalue: planes that span less are equal to rounding.
 SMOOTHING_STEPS, SMOOTHING_RTOL = 400, 1e-12  # steps, and what is left of the unevenness
 
 
 @dataclass(frozen=True, eq=False)
 class OffsetDirections:
-    """Where the vertices go for a unit of thickness.
+    """Offset directions: the displacement of each vertex per unit of thickness.
 
-    vectors: (n, 3), unit of the points per unit of thickness.
-    tangential_error, normal_error: (2, n) what rounding, and storing the points as float32, may have moved them by in
-    all, and along the
-        normals of their faces: to first order, as long as the same planes are distinguished, and not where the
-        direction is the one most in front.
-    has_normal: (m,) whether a triangle has a normal that is known; the others were not asked.
+    vectors: (n, 3), unit of the points per unit of thickness. tangential_error, normal_error: (2, n) bounds of their
+    changes by rounding, and by storing the points as float32, in all, and along the
+        normals of their faces: to first order, as long as the same planes are distinguished, and not for
+        directions found as most in front.
+    has_normal: (m,) True for triangles with a known normal; others were ignored.
     """
 
     vectors: NDArray[np.float64]
@@ -59,15 +58,15 @@ class OffsetDirections:
 
 
 def blocks(triangles: NDArray) -> Iterator[NDArray]:
-    """Pieces of triangles whose scratch stays in the cache."""
+    """Yield blocks of triangles, small enough that their scratch arrays stay in the cache."""
     return (triangles[start : start + TRIANGLES_PER_BLOCK] for start in range(0, len(triangles), TRIANGLES_PER_BLOCK))
 
 
 def offset_directions(
     points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0
 ) -> OffsetDirections:
-    """The direction of every vertex. points: (n, 3) float64, triangles: (m, 3), stored: what storing the points may
-    have moved them by."""
+    """Return the direction of every vertex. points: (n, 3) float64, triangles: (m, 3), stored: the bound of the points'
+    displacement by storing them."""
     count = len(points)
     normals, angles, noise, solid = (
         np.concatenate(column)
@@ -97,8 +96,8 @@ def offset_directions(
     thinnest = 1.0 / np.sqrt(np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
-        """(n, 3) directions across the planes that the eigenvalues above `least` span, (n,) how far from 1 n·d is on
-        average, and (n,) what moving the normals by one moves d by (Wedin, to first order)."""
+        """Return (n, 3) directions across the planes that the eigenvalues above `least` span, (n,) the mean deviation
+        of n·d from 1, and (n,) the movement of d per movement of the normals (Wedin, to first order)."""
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
         vectors = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right) + np.einsum(
@@ -177,17 +176,17 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
 
 
 def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
-    """(count,) the largest of the (k,) values in each group, zero where there is none."""
+    """Return (count,) the largest of the (k,) values in each group, zero for empty groups."""
     order = np.argsort(values)
     maximum = np.zeros(count)
-    maximum[group[order]] = values[order]  # of equal indices the last is kept
+    maximum[group[order]] = values[order]  # The last of equal indices wins.
     return maximum
 
 
 def _maximin_direction(
     vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
 ) -> None:
-    """Replace the vectors of the vertices `behind` by ones that are more in front of all their faces, where there are
+    """Replace the vectors of the vertices `behind` by ones that are more in front of all their faces, if there are
     such. low: (n,) the least n·d of each vertex now."""
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
@@ -213,8 +212,8 @@ def _maximin_direction(
 
 
 def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """(m, 3) unit normals, (m, 3) angles, (m, 2) what rounding and storing may turn the normal by, and (m,) whether
-    there is a normal, of (m, 3, 3) corners."""
+    """Return, from (m, 3, 3) corners, (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' turns by
+    rounding and storing, and (m,) a mask of existing normals."""
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])
     double = np.linalg.norm(normal, axis=1)

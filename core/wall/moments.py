@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The moments of a wall to any order.
 
-Both sides of a wall are polyhedra, and what joins them along the surface's boundary are bilinear patches: its moments
-are those of what they bound. Against the polynomials of `walls`, which end at third order, digits are lost: as many as
-the wall is thinner than the body, and the bounds say so.
+Both sides of a wall are polyhedra, joined by bilinear patches along the surface's boundary: its moments follow from
+these boundaries. Against the polynomials of `walls`, which end at third order, digits are lost: as many as the wall is
+thinner than the body, and the bounds say so.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     Returns
     -------
     Moments
-        To third order those of `OffsetSolid.moments`.
+        To third order from `OffsetSolid.moments`.
 
     Raises
     ------

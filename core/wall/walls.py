@@ -3,15 +3,15 @@
 """Walls: the material between a surface and its offset, with moments that are polynomials in the thickness.
 
 With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d, both linear on the
-triangle, with Jacobian J = Σ λ_k N(s)·d_k, where N(s) = (e + s f) × (e' + s f') is the normal of the triangle moved by
-s, e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1
-in the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over
-the triangle, coefficient by coefficient. Neighboring prisms share the ruled surface over their edge, so that their sum
-is the wall, with no gap.
+triangle, with Jacobian J = Σ λ_k N(s)·d_k, with N(s) = (e + s f) × (e' + s f') the normal of the triangle moved by s,
+e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1 in
+the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over the
+triangle, coefficient by coefficient. Neighboring prisms share the ruled surface over their edge, so that their sum is
+the wall, with no gap.
 
-J is linear in λ, hence positive on a prism exactly where its three quadratics N(s)·d_k in s are: their first roots are
+J is linear in λ, hence positive on a prism exactly if its three quadratics N(s)·d_k in s are: their first roots are
 the thickness at which the offset folds over. That is a local test: walls that run into each other far along the surface
-are looked for separately, one thickness at a time, and what two share counts twice.
+are looked for separately, one thickness at a time, and a volume that two share counts twice.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD, 
 
 ORDER = 3
 COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
-TOUCHING_RTOL = 1e-6  # of the size: nearer sides touch
-MAX_UNORIENTED_SHARE = 0.01  # of the area: above it, too many faces have lost their direction for a wall
+TOUCHING_RTOL = 1e-6  # Relative to the size: nearer sides touch.
+MAX_UNORIENTED_SHARE = 0.01  # Share of the area: above it, too many faces have lost their direction for a wall.
 JACOBIAN_ROUNDINGS = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
 INNER_NODES, OUTER_NODES = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate(
@@ -50,24 +50,24 @@ WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 
 @dataclass(frozen=True, eq=False)
 class OffsetSolid:
-    """What a surface sweeps when it moves along its directions by s, per unit of s, as polynomials in s.
+    """The solid that a surface sweeps as it moves along its directions by s, per unit of s, as polynomials in s.
 
     Attributes
     ----------
     points, vectors, triangles : (n, 3), (n, 3) and (m, 3) arrays
-        What moves where.
+        The moving surface and its directions.
     about : (3,) array
         The point that the moments are about.
     coefficients, rounding_error, input_error : (20, 6) arrays
-        Of s^0 to s^5 for each moment to third order: the coefficients, and bounds for positive and negative s of what
-        rounding and storing the points as float32 may have changed.
+        Of s^0 to s^5 for each moment to third order: the coefficients, and bounds for positive and negative s of the
+        changes by rounding and by storing the points as float32.
     swept_bound, swept_rounding : (4,) arrays
-        Of s^0 to s^3: what a side, and what joins both along the boundary, sweep at most when storing the points as
-        float32 moves them, or rounding; this bounds the changes as `input_error` does.
+        Of s^0 to s^3: bounds of the volume that a side, and the strip along the boundary, sweep if storing the points
+        as float32, or rounding, moves them; this bounds the changes as `input_error` does.
     reach : (2, 3) array
         Of the points from `about` and of the vectors, by axis.
     outward, inward : float
-        How far the surface can move before a prism folds over, infinite where none does.
+        Distance that the surface can move before a prism folds over, infinite if none does.
     outward_at, inward_at : int
         The triangles that fold first, -1 for none.
     inexact_vertices : int
@@ -155,7 +155,7 @@ class OffsetSolid:
         ) or self._overlaps(points, tolerance)
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
-        """Whether the walls of parts reach into one another or into themselves, where no edge need pierce a face: skins
+        """Return whether the walls of parts reach into one another or themselves, even if no edge pierces a face: skins
         that have moved past each other, or that are flush. Each wall is a closed body: both its sides and the strip
         along its boundary."""
         part, number = connected_components(
@@ -331,7 +331,7 @@ def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integ
 
 
 class _Prisms:
-    """What (m, 3, 3) corners sweep along their (m, 3, 3) directions; columns are prisms."""
+    """Prisms swept by (m, 3, 3) corners along their (m, 3, 3) directions; columns are prisms."""
 
     def __init__(self, points: NDArray, about: NDArray, vectors: NDArray):
         a, b, c = points.transpose(1, 2, 0)  # corner, axis, prism
@@ -353,8 +353,7 @@ class _Prisms:
         )
 
     def jacobians(self) -> tuple[NDArray, NDArray, NDArray]:
-        """(3, 3, m) coefficients in s of J at each corner, (3, m) what rounding may have changed them by, and (m,)
-        |N(0)|."""
+        """Return (3, 3, m) coefficients in s of J at each corner, (3, m) bounds of their rounding, and (m,) |N(0)|."""
         return self.own_size, JACOBIAN_ROUNDINGS * U * self._sizes(), self.double
 
     def _sizes(self) -> NDArray[np.float64]:
@@ -381,10 +380,10 @@ class _Prisms:
         return sums
 
     def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
-        """(3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are zero.
-        Second row: by how much J changes where directions move by slide[0], (m,), and by lift[0] along the normals,
-        three; and the sizes of J times the move of x, four. Third row: the same where directions move by slide[1] and
-        lift[1], and points by `stored`."""
+        """Return (3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are
+        zero. Second row: the change of J if directions move by slide[0], (m,), and by lift[0] along the normals, three;
+        and the sizes of J times the move of x, four. Third row: the same if directions move by slide[1] and lift[1],
+        and points by `stored`."""
         sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
         long, turned, far = self.long, self.turned_length, self.far
@@ -400,8 +399,8 @@ class _Prisms:
         return np.add.reduce(np.array(coefficients), axis=2) / 2.0
 
     def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
-        """(4,) coefficients in s of what the triangles and what they have become at s sweep together, when points move
-        by `stored` and directions by `tangential_error` in all and `normal_error` along the normals."""
+        """Return (4,) coefficients in s of the volume swept by the triangles and their images at s, if points move by
+        `stored` and directions by `tangential_error` in all and `normal_error` along the normals."""
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
         rest = [normal - along * unit for normal, along in zip(self.normals, height)]
@@ -422,8 +421,8 @@ class _Prisms:
 def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
 ) -> NDArray[np.float64]:
-    """(4,) coefficients in s of what the strips along the boundary sweep when points move by `stored` and directions by
-    `slide`."""
+    """Return (4,) coefficients in s of the volume swept by the strips along the boundary if points move by `stored` and
+    directions by `slide`."""
     boundary = find_edges(triangles).boundary_sides()
     start, stop = triangles.ravel()[boundary], np.roll(triangles, -1, axis=1).ravel()[boundary]
     ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
@@ -460,10 +459,10 @@ def _propagate_error(
 
 
 def first_positive_root(jacobian: NDArray, error: NDArray) -> NDArray[np.float64]:
-    """(m,) the s up to which three quadratics a + b s + c s² are certainly positive, infinite where they always are.
+    """Return (m,) the s up to which three quadratics a + b s + c s² are certainly positive, infinite if always.
 
-    jacobian: (3, 3, m) their coefficients a, b and c; error: (3, m) what rounding may have raised these by, which is
-    taken off. A discriminant that rounding alone may have made negative counts as zero. The largest root of
+    jacobian: (3, 3, m) their coefficients a, b and c; error: (3, m) the bounds of their rounding, which are taken off.
+    A discriminant that rounding alone may have made negative counts as zero. The largest root of
     a y² + b y + c is 1 / s.
     """
     a, b, c = jacobian - error[:, None]

@@ -27,8 +27,8 @@ Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
 def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
-    """Return points (meters, the file's axes), triangles, and the rotation to z up, None where z is up. Raises
-    ValueError, KeyError or FileError where there are none."""
+    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up. Raises ValueError,
+    KeyError or FileError if there are none."""
     root = parse(data)
     for node in root.walk():
         node.tag = node.tag.rpartition("}")[2]
@@ -50,7 +50,7 @@ def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
 
 
 def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArray]]:
-    """The geometries of the scene and where they stand; all of them, as they are, where there is no scene."""
+    """Yield the geometries of the scene and their places; all of them, as they are, if there is no scene."""
     scene = root.find("scene", "instance_visual_scene")
     visual = by_id.get(scene.get("url").removeprefix("#")) if scene else None
     if visual is None:

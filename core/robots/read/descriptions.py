@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A file of a robot as a description, by what is in it."""
+"""Descriptions of robots from files of all formats, recognized by their content."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ SUFFIXES = (".urdf", ".sdf", ".xml", ".usda", ".usd", ".world")
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return what a file states of a robot.
+    """Return the description of a robot in a file.
 
     Parameters
     ----------
     path : Path
     roots : Roots, optional
-        Where files that it includes may be, by default where its meshes may.
+        Places of files that it includes, by default the allowed places of its meshes.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     Raises
     ------
     FileError
-        Where it is none, or is refused.
+        If it is none, or is refused.
     """
     data = _bytes(path)
     description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.of(path))
@@ -88,7 +88,7 @@ def _xml(data: bytes, roots: Roots) -> Description:
 
 
 def _narrow(data: bytes) -> bytes:
-    """XML of two bytes a character as UTF-8, so that what is repaired can be put among its bytes."""
+    """Return XML of two bytes a character as UTF-8, so that repairs can be put among its bytes."""
     wide = next((name for start, name in _WIDE.items() if data.startswith(start)), None)
     if wide is None:
         return data
@@ -100,7 +100,7 @@ def _narrow(data: bytes) -> bytes:
 
 def _include(root: Node, roots: Roots) -> None:
     """Put the elements of the files that an MJCF model includes in the place of each `include`. They have no place in
-    the model's own file, so what they state is judged and not repaired."""
+    the model's own file, so their inertials are judged and not repaired."""
     included, left = set(), MAX_DESCRIPTION
     waiting = [root]
     while waiting:
@@ -120,7 +120,7 @@ def _include(root: Node, roots: Roots) -> None:
             left -= len(data)
             if left < 0:
                 raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
-            if path in included:  # as MuJoCo does; so it cannot go round in a circle
+            if path in included:  # MuJoCo refuses that too; so includes cannot go round in a circle.
                 raise FileError(INCLUDE_TWICE, name=name)
             included.add(path)
             found = parse(data)
@@ -129,5 +129,5 @@ def _include(root: Node, roots: Roots) -> None:
             children += found.children
             waiting += found.children
         node.children = children
-        if any(child.tag == "include" for child in children):  # what was included includes more
+        if any(child.tag == "include" for child in children):  # The included file includes more.
             waiting.append(node)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much a description or a mesh may ask for."""
+"""Limits of the resources for a description or a mesh."""
 
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_MESH = 1 << 30  # bytes

@@ -29,19 +29,19 @@ _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _DAMAGE = (
     *(ValueError, IndexError, KeyError, TypeError, OverflowError, RecursionError, struct.error),
-    AttributeError,  # of JSON that has a text or a number where others have an object
+    AttributeError,  # JSON with a text or a number in the place of an object.
 )
 Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 
 
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
-    """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up, where it
+    """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up, if it
     says that another axis is up, which readers obey or not.
 
     Raises
     ------
     FileError
-        Where it cannot be read.
+        If it cannot be read.
     """
     reader = READERS.get(path.suffix.lower())
     if reader is None:

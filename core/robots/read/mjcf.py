@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""MJCF: what its bodies state. Defaults by class, the compiler's angles and Euler order, and mesh folders count."""
+"""MJCF: the statements of its bodies. Defaults by class, the compiler's angles and Euler order, and mesh folders
+count."""
 
 from __future__ import annotations
 

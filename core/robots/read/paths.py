@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the meshes of a description are: never outside of the folders that were allowed."""
+"""Places of a description's meshes: never outside of the allowed folders."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from pathlib import Path
 from ...verdict.finding import FileError
 from ..findings import MESH_MISSING, MESH_ON_NETWORK, MESH_OUTSIDE
 
-_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # of one letter are drives
+_SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # Schemes of one letter are drives.
 MAX_LEVELS = 4  # folders up to where a package may begin
 
 
 @dataclass(frozen=True)
 class Roots:
-    """The folders that may be read from. anywhere: whether any may."""
+    """The folders that may be read from. anywhere: True if any may."""
 
     folders: tuple[Path, ...]
     anywhere: bool = False
 
     @classmethod
     def of(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
-        """Return those of a description: its own folder, that of the package it is in, and what was given besides."""
+        """Return the roots of a description: its own folder, its package's folder, and `more`."""
         folder = Path(os.path.realpath(file)).parent
         folders = [folder]
         for above in [folder, *folder.parents][:MAX_LEVELS]:
@@ -41,7 +41,7 @@ class Roots:
         Raises
         ------
         FileError
-            Where it is not there, not allowed, or on a network.
+            If it is not there, not allowed, or on a network.
         """
         name = name.replace("\\", "/")
         match = _SCHEME.fullmatch(name)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""URDF: what its links state."""
+"""URDF: the statements of its links."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """USD as text: rigid bodies with PhysicsMassAPI, and the meshes and primitives below them.
 
-What this reads is one layer: prims, their metadata and attributes. Layers that it refers to are not opened.
+Only one layer is read: prims, their metadata and attributes. Layers that it refers to are not opened.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ class Prim:
     children: list[Prim] = field(default_factory=list)
 
     def numbers(self, name: str) -> NDArray[np.float64] | None:
-        """Return the numbers of an attribute, None where it has none. Raises ValueError with a text that is none."""
+        """Return the numbers of an attribute, None if it has none. Raises ValueError with a text that is none."""
         if self.values.get(name, "None") == "None":
             return None
         return np.array([parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64)
 
     def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
-        """Return the numbers of an attribute, as many as its default has. Raises ValueError where there are others."""
+        """Return the numbers of an attribute, as many as its default has. Raises ValueError if the count differs."""
         values, count = self.numbers(name), len(default)
         if values is None:
             return np.array(default, np.float64)
@@ -81,12 +81,12 @@ class _Parser:
         return self.tokens[self.index][0] if self.index < len(self.tokens) else ""
 
     def take(self) -> tuple[str, int]:
-        """The next token and where it stands. Raises IndexError where the text ends."""
+        """Return the next token and its position. Raises IndexError if the text ends."""
         self.index += 1
         return self.tokens[self.index - 1]
 
     def balanced(self) -> tuple[int, int]:
-        """Skip what one bracket opens; where it stands."""
+        """Skip the content of one bracket; return its range."""
         depth, start = 0, self.tokens[self.index][1]
         while True:
             token, position = self.take()
@@ -147,7 +147,7 @@ class _Parser:
 
 
 def read(data: bytes) -> Description:
-    """Return a description of a layer's bodies. Raises FileError where it is no text of USD."""
+    """Return a description of a layer's bodies. Raises FileError if it is no text of USD."""
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -193,7 +193,7 @@ def _visit(
 
 
 def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
-    """(4, 4) of what its operations and those above it do, column vectors."""
+    """Return the (4, 4) matrix of its operations and the ones above it, for column vectors."""
     matrix = above
     for inverse, name in re.findall(r'"(!\w+!)?([\w:]*)"', prim.values.get("xformOpOrder", "")):
         if inverse == "!resetXformStack!":
@@ -263,7 +263,7 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
 
 
 def _collect(prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]) -> None:
-    """The geometry of a body: what is below it, up to the next body. matrix: the prim's in the world."""
+    """Collect the geometry of a body: the prims below it, up to the next body. matrix: the prim's in the world."""
     shape = _shape(prim, to_link @ matrix, unit)
     if shape is not None:
         shapes.append(shape)

@@ -54,7 +54,7 @@ class Node:
             waiting.extend(reversed(node.children))
 
     def texts(self) -> Iterator[str]:
-        """Yield its text and those of its attributes."""
+        """Yield its text and the values of its attributes."""
         yield self.text
         yield from self.attributes.values()
 
@@ -90,7 +90,7 @@ class _Builder:
 
     def _end(self, _tag: str) -> None:
         node, end = self.open.pop(), self.parser.CurrentByteIndex
-        # of <a/> that is behind it, of others at </a>
+        # The index is behind <a/>, but at </a> of other elements.
         is_empty = self.data[end - 2 : end] == b"/>" and end == _end_of_tag(self.data, node.start)
         node.end = end if is_empty else _end_of_tag(self.data, end)
 
@@ -104,7 +104,7 @@ def _end_of_tag(data: bytes, start: int) -> int:
 
 
 def parse(data: bytes) -> Node:
-    """Return the root of a document. Raises FileError where it is none, or is refused."""
+    """Return the root of a document. Raises FileError if it is none, or is refused."""
     builder = _Builder(data)
     try:
         builder.parser.Parse(data, True)

@@ -19,7 +19,7 @@ from .stl import write_meshes
 
 WRITERS: dict[str, ModuleType] = {"urdf": urdf, "sdf": sdf, "mjcf": mjcf, "usd": usd, "gltf": gltf_robot}
 OF_INERTIALS = {MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL}  # all else is said of geometry and joints
-EMBEDDING = ("usd", "gltf")  # what holds meshes itself; the others name files of them
+EMBEDDING = ("usd", "gltf")  # These formats hold meshes themselves; the others name files of them.
 
 
 def with_geometry(
@@ -45,7 +45,7 @@ def robot_text(
     *,
     inertial_only: bool = False,
 ) -> tuple[str, list[Finding]]:
-    """Return a robot in one of the formats, and what is to be said about it, which stands in the text as well.
+    """Return a robot in one of the formats, and findings about it, which stand in the text as well.
 
     findings: about the robot, whatever the format. inertial_only: without geometry and joints.
     """

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rigid bodies in a glTF file that Blender's exporter has written: KHR_physics_rigid_bodies and OMI_physics_body.
 
-The nodes stay as they are; those of bodies get the two extensions. Blender's z up is glTF's y up: (x, y, z) becomes
-(x, z, -y). Blender writes its own units as meters, whatever the scene's unit scale, so a node above all others scales
-them. A body that others are fixed to has the mass of all of them; nodes without a motion of their own move with the one
+The nodes stay as they are; nodes of bodies get the two extensions. Blender's z up is glTF's y up: (x, y, z) becomes (x,
+z, -y). Blender writes its own units as meters, whatever the scene's unit scale, so a node above all others scales them.
+A body that others are fixed to has the mass of all of them; nodes without a motion of their own move with the one
 above.
 """
 
@@ -25,12 +25,12 @@ from ..model import Inertial, Robot
 
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-UNIFORM_RTOL = 1e-6  # of scales that float32 rounding alone sets apart
+UNIFORM_RTOL = 1e-6  # Relative; for scales that differ by float32 rounding alone.
 _GLB, _JSON = 0x46546C67, 0x4E4F534A
 
 
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
-    """Return what both extensions call a motion, in the axes of the file.
+    """Return the entry `motion` of both extensions, in the axes of the file.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
 
 
 def read_json(data: bytes) -> dict[str, Any]:
-    """Return the document of a .gltf or .glb file that Blender has written. Raises FileError where it is none."""
+    """Return the document of a .gltf or .glb file that Blender has written. Raises FileError if it is none."""
     try:
         if data[:4] != b"glTF":
             return json.loads(data)
@@ -115,7 +115,7 @@ def read_json(data: bytes) -> dict[str, Any]:
 
 
 def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
-    """Return the file with another document; what else a .glb holds stays to the bit."""
+    """Return the file with another document; the rest of a .glb stays to the bit."""
     text = json.dumps(document, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
     if data[:4] != b"glTF":
         return json.dumps(document, ensure_ascii=False, indent="\t", allow_nan=False).encode() + b"\n"

@@ -3,8 +3,8 @@
 """A robot as a glTF file of its own, as text: a node for each link, with joints of KHR_physics_rigid_bodies.
 
 Every link is a body, in meters and with y up. A joint's node stands in the parent's and its connected node in the
-child's, both where the child's frame is, turned so that axes of freedom are axes of theirs; what is not free is limited
-to nothing. Meshes are embedded: glTF knows no files of other formats.
+child's, both in the place of the child's frame, turned so that axes of freedom are axes of theirs; fixed directions are
+limited to nothing. Meshes are embedded: glTF knows no files of other formats.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ SHAPES = "KHR_implicit_shapes"
 
 
 def check(robot: Robot) -> list[Finding]:
-    """Return what the format cannot say."""
+    """Return findings about content that the format cannot express."""
     return ellipsoids_as_boxes(robot)
 
 
@@ -69,7 +69,7 @@ class _Document:
             self._add_shape(index, link, shape)
 
     def _node(self, name: str, pose: Pose, parent: int | None = None, turn: NDArray | None = None) -> int:
-        """A node. turn: of its own axes, beside those of the pose."""
+        """Add a node and return its index. turn: a rotation of its own axes, beside the pose's."""
         rotation = Y_UP @ pose.rotation @ Y_UP.T
         node: dict[str, Any] = {"name": name}
         if pose.position.any():
@@ -153,7 +153,7 @@ class _Document:
 
 
 def _implicit(shape: Shape) -> dict[str, Any]:
-    """A shape of KHR_implicit_shapes, whose long axis is y, which is our z."""
+    """Return a shape of KHR_implicit_shapes; its long axis y is our z."""
     if shape.kind == "box":
         x, y, z = shape.size
         return {"type": "box", "box": {"size": [x, z, y]}}
@@ -164,7 +164,7 @@ def _implicit(shape: Shape) -> dict[str, Any]:
 
 
 def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
-    """What is not free is held, what is limited has its limits."""
+    """Return the limits of a joint: fixed directions are held, limited ones have their range."""
     held = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
     limits: list[dict[str, Any]] = []
     for free in joint.free:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the files about robots that we write begin with. Standard library only."""
+"""Beginnings of the files about robots that we write. Standard library only."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ _HEAD = re.compile(
 
 
 def is_audit(head: bytes) -> bool:
-    """Whether this is the beginning of an audit's report as a table or a page."""
+    """Return whether this is the beginning of an audit's report as a table or a page."""
     first = head.split(b"\n", 1)[0].rstrip(b"\r")
     return first in (",".join(AUDIT_COLUMNS).encode(), AUDIT_PAGE.encode())
 
 
 def is_ours(head: bytes) -> bool:
-    """Whether this is the beginning of a file that we have written."""
+    """Return whether this is the beginning of a file that we have written."""
     return bool(_HEAD.match(head))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """MJCF, for MuJoCo. The inertia is written as principal pair, `diaginertia` and `quat`: its test that no principal
-moment exceeds the sum of the others has no tolerance, and what it finds from a `fullinertia` is off by rounding, which
+moment exceeds the sum of the others has no tolerance, and its moments of a `fullinertia` are off by rounding, which
 refuses thin plates."""
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
 
 
 def check(robot: Robot) -> list[Finding]:
-    """Return what MuJoCo refuses, and what the format cannot say."""
+    """Return findings about content that MuJoCo refuses or the format cannot express."""
     least = {
         link.name: float(min(link.inertial.mass, link.inertial.moments[0]))
         for link in robot.links
@@ -93,7 +93,8 @@ def _add_place(element: Element, pose: Pose) -> None:
 
 
 def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
-    """A root moves freely, where it has mass; several degrees of freedom are several joints of one body."""
+    """Add the joints of a link. A root with mass moves freely; several degrees of freedom are several joints of one
+    body."""
     if joint is None:
         if any(part.inertial is not None for part in robot.rigid_parts(link)):
             SubElement(body, "freejoint")

@@ -20,7 +20,7 @@ _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 
 def check(robot: Robot) -> list[Finding]:
-    """Return what the format cannot say."""
+    """Return findings about content that the format cannot express."""
     lost = [joint.name for joint in robot.joints if _joint_type(joint) == "ball" and not joint.is_ball]
     return [finding(SDF_LIMITS_LOST, count=len(lost), joints=lost)] if lost else []
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What links look like and collide as: their meshes, the primitives of their inertia, or nothing."""
+"""Visual and collision shapes of links: their meshes, the primitives of their inertia, or nothing."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ def box_of_ellipsoid(shape: Shape) -> Shape:
 
 
 def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
-    """Return what a format without ellipsoids says of a robot that has some."""
+    """Return the finding of a format without ellipsoids about a robot that has some."""
     names = [link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)]
     return [finding(ROBOT_ELLIPSOID_AS_BOX, count=len(names), links=names)] if names else []
 
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
-    """Return a robot whose meshes hold their surfaces, and a finding about the links that have none.
+    """Return a robot with surfaces in its meshes, and a finding about the links that have none.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 
 
 def with_primitives(robot: Robot, kind: str) -> Robot:
-    """Return a robot whose links have a primitive each in the place of their geometry.
+    """Return a robot with one primitive in the place of each link's geometry.
 
     Parameters
     ----------

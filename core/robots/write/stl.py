@@ -53,7 +53,7 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
     read : Path, optional
         A file that is read, and never replaced.
     force : bool
-        Whether files that are no meshes of ours may be replaced.
+        True to replace even files that are no meshes of ours.
 
     Returns
     -------
@@ -89,8 +89,8 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
 
 
 def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
-    """Return the file of each link's mesh, relative to the robot's own file, whose name without suffix is `stem`; names
-    differ by more than upper case."""
+    """Return the file of each link's mesh, relative to the robot's own file `stem` plus suffix; names differ by more
+    than upper case."""
     files = unique_names(names, _file_name)
     return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}
 

@@ -36,7 +36,7 @@ def xml_text(text: str) -> str:
 
 
 def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iterable[str] = ()) -> dict[str, str]:
-    """What each name becomes: what `rename` makes of it, numbered where another one has that already."""
+    """Return the new name of each name, by `rename`, numbered if another one has that already."""
     used, result = set(taken), {}
     for name in names:
         base = candidate = rename(name)
@@ -50,8 +50,8 @@ def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iter
 
 
 def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
-    """Angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn. The roll is what the yaw leaves,
-    so that they give the rotation back where both turn about all but one axis."""
+    """Angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn. The roll is found after the yaw,
+    so that they give the rotation back even if both turn about nearly the same axis."""
     yaw = atan2(rotation[1, 0], rotation[0, 0])
     pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
     roll = atan2(
@@ -61,7 +61,7 @@ def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
 
 
 def is_identity(pose: Pose) -> bool:
-    """Whether two frames are the same."""
+    """Return whether two frames are the same."""
     return not pose.position.any() and bool((pose.rotation == np.eye(3)).all())
 
 

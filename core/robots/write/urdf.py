@@ -24,7 +24,7 @@ EFFORT, VELOCITY = 1e6, 1e3
 
 
 def check(robot: Robot) -> list[Finding]:
-    """Return what the format cannot say."""
+    """Return findings about content that the format cannot express."""
     findings = []
     if len(robot.roots) > 1:
         findings.append(finding(ROBOT_BASE_ADDED, count=len(robot.roots), name=BASE))

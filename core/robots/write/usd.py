@@ -26,13 +26,13 @@ from .text import number, unique_names
 
 ROOT = "Robot"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
-LEAST = float(np.finfo(np.float32).tiny)  # of what float32 holds with all its digits
+LEAST = float(np.finfo(np.float32).tiny)  # Least number that float32 holds with all its digits.
 _NO_IDENTIFIER = re.compile(r"\W")
 _INDENT = "    "
 
 
 def check(robot: Robot) -> list[Finding]:
-    """Return what single precision cannot hold."""
+    """Return findings about numbers that single precision cannot hold."""
     small = [
         link.name for link in robot.links if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
     ]
@@ -133,8 +133,8 @@ def header(
 
 
 def identifier(name: str) -> str:
-    """The name of a prim, as Blender's exporter makes it of an object's name: an underscore for what is no letter or
-    digit, and before a digit."""
+    """Return the name of a prim, as Blender's exporter makes it of an object's name: an underscore for each other
+    character than letters and digits, and before a digit."""
     name = _NO_IDENTIFIER.sub("_", name)
     return name if name.isidentifier() else "_" + name
 
@@ -153,7 +153,7 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
     meters_per_unit : float
         Of the stage.
     scale : (3,) array_like
-        Of the prim, whose local space the center is in.
+        Scale of the prim; the center is in its local space.
 
     Returns
     -------
@@ -263,7 +263,7 @@ def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
-    """A joint whose frame is the child's. One of several degrees of freedom is a general one with limits."""
+    """Return a joint in the child's frame. One of several degrees of freedom is a general one with limits."""
     child, parent = robot.link(joint.child), robot.link(joint.parent)
     place = parent.pose.inverse() @ child.pose
     turn = np.eye(3)
@@ -296,7 +296,7 @@ def _in_degrees(kind: str, value: float) -> float:
 
 
 def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
-    """What limits each of the six directions; one that is locked has a lower limit above the upper one."""
+    """Return the limits of each of the six directions; a locked one has a lower limit above the upper one."""
     limits = {"{}{}".format(kind, axis): (1.0, -1.0) for kind in ("trans", "rot") for axis in "XYZ"}
     for free in joint.free:
         kind = "rot" if free.kind == "rotate" else "trans"
