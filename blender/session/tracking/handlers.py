@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's reports while a file is open, heard once, and passed on to all of the session.
 
-These are the add-on's application handlers, except that of `blender/write/translations.py`. A subscriber appends a plain function to one of the lists below when
-it is registered, and removes it when it is unregistered; one that follows only some objects does so while there are
-any. A subscriber never writes data while Blender evaluates: that would be reported as the next change. Only before a
-file is saved may it write, and the written data are saved.
+These are the add-on's application handlers, except that of `blender/write/translations.py`. A subscriber appends a
+plain function to one of the lists below when it is registered, and removes it when it is unregistered; one that
+follows only some objects does so while there are any. A subscriber never writes data while Blender evaluates: that
+would be reported as the next change. Only before a file is saved may it write, and the written data are saved.
 """
 
 from __future__ import annotations
