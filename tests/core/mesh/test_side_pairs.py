@@ -86,7 +86,7 @@ def test_faces_at_random_are_judged_as_by_a_search():
     """
     beside = bodies.torus(40, 30)
     proved = 0
-    for _ in range(200):
+    for _ in range(80):
         count = int(RNG.integers(4, 7))
         points, faces = bodies.sphere(0) if RNG.random() < 0.5 else bodies.box()
         extra = RNG.integers(0, count, (2 * int(RNG.integers(0, 3)), 3))
@@ -96,4 +96,4 @@ def test_faces_at_random_are_judged_as_by_a_search():
             across, expected = faces_across_sides(mesh, used), across_by_search(mesh)
             assert (None if across is None else across.tolist()) == expected
         proved += expected is not None
-    assert 30 < proved < 170
+    assert 10 < proved < 70
