@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`audit`: what robot descriptions state of their links, judged by the links' own geometry."""
+"""`audit`: comparison of the inertials in robot descriptions with the links' own geometry."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ exit code: 0 nothing but notes, 1 warnings or errors, or a file that cannot be r
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
-    """The options of `audit`. Raises SystemExit(2), or HelpRequested."""
+    """Return the options of `audit`. Raises SystemExit(2), or HelpRequested."""
     parser = Parser(
         prog="body_moments",
         usage="body_moments audit [options] FILE ...",
@@ -70,7 +70,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[str, int, int]:
-    """The report; how many files have warnings, errors or could not be read; how many faults are ours."""
+    """Return the report, the number of files with warnings, errors or a failure, and the number of our own
+    faults."""
     documents, faults, internal = [], 0, 0
     copies: set[str] = set()
     for path in options.files:
@@ -102,7 +103,7 @@ def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict
 
 
 def summary(document: dict[str, Any]) -> Any:
-    """How many findings a document has, as a finding."""
+    """Return a finding that counts the findings of a document."""
     levels = [found["severity"] for link in document["links"] for found in link["findings"]]
     counts = {str(level) + "s": levels.count(level) for level in Severity}
     return finding(AUDIT_DONE, links=len(document["links"]), **counts)

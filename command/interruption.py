@@ -20,9 +20,8 @@ _requested = False
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Within the block Ctrl+C raises KeyboardInterrupt, also in `blender -b`, which would only note it. Where it is
-    ignored, as in the background of a shell, it stays so.
-    """
+    """Raise KeyboardInterrupt on Ctrl+C within the block, also in `blender -b`, which would only note it. An ignored
+    signal, as in the background of a shell, stays ignored."""
     global _requested
     _requested = False
     try:
@@ -39,18 +38,16 @@ def interruptible() -> Iterator[None]:
 
 
 def check_interruption() -> None:
-    """Raises KeyboardInterrupt where that was asked for: an importer that is written in Python makes an error of its
-    own of the exception.
-    """
+    """Raise KeyboardInterrupt if it was requested: importers written in Python turn the exception into their own
+    error."""
     if _requested:
         raise KeyboardInterrupt
 
 
 @contextmanager
 def stopped_by_signals() -> Iterator[None]:
-    """Within the block the signals that ask a process to end raise KeyboardInterrupt too, and of all of them only the
-    first does: what it stops is not disturbed while it cleans up.
-    """
+    """Raise KeyboardInterrupt within the block on every signal that asks a process to end. Only the first counts:
+    nothing disturbs the cleanup after it."""
     names = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
     numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
     before = {}
@@ -78,7 +75,7 @@ def _interrupt(_number: int, _frame: object) -> None:
 
 
 class Progress:
-    """Counts what is read from a file, samples or faces, and reports their number every `PERIOD` seconds by the message
+    """A counter of samples or faces read from a file, which reports their number every `PERIOD` seconds by the message
     of that code."""
 
     def __init__(self, file: str, code: str = PROGRESS_SAMPLES) -> None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the parsers of all commands share; the options of `measure` are in `measure_parser`."""
+"""The parser class of all commands; the options of `measure` are in `measure_parser`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ class HelpRequested(Exception):
 
 
 class Parser(argparse.ArgumentParser):
-    """One that escapes control characters, as names of files may have, and leaves it to its caller where help goes."""
+    """A parser that escapes control characters, as names of files may have, and leaves the output of help to its
+    caller."""
 
     def print_help(self, file: object = None) -> NoReturn:
         raise HelpRequested(self.format_help())

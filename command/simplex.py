@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`simplex`: moments in n dimensions of what simplices fill, or of what they enclose as its boundary."""
+"""`simplex`: moments in n dimensions of the body that simplices fill, or enclose as its boundary."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ exit code: 0 measured, 1 the file cannot be measured, 2 wrong usage, 3 interrupt
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
-    """The options of `simplex`. Raises SystemExit(2), or HelpRequested."""
+    """Return the options of `simplex`. Raises SystemExit(2), or HelpRequested."""
     parser = Parser(
         prog="body_moments",
         usage="body_moments simplex FILE.npz [--order N] [--about X,Y,...] [--boundary]",
@@ -67,7 +67,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> str:
-    """The record. Raises MeasureError and OSError."""
+    """Return the record. Raises MeasureError and OSError."""
     points, simplices, signs = _read(options.file)
     dimension = points.shape[1]
     if comb(dimension + options.order, dimension) > MAX_MOMENTS:

@@ -33,15 +33,15 @@ from ..measure.objects import failure
 from ..options.file import OF_ARRAYS, unit_findings, unused_array_options, unused_options
 from .files import STREAMED, check_file, file_suffix
 
-BYTES_PER_FACE = 500  # of memory that importing and measuring a mesh takes, about
+BYTES_PER_FACE = 500  # approximate memory for importing and measuring a mesh
 BYTES_OF_FILE = {".stl": 50, ".ply": 19}  # for each face, at least: a file that is smaller has fewer faces
 _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 
 
 @dataclass
 class BareFile:
-    """One such file. options: of the command line. measured: name and measurement, where there is one. refusal: why
-    there is none."""
+    """A file measured without Blender. options: of the command line. measured: name and measurement, if any. refusal:
+    the reason if there is none."""
 
     path: str
     options: Namespace
@@ -51,7 +51,7 @@ class BareFile:
     refusal: MeasureError | None = None
 
     def measure(self, measure_options: MeasureOptions, progress: Callable[[str, str], Callable[[int], None]]) -> None:
-        """Measure it. progress: makes what counts the samples or faces that are read from a file."""
+        """Measure the file. progress: returns a counter of the samples or faces read from a file."""
         is_scan = bool(scans.scan_suffix(self.path))
         name = os.path.basename(self.path)[: -len(file_suffix(self.path))]
         names = [name] if self.options.object is None else self.options.object
@@ -102,7 +102,7 @@ class BareFile:
 
 
 def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
-    """Whether a file is measured without Blender. memory: bytes that measuring it may take, None for any."""
+    """Return whether a file is measured without Blender. memory: bytes that measuring it may take, None for any."""
     if scans.scan_suffix(path):
         return True
     suffix = file_suffix(path)
@@ -113,5 +113,5 @@ def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
     try:
         size = os.path.getsize(path)
     except (OSError, ValueError):
-        return False  # which is said as of any other file
+        return False  # opening reports the error, as for any other file
     return memory is not None and size / BYTES_OF_FILE[suffix] * BYTES_PER_FACE > memory

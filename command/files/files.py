@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A user's file becomes the open scene, or a FileError that says why it cannot.
+"""Opening of a user's file as the scene, or a FileError with the reason.
 
-Every file starts from an empty scene of factory settings, so that nothing of the one before it, or
-of a person's own start-up file, is measured with it. Scripts inside .blend files never run. What
-Blender's importers let through without a word is refused here: a FIFO (it would block for ever), an
-STL cut short (read as an empty mesh, or as half of one), a file in which no object is found.
+Every file starts from an empty scene of factory settings, so that nothing of the file before it, or of a person's own
+start-up file, is measured with it. Scripts inside .blend files never run. Files that Blender's importers accept
+silently are refused here: a FIFO (it would block for ever), an STL cut short (read as an empty mesh, or as half of
+one), a file in which no object is found.
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ from .opened import Opened
 from .references import unresolved_references
 
 BLEND = ".blend"
-_OLDEST = (2, 50)  # what older ones have saved can be damaged by reading it
-_KNOWN_FORMAT = 1  # of .blend files
+_OLDEST = (2, 50)  # reading files of older versions can damage their content
+_KNOWN_FORMAT = 1  # version of the .blend format
 _TRACEBACK = "Traceback (most recent call last)"
 UNITLESS = (".stl", ".obj", ".ply")
-STREAMED = (".stl", ".ply")  # what can be measured without being imported
+STREAMED = (".stl", ".ply")  # formats that can be measured without an import
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
@@ -75,12 +75,12 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
 
 
 def file_suffix(path: str) -> str:
-    """What the file's name ends with, in lower case."""
+    """Return the file's suffix in lower case."""
     return scans.scan_suffix(path) or Path(path.lower()).suffix
 
 
 def open_file(path: str) -> Opened:
-    """Make a file the open scene, and return what was found on the way. Raises FileError."""
+    """Make a file the open scene, and return the findings. Raises FileError."""
     try:
         return _opened(path)
     except OSError as error:  # such as of a disk that fails
@@ -92,7 +92,7 @@ def _opened(path: str) -> Opened:
     check_file(path)
     check_numbers(path, kind)
     absolute = os.path.abspath(path)
-    if kind == BLEND:  # which replaces all that was open
+    if kind == BLEND:  # it replaces the open scene
         _open_blend(absolute)
         return Opened()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -126,9 +126,8 @@ def _open_blend(path: str) -> None:
 
 
 def _saved_by(path: str) -> tuple[int, int] | None:
-    """The version of Blender that a .blend file names, if it is not compressed with zstd: (0, 0) for one whose numbers
-    are big-endian, (99, 0) for a file format of the future; None where there is no such header.
-    """
+    """Return the version of Blender in the header of a .blend file not compressed with zstd: (0, 0) for big-endian
+    numbers, (99, 0) for a file format of the future; None if there is no such header."""
     with open(path, "rb") as file:
         head = file.read(20)
     if head.startswith(b"\x1f\x8b"):
@@ -144,14 +143,14 @@ def _saved_by(path: str) -> tuple[int, int] | None:
 
 
 def newer_version() -> Iterator[Finding]:
-    """That a newer Blender has saved the open file, where that is so."""
+    """Yield a finding if a newer Blender saved the open file."""
     version = tuple(bpy.data.version[:2])
     if version > tuple(bpy.app.version[:2]):
         yield finding(FILE_NEWER_VERSION, version="{}.{}".format(*version), blender=bpy.app.version_string)
 
 
 def check_file(path: str) -> None:
-    """Raise FileError where a file is none that can be opened, or is seen to be cut short."""
+    """Raise FileError if a file cannot be opened, or is visibly cut short."""
     kind = file_suffix(path)
     if os.path.isdir(path):
         raise FileError(FILE_IS_FOLDER)
@@ -178,7 +177,7 @@ def check_file(path: str) -> None:
 
 
 def _check_usdz(path: Path, size: int) -> None:
-    """Nobody else compares the checksums of what is stored in it."""
+    """Compare the checksums of stored entries; no other reader does."""
     try:
         with zipfile.ZipFile(path) as archive:
             stored = [entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED]
@@ -193,9 +192,8 @@ def _check_usdz(path: Path, size: int) -> None:
 
 
 def _check_stl(head: bytes, tail: bytes, size: int) -> None:
-    """Blender takes a file of exactly the promised size as binary, any other as text, and says
-    nothing of what is lost.
-    """
+    """Raise FileError if an STL file is cut short. Blender reads a file of exactly the promised size as binary, any
+    other as text, and does not report lost data."""
     if len(head) == 84 and size == 84 + 50 * struct.unpack_from("<I", head, 80)[0]:
         return
     if not head.lstrip().lower().startswith(b"solid"):
@@ -205,8 +203,8 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
 
 
 def reason(error: Exception) -> str:
-    """What the system said, or Blender, as one line: the first line of a report; of a traceback the exception, behind
-    which Blender may say where."""
+    """Return an error of the system or of Blender as one line: the first line of a report, or the exception of a
+    traceback, which Blender may follow with its location."""
     if isinstance(error, OSError):
         return system_reason(error)
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
@@ -221,9 +219,8 @@ def reason(error: Exception) -> str:
 
 
 def requested_file() -> str | None:
-    """The .blend file that Blender was started with. It runs a command on its start-up scene when
-    it cannot open it.
-    """
+    """Return the .blend file that Blender was started with. Blender runs a command on its start-up scene if it cannot
+    open the file."""
     for word in sys.argv[1:]:
         if word in ("-c", "--command", "--"):
             return None

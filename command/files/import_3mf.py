@@ -13,11 +13,11 @@ from mathutils import Matrix
 from ...blender.settings.limits import scan_limits
 from ...core.streams.threemf import Placed, read_3mf
 
-_SHEAR = 1e-6  # of the largest entry of a matrix: more than float32 does
+_SHEAR = 1e-6  # relative to the largest entry of a matrix; larger than the rounding of float32
 
 
 def import_3mf(path: str) -> None:
-    """Add what the file builds to the scene, whose unit becomes the file's. Raises FileError."""
+    """Add the file's objects to the scene, and set its unit to the file's. Raises FileError."""
     placed, unit = read_3mf(path, scan_limits())
     bpy.context.scene.unit_settings.scale_length = unit
     meshes: dict[tuple[str, str], bpy.types.Mesh] = {}
@@ -34,7 +34,7 @@ def import_3mf(path: str) -> None:
 
 
 def _mesh(one: Placed) -> bpy.types.Mesh:
-    """As it is in the file; nothing is repaired."""
+    """Return the mesh as stored in the file, without repair."""
     mesh = bpy.data.meshes.new(one.name)
     mesh.vertices.add(len(one.points))
     mesh.attributes["position"].data.foreach_set("vector", one.points.astype(np.float32).ravel())

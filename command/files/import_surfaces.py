@@ -18,7 +18,7 @@ from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import SURFACES_ROUNDED
 from .opened import Opened
 
-_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # what Blender's importer reads
+_MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
 
 
 def import_iges(path: str) -> Opened:

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which files are read with those that are named: the samples of a detached NRRD, buffers and textures of a glTF, the
-libraries of a .blend, layers of USD. No result may take the place of one.
-"""
+"""Files read together with the named ones: the samples of a detached NRRD, buffers and textures of a glTF, the
+libraries of a .blend, layers of USD. No result may replace one of them."""
 
 from __future__ import annotations
 
@@ -22,18 +21,17 @@ from ...core.verdict.finding import MeasureError
 from .files import STREAMED, file_suffix, open_file
 from .finite import unquote
 
-_CRATE = b"PXR-USDC"  # how a binary USD layer begins
+_CRATE = b"PXR-USDC"  # start of a binary USD layer
 
 
 def files_read(paths: Iterable[str]) -> Iterator[Path]:
-    """All files that exist and that the named ones refer to, or else the open scene, directly or by way of others.
-    Opens what is named in Blender. What cannot be read refers to nothing.
-    """
+    """Yield the existing files that the named files, or else the open scene, refer to directly or indirectly. Opens the
+    named files in Blender. Unreadable files refer to nothing."""
     paths = list(paths)
     waiting = [Path(path) for path in paths] or _open_files()
     for path in paths:
         if file_suffix(path) in STREAMED:
-            continue  # which refers to nothing, and may be larger than memory
+            continue  # it refers to nothing, and may be larger than memory
         with suppress(MeasureError, RuntimeError):
             open_file(path)
             waiting += _open_files()
@@ -41,26 +39,25 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
 
 
 def references(path: str, is_open: bool) -> Iterator[Path]:
-    """The files, there or not, that a file refers to and that may change what is measured of it. is_open: whether it is
-    the open scene.
-    """
+    """Yield the files, existing or not, that a file refers to and that may change its measurements. is_open: whether it
+    is the open scene."""
     first = Path(path)
     waiting = [first, *(_open_files(packed=False) if is_open else ())]
     with suppress(OSError, ValueError, RuntimeError):
         first = first.resolve()
     found = (one for one in _reached(waiting, _NAMES_THAT_COUNT) if one != first)
-    return (one for one in found if "." in one.name or _holds(one.exists))  # of the words of USD most name nothing
+    return (one for one in found if "." in one.name or _holds(one.exists))  # most words of USD name no file
 
 
 def _holds(question: Callable[[], bool]) -> bool:
-    """Whether it does; no path that no file can have."""
+    """Return whether the question is true; no if no file can have such a path."""
     with suppress(OSError, ValueError):
         return question()
     return False
 
 
 def _reached(waiting: list[Path], readers: dict[str, Callable[[Path], Iterator[str]]]) -> Iterator[Path]:
-    """These files and those that they refer to, directly or by way of others, each once, there or not."""
+    """Yield these files and the files that they refer to, directly or indirectly, each once, existing or not."""
     known: set[Path] = set()
     while waiting:
         with suppress(OSError, ValueError, RuntimeError):  # too long, with a zero byte, links in a circle
@@ -74,7 +71,7 @@ def _reached(waiting: list[Path], readers: dict[str, Callable[[Path], Iterator[s
 
 
 def _open_files(packed: bool = True) -> list[Path]:
-    """The files that the open scene refers to; packed: those too of which it has a copy in itself."""
+    """Return the files that the open scene refers to. packed: include files with a copy packed into the scene."""
     paths = bpy.utils.blend_paths(absolute=True, packed=packed)
     return [file for path in paths for file in _tiles(Path(path))]
 
@@ -85,7 +82,7 @@ def _named_in(path: Path, readers: dict[str, Callable[[Path], Iterator[str]]]) -
 
 
 def _tiles(path: Path) -> Iterable[Path]:
-    """The file, or all tiles of an image that is cut into them."""
+    """Return the file, or all tiles of an image that is cut into them."""
     if "<UDIM>" not in path.name:
         return [path]
     tile = re.compile(re.escape(path.name).replace(re.escape("<UDIM>"), r"\d+"))
@@ -115,7 +112,7 @@ def _of_gltf(path: Path) -> Iterator[str]:
 
 
 def _of_obj(path: Path) -> Iterator[str]:
-    """A line has one name, which may hold spaces, or several."""
+    """Yield the names on each line: one name, which may hold spaces, or several."""
     with open(path, "rb") as file:
         found = [line.strip() for line in file if line.lstrip().startswith(b"mtllib")]
     for words in found:
@@ -137,7 +134,7 @@ def _of_usd(path: Path) -> Iterator[str]:
 
 
 def _tokens(data: bytes) -> bytes:
-    """The words of a binary USD layer, each with a zero byte behind it. Raises ValueError and struct.error."""
+    """Return the words of a binary USD layer, each with a zero byte behind it. Raises ValueError and struct.error."""
     (contents,) = struct.unpack_from("<q", data, 16)
     (count,) = struct.unpack_from("<Q", data, contents)
     for number in range(min(count, 64)):
@@ -149,7 +146,7 @@ def _tokens(data: bytes) -> bytes:
 
 
 def _unpacked(packed: bytes) -> bytes:
-    """LZ4 blocks, as USD joins them: their number, and behind it, where it is not 0, each with its size before it."""
+    """Unpack the LZ4 blocks of USD: their number, and if it is not 0, each block with its size before it."""
     if not packed[0]:
         return _lz4(packed[1:])
     blocks, at = [], 1
@@ -161,7 +158,7 @@ def _unpacked(packed: bytes) -> bytes:
 
 
 def _lz4(block: bytes) -> bytes:
-    """https://github.com/lz4/lz4/blob/dev/doc/lz4_Block_format.md"""
+    """Unpack an LZ4 block: https://github.com/lz4/lz4/blob/dev/doc/lz4_Block_format.md"""
     text = bytearray()
     at = 0
 

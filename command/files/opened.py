@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What opening a file has found."""
+"""Findings about an opened file."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ...core.verdict.finding import Finding
 
 @dataclass(frozen=True)
 class Opened:
-    """errors: what the file has, or refers to, and is not there now. notes: about all that is. by_object: about one
+    """errors: parts of the file, or references, that are missing now. notes: about the whole file. by_object: about one
     object, by its name."""
 
     errors: tuple[Finding, ...] = ()

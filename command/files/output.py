@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the result goes: to a file, whole or not at all, or alone on the standard output.
+"""Output of the result: to a file, whole or not at all, or alone on the standard output.
 
-Blender and its importers print on the standard output from C. So its descriptor is taken away from
-them: what was the standard output is kept for the result, and descriptor 1 becomes the standard
-error. It is not given back, because what C has buffered until then would follow the result; the
-entries that call this are the last thing their process does.
+Blender and its importers print on the standard output from C. So its descriptor is taken away from them: the original
+standard output is kept for the result, and descriptor 1 becomes the standard error. It is not given back, because
+output buffered by C until then would follow the result; the entries that call this are the last thing their process
+does.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may 
 
 
 def claim_stdout() -> int:
-    """A descriptor of the standard output that nothing else in this process reaches any more; -1 where it is closed."""
+    """Return a descriptor of the standard output that nothing else in this process reaches any more, or -1 if it is
+    closed."""
     silent = not _is_open(2)
     try:
         channel = os.dup(1)
@@ -54,17 +55,17 @@ def _is_open(descriptor: int) -> bool:
 
 
 def is_stdout(path: Path) -> bool:
-    """Whether this is a name of the standard output."""
+    """Return whether this is a name of the standard output."""
     return str(path) in _STDOUT
 
 
 def is_stream(path: Path | None) -> bool:
-    """Whether a result goes to the standard output, a pipe or a device, beside which no other file can be."""
+    """Return whether a result goes to the standard output, a pipe or a device, which no file can be beside."""
     return path is None or is_stdout(path) or path.exists() and not path.is_file()
 
 
 def write(parts: Iterable[str], path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> None:
-    """Write a result to `path`, or to a descriptor where it is None. check: as in `whole_file`. Raises OSError."""
+    """Write a result to `path`, or to a descriptor if it is None. check: as in `whole_file`. Raises OSError."""
     # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for
     # them.
     pieces = (part.encode("utf-8", "backslashreplace") for part in parts)
@@ -77,7 +78,7 @@ def write(parts: Iterable[str], path: Path | None, channel: int, check: Callable
 
 
 def written(parts: Iterable[str], path: Path | None, channel: int, check: Callable[[Path], None] | None = None) -> bool:
-    """Whether a result could be written; the reason goes to the standard error where it could not."""
+    """Return whether the result was written; print the reason for a failure to the standard error."""
     try:
         write(parts, path, channel, check)
     except OSError as error:

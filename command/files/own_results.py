@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which files are results of ours, by their content: those alone are replaced without --force."""
+"""Recognition of our own results by their content: they alone are replaced without --force."""
 
 from __future__ import annotations
 
@@ -20,25 +20,23 @@ _HEAD = 1 << 16  # bytes that hold a header, or the beginning of a document
 _SCHEMAS = (SCHEMA, AUDIT_SCHEMA)
 _DOCUMENT = re.compile(r'\s*\[?\s*\{{\s*"schema"\s*:\s*"(?:{})"'.format("|".join(map(re.escape, _SCHEMAS))).encode())
 _COLUMNS = next(csv.reader(to_csv([])))
-_LAST = 2  # of them stand at the end, behind those that only some records have
+_LAST = 2  # columns at the end, behind optional ones
 
 
 def replaceable(path: Path, option: str) -> bool:
-    """Whether nothing is lost where a result takes the place of `path`: there is nothing, or something that is not a
-    file, or an older result. option: "output" or "fourier". Raises OSError.
-    """
+    """Return whether a result may replace `path` without loss: there is nothing, no regular file, or an older result.
+    option: "output" or "fourier". Raises OSError."""
     return not path.exists() or not path.is_file() or _is_result(path, option)
 
 
 def is_empty(path: Path) -> bool:
-    """Whether it is a file that holds nothing, as `mktemp` makes them. Raises OSError."""
+    """Return whether it is an empty file, as `mktemp` makes them. Raises OSError."""
     return path.is_file() and not path.stat().st_size
 
 
 def guard(option: str, forced: bool) -> Callable[[Path], None]:
-    """What raises FileExistsError where a file has appeared that is not `replaceable`. forced: it may be replaced all
-    the same, because it stood there when that was asked for.
-    """
+    """Return a check that raises FileExistsError if a file has appeared that is not `replaceable`. forced: it may be
+    replaced all the same, because it existed when --force was given."""
 
     def check(path: Path) -> None:
         if not forced and not is_empty(path) and not replaceable(path, option):

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What files refer to and is not there, and which of their scripts did not run: Blender opens the rest, and says so on
-the standard error at most.
-"""
+"""Missing references of files, and scripts that did not run: Blender opens the rest, and reports them on the standard
+error at most."""
 
 from __future__ import annotations
 
@@ -17,15 +16,14 @@ import bpy
 from ...core.verdict.finding import Finding, finding
 from ..findings import DRIVER_BLOCKED, MISSING_LINKS, SCRIPT_BLOCKED
 
-# As stage.cpp reports each error of composing a stage: "… -- In </A>: Could not open asset @file@ for reference …".
+# An error of composing a stage, by stage.cpp: "… -- In </A>: Could not open asset @file@ for reference …".
 _REPORT = re.compile(r"_ReportErrors at line \d+ of \S*stage\.cpp -- (.*)")
 _ASSET = re.compile(r"@([^@]+)@(<[^>]*>)?")
 
 
 def unresolved_references(import_file: Callable[[], object]) -> list[str]:
-    """Import a file, and return the names of the layers, references and payloads that were not found. What is printed
-    on the standard error meanwhile appears there afterwards.
-    """
+    """Import a file, and return the names of the layers, references and payloads that were not found. Output to the
+    standard error meanwhile appears there afterwards."""
     sys.stderr.flush()
     try:
         standard_error = os.dup(2)
@@ -48,7 +46,7 @@ def unresolved_references(import_file: Callable[[], object]) -> list[str]:
 
 
 def names_in(printed: str) -> list[str]:
-    """What USD's reports are about, each once: a file, of a prim that is missing in one its path too."""
+    """Return the subjects of USD's reports, each once: a file, with the path of a prim that is missing in it."""
     names = {}
     for report in _REPORT.findall(printed):
         asset = _ASSET.search(report)
@@ -57,9 +55,8 @@ def names_in(printed: str) -> list[str]:
 
 
 def missing_links() -> Iterator[Finding]:
-    """Where Blender opened a file but not what it links to, in whose place it puts empty data, or not the caches that
-    its modifiers read.
-    """
+    """Yield a finding if Blender opened a file but replaced missing links by empty data, or lacks the caches of
+    modifiers."""
     data = bpy.data
     groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
     missing = {item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing}
@@ -69,7 +66,7 @@ def missing_links() -> Iterator[Finding]:
 
 
 def _cache_paths() -> Iterator[str]:
-    """The files that modifiers of the scene's objects read their points from."""
+    """Yield the files that modifiers of the scene's objects read their points from."""
     for obj in bpy.context.scene.objects:
         for modifier in obj.modifiers:
             if not modifier.show_viewport:
@@ -81,7 +78,7 @@ def _cache_paths() -> Iterator[str]:
 
 
 def blocked_scripts() -> Iterator[Finding]:
-    """Where the file that is open has scripts that did not run: drivers leave what was saved, or 0."""
+    """Yield a finding if scripts of the open file did not run: drivers leave the saved value, or 0."""
     if not bpy.app.autoexec_fail:
         return
     blocked = sorted({driver.expression for driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"})
@@ -92,7 +89,7 @@ def blocked_scripts() -> Iterator[Finding]:
 
 
 def _drivers() -> Iterator[bpy.types.Driver]:
-    """Those of all data that can have drivers, but for what is embedded in other data, such as nodes of materials."""
+    """Yield the drivers of all data-blocks, except of embedded data such as nodes of materials."""
     for prop in bpy.data.bl_rna.properties:
         if prop.type == "COLLECTION":
             for item in getattr(bpy.data, prop.identifier):

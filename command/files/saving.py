@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--write: results go into the .blend file that was opened, and into no other that took its place meanwhile.
+"""--write: saving of results into the opened .blend file, never into a file that has replaced it meanwhile.
 
-The file is locked from before it is opened until it is saved, so that a second writer measures what the first one has
-saved. Programs that know nothing of that lock are noticed by the file's content.
+The file is locked from before it is opened until it is saved, so that a second writer measures the results of the
+first. Programs that ignore the lock are noticed by the file's content.
 """
 
 from __future__ import annotations
@@ -30,15 +30,15 @@ from ..findings import (
 )
 from .files import reason
 
-_PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # how a .blend compressed with zstd or gzip begins
+_PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # start of a .blend compressed with zstd or gzip
 
 
 @dataclass
 class Place:
     """A .blend file that is going to take results.
 
-    path: without symbolic links. digest: of the content that was opened. refusal: why it cannot be saved, where that
-    is known already. alone: whether nobody else can be writing it.
+    path: without symbolic links. digest: of the opened content. refusal: the reason why it cannot be saved, if known
+    already. alone: whether nobody else can be writing it.
     """
 
     path: Path
@@ -79,9 +79,9 @@ class Place:
 
 @contextmanager
 def reserved(path: str, opened: bool, at_start: bool) -> Iterator[Place]:
-    """The file kept for this process, which opens it within the block.
+    """Reserve the file for this process, which opens it within the block.
 
-    opened: it is open already. at_start: and Blender opened it when it started, before anything here could look at it.
+    opened: it is open already. at_start: Blender opened it when it started, before anything here could look at it.
     """
     place = Place(Path(os.path.realpath(path)))
     with ExitStack() as held:
@@ -99,12 +99,13 @@ def reserved(path: str, opened: bool, at_start: bool) -> Iterator[Place]:
 
 
 def _digest(path: Path) -> bytes:
-    """Of the content: sizes and times are the same where two programs save within one tick of a file system's clock."""
+    """Return a digest of the content: sizes and times do not change if two programs save within one tick of a file
+    system's clock."""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "blake2b").digest()
 
 
 def _saved_since_start(path: Path) -> bool:
-    """Whether the file is younger than this session's folder, which Blender makes before it opens a file."""
+    """Return whether the file is younger than this session's folder, which Blender makes before it opens a file."""
     status = os.stat(path)
     return max(status.st_mtime_ns, status.st_ctime_ns) > os.stat(bpy.app.tempdir).st_ctime_ns

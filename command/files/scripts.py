@@ -16,7 +16,7 @@ _ALLOW = {"-y": True, "--enable-autoexec": True, "-Y": False, "--disable-autoexe
 
 
 def scripts_of_open_file() -> Iterator[Finding]:
-    """A finding where Blender was allowed to run scripts and the open file has some."""
+    """Yield a finding if Blender was allowed to run scripts and the open file has some."""
     if bpy.data.filepath and _allowed(sys.argv):
         names = [*dict.fromkeys((*_texts(), *_drivers()))]
         if names:
@@ -24,7 +24,7 @@ def scripts_of_open_file() -> Iterator[Finding]:
 
 
 def _allowed(words: Sequence[str]) -> bool:
-    """Whether the last of Blender's own words about it, or else its preferences, let files run scripts."""
+    """Return whether Blender's last command-line switch for scripts, or else its preferences, let files run scripts."""
     own = words[: words.index("--")] if "--" in words else words
     said = [_ALLOW[word] for word in own if word in _ALLOW]
     return said[-1] if said else bpy.context.preferences.filepaths.use_scripts_auto_execute
@@ -35,7 +35,7 @@ def _texts() -> list[str]:
 
 
 def _drivers() -> Iterator[str]:
-    """The names of data whose drivers are more than arithmetic, which alone Blender evaluates without Python."""
+    """Yield the names of data with drivers beyond simple arithmetic, which Blender evaluates without Python."""
     groups = [getattr(bpy.data, one.identifier) for one in bpy.data.bl_rna.properties if one.type == "COLLECTION"]
     for item in (item for group in groups for item in group):
         for animated in (item, getattr(item, "node_tree", None)):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--asset-metadata: what was measured, in the metadata of the objects and collections that are assets."""
+"""--asset-metadata: measurements in the metadata of the objects and collections that are assets."""
 
 from __future__ import annotations
 
@@ -23,10 +23,8 @@ _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
 
 
 def write(measured: Mapping[Root, Measurement], path: str, where: str) -> tuple[bool, list[Finding]]:
-    """Put numbers into the metadata of the assets among what was measured of the open file. where: "copy" saves a copy
-    beside it. Returns whether the file itself is to be saved, and that assets have none, where that is so. Raises
-    FileError.
-    """
+    """Put numbers into the metadata of the measured assets of the open file. where: "copy" saves a copy beside it.
+    Return whether the file itself is to be saved, and findings about assets without numbers. Raises FileError."""
     stored = [root for root in measured if root.asset_data is not None and root.library is None]
     for root in stored:
         _store(root.asset_data, measured[root])
@@ -36,7 +34,7 @@ def write(measured: Mapping[Root, Measurement], path: str, where: str) -> tuple[
 
 
 def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
-    """Those of an object are in its own frame, those of a collection in the scene's."""
+    """Store numbers, of an object in its own frame, of a collection in the scene's."""
     properties = measurement.in_object_frame()
     data["body_mass"] = float(properties.mass)
     data["body_volume"] = float(measurement.volume)
@@ -47,7 +45,7 @@ def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
 
 
 def _without_numbers(known: set[Root]) -> Iterator[Finding]:
-    """That assets of the open file have geometry and were not measured."""
+    """Yield a finding if assets of the open file have geometry and were not measured."""
     geometry = (bpy.data.meshes, bpy.data.curves, bpy.data.metaballs, bpy.data.volumes)
     roots = [one for one in (*bpy.data.objects, *bpy.data.collections) if one not in known and _has_geometry(one)]
     assets = (one for one in (*roots, *(data for group in geometry for data in group)) if one.asset_data is not None)

@@ -40,8 +40,8 @@ def serve(line: Lifeline) -> None:
     line.answer({"ready": {"blender": ".".join(map(str, bpy.app.version))}})
     for message in messages:
         with suppress(OSError):
-            os.ftruncate(2, 0)  # what was said of the file before
-            os.lseek(2, 0, os.SEEK_SET)  # where it is not opened for appending, as on Windows
+            os.ftruncate(2, 0)  # output about the file before
+            os.lseek(2, 0, os.SEEK_SET)  # needed if it is not opened for appending, as on Windows
         with line.limited(setup["seconds"]):
             if "reads" in message:
                 line.answer({"reads": [os.fspath(path) for path in files_read([message["reads"]])]})

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several bodies as one in a document: the assemblies and the bones that a file has results or given masses of, and
-collections that are assets where metadata are asked for.
-"""
+"""Several bodies as one in a document: the assemblies and bones with results or given masses in a file, and with asset
+metadata also collections that are assets."""
 
 from __future__ import annotations
 
@@ -31,18 +30,18 @@ Internal = Callable[[str | None, Exception], dict[str, Any]]
 
 @dataclass(frozen=True, eq=False)
 class Combined:
-    """What was measured, and the entries about what could not be."""
+    """Measurements of assemblies and rigs, and the entries about failures."""
 
     assemblies: list[Assembly] = field(default_factory=list)
     rigs: list[Rig] = field(default_factory=list)
     errors: list[dict[str, Any]] = field(default_factory=list)
 
     def measurements(self) -> dict[Root, Measurement]:
-        """Those of the assemblies, by what they are of."""
+        """Return the measurements of the assemblies by their objects or collections."""
         return {assembly.root.member.data: assembly.measurement for assembly in self.assemblies}
 
     def records(self, frame: str) -> dict[str, Any]:
-        """Return the entries of a document, none where there is nothing."""
+        """Return the entries of a document, without empty lists."""
         assemblies = [record.record(assembly.measurement, frame) for assembly in self.assemblies]
         bones = [
             record.record(part.measurement, frame, more={"armature": rig.armature.name})
@@ -54,7 +53,7 @@ class Combined:
         return {name: entries for name, entries in found.items() if entries}
 
     def store(self, internal: Internal) -> Iterator[dict[str, Any]]:
-        """Store the results on what they are of; yield the entries about those that cannot hold them."""
+        """Store the results on their assemblies and rigs; yield the entries about failures."""
         for assembly in self.assemblies:
             yield from _tried(
                 assembly.measurement.name,
@@ -71,11 +70,11 @@ def measure_combined(options: MeasureOptions, internal: Internal, assets: bool =
     Parameters
     ----------
     options : MeasureOptions
-        What overrides the members' settings.
+        Overrides of the members' settings.
     internal : callable
         Makes the entry about an error that nobody foresaw.
     assets : bool
-        Also those that are assets, as far as they have a mass.
+        Include assets that have a mass.
     """
     scene, found = bpy.context.scene, Combined()
     wanted = replace(options, order=None)
@@ -91,7 +90,7 @@ def measure_combined(options: MeasureOptions, internal: Internal, assets: bool =
         found.errors.extend(_tried(root.name, lambda root=root: add_assembly(root), internal))
     for root in _assets(scene) if assets else ():
         if root not in roots:
-            with suppress(MeasureError):  # of lamps, or of what is left out
+            with suppress(MeasureError):  # assemblies of lamps, or of objects that are left out
                 add_assembly(root)
     for armature in _armatures(scene):
         found.errors.extend(_tried(armature.name, lambda armature=armature: add_rig(armature), internal))
@@ -108,14 +107,14 @@ def _tried(name: str, work: Callable[[], object], internal: Internal) -> Iterato
 
 
 def _assemblies(scene: Scene) -> Iterator[Root]:
-    """The assemblies of a scene that have been measured, or have a given mass."""
+    """Yield the assemblies of a scene that have been measured, or have a given mass."""
     for root in _roots(scene):
         if root.get("body_method") == Verdict.ASSEMBLY or settings_of(root).mass_from == "MASS":
             yield root
 
 
 def _assets(scene: Scene) -> Iterator[Root]:
-    """The assemblies of a scene that are assets of its file."""
+    """Yield the assemblies of a scene that are assets of its file."""
     return (root for root in _roots(scene) if root.asset_data is not None and root.library is None)
 
 
@@ -126,7 +125,7 @@ def _roots(scene: Scene) -> Iterator[Root]:
 
 
 def _armatures(scene: Scene) -> Iterator[Object]:
-    """The armature objects of a scene whose bones have been measured."""
+    """Yield the armature objects of a scene with measured bones."""
     for obj in sorted(scene.objects, key=lambda obj: obj.name):
         if obj.type == "ARMATURE" and obj.get("body_method") == Verdict.ASSEMBLY:
             yield obj

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--flat: what is no body, but flat, is measured as a shape in its plane."""
+"""--flat: measurement of flat objects, which are no bodies, as shapes in their plane."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from ...core.moments.normalized import normalize
 from ...core.verdict.finding import Finding, MeasureError, finding
 from ..findings import POSE_OF_FLAT
 
-LEAST_ORDER = 2  # of moments that are always found
-HU_ORDER = 3  # of Hu's invariants
+LEAST_ORDER = 2  # moments to this order are always computed
+HU_ORDER = 3  # order for Hu's invariants
 
 
 def is_meant(options: Namespace, refusal: MeasureError) -> bool:
-    """Whether what was refused as a body is to be measured as a flat shape."""
+    """Return whether an object refused as a body is to be measured as a flat shape."""
     return options.flat and refusal.finding.code in NO_BODY
 
 
@@ -34,7 +34,7 @@ def record_of(
     refusal: MeasureError,
     findings: tuple[Finding, ...],
 ) -> dict[str, Any]:
-    """The record of an object as a flat shape. refusal: why it is no body. findings: about its file. Raises
+    """Return the record of an object as a flat shape. refusal: why it is no body. findings: about its file. Raises
     MeasureError."""
     try:
         return _record(label, obj, options, unit, findings)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of the Fourier transform: at which wave vectors, of which object, and where it goes."""
+"""Options of the Fourier transform: its wave vectors, its object and its output."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MAX_WAVE_VECTORS = MAX_GRID**3
 
 
 def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] | None:
-    """The wave vectors that were asked for, None where no transform was. Raises MeasureError."""
+    """Return the requested wave vectors, or None if no transform was requested. Raises MeasureError."""
     if options.fourier is None:
         return None
     dimension = 2 if options.flat else 3
@@ -56,7 +56,7 @@ def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOpt
 
 
 def _read_wave_vectors(path: Path, dimension: int = 3) -> NDArray[np.float64]:
-    """Those of a .npy file. Raises MeasureError."""
+    """Read the wave vectors of a .npy file. Raises MeasureError."""
     try:
         if path.exists() and not path.is_file():
             raise QueryError(WAVE_VECTORS_UNREADABLE, file=str(path), cause=finding(FILE_NOT_REGULAR).as_record())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which objects of the open scene are measured, which are left out, and what is wrong with names that were given."""
+"""Selection of the objects to measure in the open scene, with the reasons for omissions and errors in given names."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ def why_nothing(left_out: int) -> Finding:
 def objects_to_measure(
     names: list[str] | None, everything: bool
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
-    """The objects to measure, each under a name of its own; those that are left out, with the reason; and an error for
-    each name of none. everything: nothing is left out.
+    """Return the objects to measure, each under a unique name; the objects left out, with the reason; and an error for
+    each unknown name. everything: nothing is left out.
 
-    What the view layer excludes is among them where another one renders it: reading it reports the reason.
+    Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
     """
     scene, layer = bpy.context.scene, bpy.context.view_layer
     same = Counter(obj.name for obj in scene.objects)
@@ -56,16 +56,15 @@ def objects_to_measure(
 
 
 def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
-    """The scene's measurable objects outside of its view layer, but for the members of instanced
-    collections, which the instancers' records hold.
-    """
+    """Return the scene's measurable objects outside of its view layer, but for the members of instanced collections,
+    which the instancers' records hold."""
     instanced = {obj.instance_collection for obj in scene.objects if shows_collection(obj)}
     members = {member for collection in instanced for member in collection.all_objects}
     return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}
 
 
 def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
-    """That a file holds more than its open scene, where it does."""
+    """Yield a finding if a file has measurable objects outside its open scene."""
     here = {*scene.objects}
     other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
     if other_scenes:

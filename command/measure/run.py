@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a file to its document: open it, measure its objects, store the results on them where that
-is asked for.
+"""From a file to its document: open it, measure its objects, store the results on them if requested.
 
-Whatever fails is an entry in `errors` and stops nothing else: a file that cannot be opened, an
-object that cannot be measured, a file that cannot be saved. A failure that nobody foresaw is one
-too, with its traceback on the standard error.
+Every failure is an entry in `errors` and stops nothing else: a file that cannot be opened, an object that cannot be
+measured, a file that cannot be saved. A failure that nobody foresaw is such an entry too, with its traceback on the
+standard error.
 """
 
 from __future__ import annotations
@@ -68,12 +67,12 @@ _STATUSES: dict[str, str] = {FILE_MISSING: "missing", FILE_VERSION_UNSUPPORTED: 
 
 @dataclass
 class Run:
-    """One command line at work.
+    """A command line at work.
 
-    threads: that a measurement may use. memory: bytes that one file may take, None for any. progress: what counts the
-    samples or faces read from a file. documents: one for each file, in order. internal_errors: how many of their errors
-    are our own. has_opened, has_saved: whether the last file has become the open scene, and whether that was saved in
-    its place.
+    threads: that a measurement may use. memory: bytes that one file may take, None for any. progress: returns a counter
+    of the samples or faces read from a file. documents: one for each file, in order. internal_errors: the number of
+    their errors that are our own. has_opened, has_saved: whether the last file has become the open scene, and whether
+    it was saved in place.
     """
 
     options: Namespace
@@ -86,7 +85,7 @@ class Run:
     has_saved: bool = field(init=False)
 
     def __post_init__(self) -> None:
-        self._status: str | None = None  # of the document under way, where it is not just that of its errors
+        self._status: str | None = None  # of the current document, if its errors do not determine it
         measure_options = {
             name: getattr(self.options, name) for name in ("kind", "mass", "thickness", "overlap", "wall")
         }
@@ -107,11 +106,11 @@ class Run:
 
     @property
     def errors(self) -> int:
-        """How many entries the documents have under `errors`."""
+        """The number of entries under `errors` in all documents."""
         return sum(len(document["errors"]) for document in self.documents)
 
     def document(self, path: str | None) -> dict[str, Any]:
-        """Measure one file, or what is open, and return its document."""
+        """Measure one file, or the open scene, and return its document."""
         file = path or bpy.data.filepath or requested_file()
         self.has_opened = self.has_saved = False
         with self._place(path) as place:
@@ -120,7 +119,7 @@ class Run:
         return found
 
     def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
-        """Where --write is going to store the results."""
+        """Return the context in which --write reserves the file for its results."""
         target = path or bpy.data.filepath
         is_saved = self.options.write or self.options.asset_metadata == "file"
         if not is_saved or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
@@ -207,9 +206,8 @@ class Run:
         opened: Opened,
         errors: list[dict[str, Any]],
     ) -> tuple[list[dict[str, Any]], list[tuple[str, bpy.types.Object, Measurement]], list[dict[str, Any]]]:
-        """The records and measurements of bodies, and the records of flat shapes. of_file: findings about the file.
-        What cannot be measured is added to the errors.
-        """
+        """Return the records and measurements of bodies, and the records of flat shapes. Failures are added to the
+        errors. of_file: findings about the file."""
         objects, measured, flats = [], [], []
         operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
         in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
@@ -240,10 +238,9 @@ class Run:
         findings: tuple[Finding, ...],
         errors: list[dict[str, Any]],
     ) -> tuple[Measurement | None, dict[str, Any]]:
-        """An object's measurement and its record, of a flat shape the record alone. What has no moments of the order
-        that was asked for may have a mass: then the record goes without them, and an error is added that says so.
-        in_turn: measures the objects together; None where each has to be measured by itself. findings: about its file.
-        """
+        """Return an object's measurement and its record; of a flat shape the record alone. A body with a mass but
+        without moments of the requested order gets a record without them, and an error is added. in_turn: measures the
+        objects together; None if each has to be measured by itself. findings: about its file."""
         order = self.options.order
         density_options.apply(obj, self.options)
         try:
@@ -270,7 +267,7 @@ class Run:
         return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)
 
     def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
-        """That nobody has set the density, where that is so."""
+        """Yield a finding if nobody has set the density."""
         if self.options.density is not None or self.options.mass is not None or self.options.material is not None:
             return
         unset = unset_density(obj, measurement, bpy.context.scene)
@@ -280,7 +277,7 @@ class Run:
             yield finding(LINEAR_DENSITY_DEFAULTED)
 
     def _open(self, path: str | None, file: str | None) -> Opened:
-        """Open what is to be measured, and return what was found on the way."""
+        """Open the file, if one is given, and return the findings."""
         if path is not None:
             unresolved = open_file(path)
             self.has_opened = True
@@ -295,9 +292,7 @@ class Run:
         measure_options: MeasureOptions,
         objects: list[dict[str, Any]],
     ) -> Iterator[dict[str, Any]]:
-        """Write the Fourier transform of the one object that was measured, and add what was decided on the way to
-        its record.
-        """
+        """Write the Fourier transform of the one measured object, and add the findings to its record."""
         if len(chosen) != 1:
             yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(chosen)))
             return
@@ -324,9 +319,8 @@ class Run:
         measured: list[tuple[str, bpy.types.Object, Measurement]],
         wanted: MeasureOptions,
     ) -> Iterator[dict[str, Any]]:
-        """Store the results, once all of them are there: drivers may read them and change what is
-        measured next. The settings that were given go with them, or the results would be out of date.
-        """
+        """Store the results, once all of them are there: drivers may read them and change later measurements. The given
+        settings are stored too, or the results would be out of date."""
         if path is not None and file_suffix(path) != BLEND:
             raise FileError(RESULTS_NEED_BLEND)
         if not bpy.data.filepath:
@@ -334,7 +328,7 @@ class Run:
         for label, obj, one in measured:
             try:
                 store(obj, one)
-                with tracking_paused():  # what is stored is already that of these settings
+                with tracking_paused():  # the stored results already belong to these settings
                     settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
             except MeasureError as refusal:
                 yield failure(label, refusal.finding)

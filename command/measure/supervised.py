@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`measure` over files: children measure them, this process gathers what they answer, and opens none.
+"""`measure` over files: children measure them; this process gathers the answers, and opens no file.
 
 Standard library only: it runs in Blender, in a Python with the bpy module, and in any other with --blender PATH.
 """
@@ -59,7 +59,7 @@ _OLD = ".old"
 def measure(options: Namespace, channel: int, opened: str | None) -> int:
     """Measure the files, and return the exit code. opened: a file that this process has open, and only keeps.
 
-    Raises SystemExit where the options are wrong, and KeyboardInterrupt.
+    Raises SystemExit if the options are wrong, and KeyboardInterrupt.
     """
     end_with_window()
     with interruption.stopped_by_signals():
@@ -83,7 +83,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
             except ChildError as error:
                 print_message(finding(CHILDREN_FAILED, reason=str(error)))
                 return 2
-            except OSError as error:  # of the journal, such as on a full disk
+            except OSError as error:  # the journal cannot be written, as on a full disk
                 print_message(finding(USAGE_RESULT_NOT_WRITTEN, error=system_reason(error)))
                 return 1
             except KeyboardInterrupt:
@@ -95,7 +95,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
 
 
 def files_of(options: Namespace) -> list[str]:
-    """The files that are meant: those named, those in folders and those of a manifest, of these the range."""
+    """Return the requested files: named ones, the files of folders and of a manifest, and of these the range."""
     try:
         paths = [*listing.expand(options.files)]
         if options.manifest is not None:
@@ -115,7 +115,7 @@ def files_of(options: Namespace) -> list[str]:
 
 
 def _blender(options: Namespace) -> str | None:
-    """The Blender to start: what was named, or the one that this process is."""
+    """Return the Blender to start: the named one, or that of this process."""
     bpy = sys.modules.get("bpy")
     if options.blender is not None or bpy is None or bpy.app.module:
         return options.blender
@@ -123,9 +123,9 @@ def _blender(options: Namespace) -> str | None:
 
 
 class _Places:
-    """Where a run keeps what it has so far: beside its output, which is its alone until `ends`.
+    """Files of an unfinished run: beside its output, which belongs to this run alone until `ends`.
 
-    work: a folder that is not there yet. journal_is_kept: whether the journal stays when the run is interrupted.
+    work: a folder that does not exist yet. journal_is_kept: whether the journal stays if the run is interrupted.
     """
 
     def __init__(self, options: Namespace, ends: ExitStack) -> None:
@@ -141,7 +141,7 @@ class _Places:
         self.work, self.journal = beside(target, "body_moments.work"), target.with_name(target.name + ".journal")
         try:
             ends.enter_context(locked(self.journal, 0.0))
-            shutil.rmtree(self.work, ignore_errors=True)  # of a run that was killed
+            shutil.rmtree(self.work, ignore_errors=True)  # left behind by a run that was killed
             _check_ours(self.journal, options.force)
             if not options.resume:
                 forced = [path.resolve() for path in options.forced]
@@ -154,14 +154,14 @@ class _Places:
             fail(finding(USAGE_PATH, path=str(error.filename or target), error=system_reason(error)))
 
     def set_aside(self) -> None:
-        """Keep what is there of an earlier run as .old. Raises OSError."""
+        """Keep files of an earlier run as .old. Raises OSError."""
         for path in self._replaced:
             if path.exists() and not own_results.is_empty(path):
                 os.replace(path, path.with_name(path.name + _OLD))
 
 
 def _check_ours(path: Path, force: bool) -> None:
-    """End with a message where a file that this run is to replace is no journal or result. Raises OSError."""
+    """End with a message if a file to be replaced is no journal or result. Raises OSError."""
     try:
         os.lstat(path)
     except FileNotFoundError:
@@ -192,7 +192,7 @@ class _Supervised:
         return processes.memory_share(self._count)
 
     def dependencies(self) -> Iterator[str]:
-        """The files that are read with those that are named, as far as children find out."""
+        """Yield the files that are read with the named ones, as far as children find out."""
         with self._pool("reads") as pool:
             pool.add(self.tasks)
             while not pool.is_done:
@@ -203,7 +203,7 @@ class _Supervised:
         return Pool(self._command, self._count, self._setup, self._limits, self._places.work, verb)
 
     def measure(self, channel: int) -> int:
-        """Measure what no journal has, write the result, and return the exit code."""
+        """Measure the files missing in the journal, write the result, and return the exit code."""
         with ExitStack() as ends:
             pool = ends.enter_context(self._pool())
             if not self._options.resume:
@@ -249,7 +249,8 @@ class _Supervised:
         progress.finish()
 
     def _recorded(self, outcome: TaskOutcome, blender: str) -> tuple[str, Finding | None, bytes]:
-        """The status of a file, why there was no answer where there was none, and its document, also then."""
+        """Return the status of a file, the reason for a missing answer or None, and the document, which always
+        exists."""
         if outcome.status == "answered":
             with suppress(ValueError, KeyError, TypeError):
                 return json.loads(outcome.data)["status"], None, outcome.data
@@ -266,7 +267,8 @@ class _Supervised:
         return outcome.status, reason, json.dumps(document).encode()
 
     def _report(self, progress: Progress, outcome: TaskOutcome, reason: Finding | None) -> None:
-        """Pass on what was said of a file; where a child failed at it, all that this child has printed."""
+        """Print the reason for a failed file, else the messages of its child; after an internal error all output of the
+        child."""
         faults = outcome.head.get("faults", 0)
         self._faults += faults
         if reason is not None:
@@ -280,7 +282,7 @@ class _Supervised:
             sys.stderr.write(shown)
 
     def _write(self, journal: Journal, channel: int) -> bool:
-        """Whether the result could be written."""
+        """Write the result, and return whether it could be written."""
         options = self._options
         documents = _Documents(journal, self._paths)
         check = own_results.guard("output", options.output in options.forced)
@@ -289,7 +291,7 @@ class _Supervised:
 
 @dataclass
 class _Documents:
-    """Those of the files in their order, read again each time, so that never all of them are in memory."""
+    """The documents of the files in their order, read again each time, so that never all of them are in memory."""
 
     journal: Journal
     paths: list[str]
@@ -305,18 +307,18 @@ def _is_recorded(journal: Journal, path: str, common: dict[str, Any], limits: di
 
 
 def _positions(options: Namespace) -> list[str]:
-    """The files of positions of samples."""
+    """Return the files of positions of samples."""
     return [path for _, path in options.positions or ()]
 
 
 def _digest(options: Namespace) -> str:
-    """Of whatever changes the numbers besides the file."""
+    """Return a digest of everything besides the file that changes the numbers."""
     positions = [state(path) for path in _positions(options)]
     text = json.dumps([of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _version() -> str:
-    """That of the add-on."""
+    """Return the add-on's version."""
     manifest = pkgutil.get_data(_ROOT, "blender_manifest.toml")
     return tomllib.loads(manifest.decode())["version"] if manifest else ""

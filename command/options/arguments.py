@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of `measure` as they were given, and which of them go together: those that do not end with exit code 2.
+"""The options of `measure`, and checks of their combination: invalid ones end with exit code 2.
 
-Standard library only: the process that supervises others may have neither numpy nor Blender. What needs these is looked
-at in `checks.py`, by the process that measures.
+Standard library only: the process that supervises others may have neither numpy nor Blender. Options that need these
+are checked in `checks.py`, by the process that measures.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from .measure_parser import DEFAULT_ORDER, measure_parser
 
 TARGETS = ("output", "fourier")  # options whose files are written
 
-# What changes no number: two runs that differ in these alone have the same records.
+# These options change no number: two runs that differ in these alone have the same records.
 _OF_RUNS = {
     *("command", "files", "format", "output", "force", "forced", "jobs", "timeout", "memory_mb", "range", "manifest"),
     *("resume", "no_supervisor", "blender", "errors_exit_0"),
@@ -43,7 +43,7 @@ _TRIPLES = ("spacing", "origin", "about")
 
 
 def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
-    """The options of `measure`; file_needed: where no file can be open.
+    """Parse the options of `measure`; file_needed: no file can be open.
 
     Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
     """
@@ -55,7 +55,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     if options.format in ROBOT_FORMATS:
         if len(options.files) > 1:
             fail(finding(ROBOT_ONE_FILE, count=len(options.files)))
-        options.frame = "object"  # of the links
+        options.frame = "object"  # frame of the links
         of_bodies = ("density", "mass", "material", "kind", "thickness", "wall", "overlap")
         given = [name for name in of_bodies if getattr(options, name) is not None]
         if options.links == "bone" and given:
@@ -86,14 +86,14 @@ def fail(reason: object) -> NoReturn:
 
 
 def as_record(options: argparse.Namespace) -> dict[str, Any]:
-    """The options as plain values for JSON, without the files, to be read by `from_record`."""
+    """Return the options as plain values for JSON, without the files, to be read by `from_record`."""
     kept = {name: value for name, value in vars(options).items() if name not in ("files", "manifest")}
     kept["forced"] = [str(path) for path in options.forced]
     return {name: str(value) if isinstance(value, Path) else value for name, value in kept.items()}
 
 
 def from_record(record: dict[str, Any]) -> argparse.Namespace:
-    """The options that `as_record` has made plain."""
+    """Return the options that `as_record` has made plain."""
     options = argparse.Namespace(**{**record, "files": [], "manifest": None})
     for name in _PATHS:
         if getattr(options, name) is not None:
@@ -106,13 +106,13 @@ def from_record(record: dict[str, Any]) -> argparse.Namespace:
 
 
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
-    """Those options that change what is measured."""
+    """Return the options that change measurements."""
     more = {"format": options.format} if options.format in ROBOT_FORMATS else {}
     return {name: value for name, value in as_record(options).items() if name not in _OF_RUNS} | more
 
 
 def _check_fourier(options: argparse.Namespace) -> None:
-    """Ends with a message where the options of the transform do not go together."""
+    """End with a message if the options of the transform do not go together."""
     target = options.fourier
     if target is None:
         for name in ("q", "grid", "qmax"):
@@ -131,7 +131,7 @@ def _check_fourier(options: argparse.Namespace) -> None:
 
 
 def join_negative_values(argv: list[str]) -> list[str]:
-    """With `--origin -1,2,3` as `--origin=-1,2,3`: the parser would take what begins with a minus for an option."""
+    """Join `--origin -1,2,3` into `--origin=-1,2,3`: the parser would take a value with a minus for an option."""
     joined: list[str] = []
     for word in argv:
         if joined and joined[-1] in {"--origin", "--spacing", "--about"} and word[:2].strip("0123456789.") == "-":

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is looked at before a process measures: options whose values are files, limits, and what results would replace.
+"""Checks before a process measures: options with files as values, limits, and files that results would replace.
 
 Each ends as wrong usage does, with SystemExit(2) and a message.
 """
@@ -35,7 +35,7 @@ def check(options: Namespace) -> None:
 
 
 def prepare(options: Namespace) -> None:
-    """What measuring needs: `options.limits` of scans, and `options.waves`, the wave vectors of the transform."""
+    """Prepare a measurement: set `options.limits` of scans, and `options.waves`, the wave vectors of the transform."""
     try:
         density_options.check(options)
         options.limits = replace(scan_limits(), allow_outside=options.allow_outside)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--material, --polynomial, --density-from and --threshold: what the panel has, for every object.
+"""--material, --polynomial, --density-from and --threshold: the panel's density settings, for every object.
 
 They are put into the objects' settings, in memory. Only --write saves them, with the results that they have led to.
 """
@@ -19,7 +19,7 @@ from .option_types import split_source
 
 
 def check(options: Namespace) -> None:
-    """Raise MeasureError where there is no such material, or the polynomial cannot be read."""
+    """Raise MeasureError if there is no such material, or the polynomial cannot be read."""
     if options.material is not None and options.material not in BY_NAME:
         raise QueryError(MATERIAL_UNKNOWN, name=options.material, names=sorted(BY_NAME))
     if options.polynomial is not None:
@@ -27,13 +27,12 @@ def check(options: Namespace) -> None:
 
 
 def density_of(options: Namespace) -> float | None:
-    """The one density that was given, as a number or as a material's name."""
+    """Return the one density that was given, as a number or as a material's name."""
     return options.density if options.material is None else BY_NAME[options.material].density
 
 
 def apply(obj: bpy.types.Object, options: Namespace) -> None:
-    """Set where the object's density comes from and the threshold of its grid, where these were given. Raises
-    MeasureError."""
+    """Set the source of the object's density and the threshold of its grid, if given. Raises MeasureError."""
     settings = obj.body_moments
     if options.threshold is not None and obj.type == "VOLUME":
         settings.grid_as, settings.threshold = "THRESHOLD", options.threshold

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options that say what files do not say about themselves: which of them a file needs, and which it does not."""
+"""Options for information missing in files, and findings about missing and unused ones."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def is_unitless(path: str | None) -> bool:
 
 
 def unit_findings(path: str | None, scale: float | None) -> Iterator[Finding]:
-    """The decision about the file's unit, where there was one."""
+    """Yield a finding if the file's unit was assumed, or the option for it was unused."""
     unitless = is_unitless(path)
     if unitless and scale is None:
         yield finding(UNIT_ASSUMED)
@@ -35,14 +35,14 @@ def unit_findings(path: str | None, scale: float | None) -> Iterator[Finding]:
 
 
 def unused_array_options(options: Namespace) -> Iterator[Finding]:
-    """What was asked of arrays only, of a file that is none."""
+    """Yield a finding about given options that apply to arrays only, for a file that is no array."""
     given = [name for name in OF_ARRAYS if getattr(options, name) is not None]
     if given:
         yield finding(ARRAY_OPTIONS_UNUSED, options=["--" + name.replace("_", "-") for name in given])
 
 
 def unused_options(options: Namespace, measurement: Measurement) -> Iterator[Finding]:
-    """What was asked of other kinds of bodies only."""
+    """Yield findings about given options that apply to other kinds of bodies only."""
     if options.thickness is not None and measurement.kind != "shell":
         yield finding(THICKNESS_OPTION_UNUSED)
     if options.threshold is not None and measurement.type not in ("ARRAY", "VOLUME"):

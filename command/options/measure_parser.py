@@ -34,7 +34,7 @@ exit code: 0 all measured, 1 something is listed under errors or the result cann
 
 
 def measure_parser() -> argparse.ArgumentParser:
-    """The parser of `measure`."""
+    """Return the parser of `measure`."""
     parser = Parser(
         prog="body_moments",
         usage="body_moments measure [options] [FILE ...]",
@@ -55,7 +55,7 @@ def measure_parser() -> argparse.ArgumentParser:
 
 
 def _add_settings(parser: argparse.ArgumentParser) -> None:
-    """Which objects, and what they are made of."""
+    """Add options for the choice of objects and their material."""
     add = parser.add_argument
     add(
         "--object",
@@ -104,7 +104,7 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_of_files(parser: argparse.ArgumentParser) -> None:
-    """What files do not say about themselves."""
+    """Add options for information missing in files."""
     add = parser.add_argument
     add(
         "--unit-scale",
@@ -161,7 +161,7 @@ def _add_of_files(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_results(parser: argparse.ArgumentParser) -> None:
-    """What is reported, and where it goes."""
+    """Add options for the contents of results and their output."""
     add = parser.add_argument
     add(
         "--frame",
@@ -256,7 +256,7 @@ def _add_assets(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_supervision(parser: argparse.ArgumentParser) -> None:
-    """How many files are measured."""
+    """Add options for measuring many files."""
     add = parser.add_argument
     add("--manifest", type=Path, metavar="LIST", help="measure the files of a list that `manifest` has made")
     add("--range", type=types.file_range, metavar="A:B", help="of the files, only numbers A to B - 1, counted from 0")

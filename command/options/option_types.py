@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The values that options of the command line take, and what is said of others. Standard library only."""
+"""Types of option values on the command line, with the messages for invalid ones. Standard library only."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from ..findings import (
     USAGE_SPLINE_ORDER,
 )
 
-# As in the core, which needs numpy: the process that supervises others may have none.
+# Equal to the values in the core, which needs numpy: the process that supervises others may have none.
 MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
@@ -37,14 +37,14 @@ def _refuse(code: str, **values: object) -> argparse.ArgumentTypeError:
 
 
 def command(text: str) -> str:
-    """The one command that these options belong to."""
+    """Return the one command that these options belong to."""
     if text != "measure":
         raise _refuse(USAGE_COMMAND, name=text)
     return text
 
 
 def _float(text: str) -> float:
-    """NaN for what is no number."""
+    """Return the number, or NaN for other text."""
     try:
         return parse_number(text.strip())
     except ValueError:
@@ -52,7 +52,7 @@ def _float(text: str) -> float:
 
 
 def _int(text: str) -> int:
-    """-1 for what is no whole number."""
+    """Return the whole number, or -1 for other text."""
     try:
         return parse_whole(text.strip())
     except ValueError:
@@ -60,7 +60,7 @@ def _int(text: str) -> int:
 
 
 def positive(text: str) -> float:
-    """A positive number."""
+    """Return a positive number."""
     value = _float(text)
     if not (0.0 < value < math.inf):
         raise _refuse(USAGE_NOT_POSITIVE, text=text)
@@ -68,7 +68,7 @@ def positive(text: str) -> float:
 
 
 def number(text: str) -> float:
-    """A finite number."""
+    """Return a finite number."""
     value = _float(text)
     if not math.isfinite(value):
         raise _refuse(USAGE_NOT_NUMBER, text=text)
@@ -76,7 +76,7 @@ def number(text: str) -> float:
 
 
 def count(text: str) -> int:
-    """A positive whole number."""
+    """Return a positive whole number."""
     if not (text.isdecimal() and text.isascii() and int(text[:9]) > 0 and len(text) <= 9):
         raise _refuse(USAGE_NOT_POSITIVE, text=text)
     return int(text)
@@ -107,14 +107,14 @@ def positions(text: str) -> tuple[str, str]:
 
 
 def spline_order(text: str) -> int:
-    """The order of a spline of samples."""
+    """Return the order of a spline of samples."""
     if text not in {str(order) for order in range(1, MAX_SPLINE_ORDER + 1)}:
         raise _refuse(USAGE_SPLINE_ORDER, text=text, limit=MAX_SPLINE_ORDER)
     return int(text)
 
 
 def order(text: str) -> int:
-    """The order of moments."""
+    """Return the order of moments."""
     value = _int(text)
     if value < 0:
         raise _refuse(USAGE_ORDER, text=text, limit=MAX_ORDER)
@@ -124,7 +124,7 @@ def order(text: str) -> int:
 
 
 def frequencies(text: str) -> int:
-    """How many frequencies a grid has along an axis."""
+    """Return the number of frequencies of a grid along an axis."""
     value = _int(text)
     if not 2 <= value <= MAX_GRID:
         raise _refuse(USAGE_FREQUENCY_COUNT, text=text, limit=MAX_GRID)
@@ -132,30 +132,30 @@ def frequencies(text: str) -> int:
 
 
 def format_name(text: str) -> str:
-    """The name of a format of results."""
+    """Return the name of a format of results."""
     if text not in FORMATS:
         raise _refuse(USAGE_FORMAT_UNKNOWN, text=text, formats=", ".join(FORMATS))
     return text
 
 
 ABOUT = ("center", "origin", "world")
-SOURCES = ("value", "materials", "attribute", "volume")  # of density, as in the panel
+SOURCES = ("value", "materials", "attribute", "volume")  # sources of density, as in the panel
 _NAMED_SOURCES = ("attribute", "volume")
 
 
 def about(text: str) -> str | tuple[float, ...]:
-    """A point by its name or its coordinates."""
+    """Return a point by its name or its coordinates."""
     return text if text in ABOUT else triple(text)
 
 
 def split_source(text: str) -> tuple[str, str]:
-    """A source of density, and the name behind it."""
+    """Return a source of density, and the name behind it."""
     source, _, name = text.partition(":")
     return source, name
 
 
 def source(text: str) -> str:
-    """Where a density comes from: a word, with a name behind it where that is needed."""
+    """Return the source of a density: a word, followed by a name if it needs one."""
     word, name = split_source(text)
     if word not in SOURCES or bool(name) != (word in _NAMED_SOURCES):
         raise _refuse(USAGE_DENSITY_SOURCE, text=text)

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where results go, looked at before anything is measured: a place that can be written to, which is no file that is
-read and none of somebody else's. Standard library only.
-"""
+"""Checks of output places before anything is measured: they must be writable, and no input and nobody else's file.
+Standard library only."""
 
 from __future__ import annotations
 
@@ -28,11 +27,11 @@ from ..findings import (
 from .arguments import TARGETS
 from .arguments import fail as fail_measure
 
-Fail = Callable[[object], NoReturn]  # of a command: ends with the reason and its usage
+Fail = Callable[[object], NoReturn]  # ends a command with the reason and its usage
 
 
 def check_places(options: Namespace, fail: Fail = fail_measure) -> None:
-    """End with a message where no file can be written."""
+    """End with a message if a file cannot be written."""
     for option in TARGETS:
         target = getattr(options, option, None)
         if target is None or output.is_stdout(target):
@@ -58,10 +57,9 @@ def _check_place(option: str, target: Path, fail: Fail) -> None:
 def files_to_replace(
     options: Namespace, read: Iterable[str | Path], fail: Fail = fail_measure
 ) -> list[tuple[Path, str]]:
-    """The targets that are there and are no results of ours, each with its option. Ends with a message where one is
-    among the files that are `read`, or somebody else's and not empty, without --force. `options.forced`: those that
-    --force is about.
-    """
+    """Return the existing targets that are no results of ours, each with its option. Ends with a message if a target is
+    among the files that are `read`, or without --force if it is somebody else's and not empty. `options.forced`: the
+    targets that need --force."""
     options.forced = []
     read, replaced = list(read), []
     for option in TARGETS:
@@ -85,7 +83,7 @@ def files_to_replace(
 
 
 def check_dependencies(replaced: list[tuple[Path, str]], read: Iterable[str | Path]) -> None:
-    """End with a message where a file that is going to be replaced is read with what is measured."""
+    """End with a message if a file to be replaced is read by a measurement."""
     for path in read:
         for target, option in replaced:
             if os.path.exists(path) and target.samefile(path):

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 _SCALARS = ("mass", "volume", "area", "density", "length", "linear_density", "thickness")
-_DOMAINS = ("volume", "surface", "length", "mass", "area")  # of moments
+_DOMAINS = ("volume", "surface", "length", "mass", "area")  # domains of moments
 _LINE = "{:<5} {}: {:<18} {:>12.6g} {:>12.6g}  difference {:.2e}, allowed {:.2e}"
 
 Matrix = list[list[float]]
@@ -19,11 +19,11 @@ Number = tuple[float | None, float, float]  # value, the size that a tolerance i
 def differences(
     first: Iterable[dict[str, Any]], second: Iterable[dict[str, Any]], tolerance: float, align: bool
 ) -> tuple[list[str], bool]:
-    """The lines to print, and whether anything differs by more than it may.
+    """Return the lines to print, and whether a number differs by more than allowed.
 
     A number may differ by the bounds of both, and by the tolerance times its size: the largest entry of a vector, a
-    tensor or the moments of one degree, for a center the radius of gyration. align: centers and tensors are compared in
-    each body's own pose, and what is about a point that did not move with the body is not.
+    tensor or the moments of one degree, for a center the radius of gyration. align: compare centers and tensors in each
+    body's own pose, and skip numbers about a point that did not move with the body.
     """
     others = {document["file"]: document for document in second}
     lines, failed, compared = [], 0, 0
@@ -57,8 +57,8 @@ def differences(
 
 
 def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """The records of a document by their names: objects, assemblies, and bones with those of their armatures, and
-    flat shapes."""
+    """Return the records of a document by their names: objects, assemblies, flat shapes, and bones with their
+    armatures."""
     found = {entry["name"]: entry for entry in document["objects"]}
     found |= {"assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())}
     found |= {"flat {}".format(entry["name"]): entry for entry in document.get("flat", ())}
@@ -69,7 +69,7 @@ def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
 def _numbers(
     label: str, first: dict[str, Any], second: dict[str, Any], tolerance: float, align: bool
 ) -> Iterator[tuple[str, bool]]:
-    """A line for each number of an object that differs at all, and whether it passes."""
+    """Yield a line for each differing number of an object, and whether it passes."""
     if "plane" in first:
         values, others = (_flat_values(entry, align) for entry in (first, second))
     elif align and not (first.get("pose") and second.get("pose")):
@@ -120,7 +120,7 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
 
 
 def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
-    """Those of a flat shape. align: what does not change with where it lies."""
+    """Return the numbers of a flat shape. align: only numbers that do not depend on its place."""
     area, bounds = entry["area"], entry["error_bound"]
     found: dict[str, Number] = {"area": (area, area, _flat_bound(bounds, "area"))}
     for one in entry.get("invariants", ()):
@@ -149,14 +149,14 @@ def _flat_bound(bounds: dict[str, Any], name: str) -> float:
 
 
 def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
-    """The six numbers of a symmetric one."""
+    """Return the six numbers of a symmetric tensor."""
     largest = max(abs(value) for row in rows for value in row)
     pairs = [(i, j) for i in range(3) for j in range(i, 3)]
     return {"{}[{}{}]".format(name, "xyz"[i], "xyz"[j]): (rows[i][j], largest, bound) for i, j in pairs}
 
 
 def _moments(moments: dict[str, Any]) -> dict[str, Number]:
-    """Those of every domain, by their powers."""
+    """Return the moments of every domain, by their powers."""
     found: dict[str, Number] = {}
     for domain in (name for name in _DOMAINS if name in moments):
         values = moments[domain]
@@ -179,7 +179,7 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 
 
 def _bound(entry: dict[str, Any], name: str) -> float:
-    """What a record says that rounding and its input may have changed in a number."""
+    """Return the bound of a number in a record: rounding plus input."""
     bounds = entry["error_bound"] or {}
     if name in ("mass", "density", "linear_density"):  # a given one of these has none, and does not differ
         measure = "volume" if entry["volume"] else "area"
@@ -189,6 +189,6 @@ def _bound(entry: dict[str, Any], name: str) -> float:
 
 
 def _bound_about(entry: dict[str, Any], distance: float) -> float:
-    """That of a tensor about a point at this distance from the center, by the parallel axes."""
+    """Return the bound of a tensor about a point at this distance from the center, by the parallel axes."""
     shift = distance * _bound(entry, "mass") + 2.0 * entry["mass"] * _bound(entry, "center_of_mass")
     return _bound(entry, "inertia") + distance * shift

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What prepares and gathers the results of many files: `manifest`, `merge`, `to-csv`, `summary` and `report`.
+"""Commands that prepare and gather the results of many files: `manifest`, `merge`, `to-csv`, `summary` and `report`.
 
-Results are what `measure` writes as json or jsonl, and journals. Standard library only. They are read again each time
-they are needed, so that never all of them are in memory.
+Results are files of `measure` as json or jsonl, and journals. Standard library only. They are read again each time they
+are needed, so that never all of them are in memory.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _LISTED = 10  # files in each part of a summary
 class Results:
     """The documents of some files of results, in order; of two about one file the later counts.
 
-    Each has `attempts` and `seconds` beside it where it comes from a journal.
+    Documents from a journal have `attempts` and `seconds` beside them.
     """
 
     paths: tuple[Path, ...]
@@ -44,7 +44,7 @@ class Results:
         return (document for document, _ in self.entries())
 
     def entries(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        """Each document with what its journal says of it. Raises QueryError."""
+        """Yield each document with its `attempts` and `seconds` from a journal. Raises QueryError."""
         last: dict[Any, int] = {}
         for number, (document, _) in enumerate(self._all()):
             last[document.get("file")] = number
@@ -71,7 +71,8 @@ class Results:
 
 
 def _documents(path: Path) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-    """Those of one file: an object, an array, or one a line. Raises ValueError, KeyError, TypeError and OSError."""
+    """Read the documents of one file: an object, an array, or one a line. Raises ValueError, KeyError, TypeError and
+    OSError."""
     with open(path, encoding="utf-8", errors="surrogateescape") as file:
         begin = file.read(2)
         file.seek(0)
@@ -120,7 +121,7 @@ def _is_made_here(path: Path) -> bool:
 
 
 def _parse(argv: list[str]) -> argparse.Namespace:
-    """The options. Raises SystemExit(2), or HelpRequested."""
+    """Return the options. Raises SystemExit(2), or HelpRequested."""
     command = argv[0]
     names = "FOLDER" if command == "manifest" else "RESULT"
     parser = Parser(
@@ -146,7 +147,7 @@ def _parse(argv: list[str]) -> argparse.Namespace:
 
 def _results(options: argparse.Namespace) -> Results:
     found = Results(tuple(map(Path, options.paths)))
-    for _ in found:  # whether all of them can be read, before anything is written
+    for _ in found:  # check that all can be read, before anything is written
         pass
     return found
 
@@ -158,14 +159,14 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
 
 
 def _as_seen_from(folder: Path, path: str) -> str:
-    """The name that means the file in a list in that folder."""
+    """Return the name that means the file in a list in that folder."""
     if str(folder) in ("", "."):
         return path
     return str(Path(path).absolute())
 
 
 def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
-    """Counts by status and method, the slowest, the widest bounds, findings by code."""
+    """Return counts by status and method, the slowest, the widest bounds, findings by code."""
     statuses: Counter[str] = Counter()
     methods: Counter[str] = Counter()
     codes: Counter[tuple[str, str]] = Counter()
@@ -201,7 +202,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
 
 
 def _bound(entry: dict[str, Any]) -> float | None:
-    """That of the volume or area, by rounding and by the input."""
+    """Return the error bound of the volume, else of the area: rounding plus input."""
     bounds = entry["error_bound"] or {}
     name = "volume" if entry.get("volume") else "area"
     known = [one for one in (bounds.get(name), (bounds.get("input") or {}).get(name)) if one is not None]

@@ -19,7 +19,7 @@ _COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
-    """The options of `similar`. Raises SystemExit(2), or SystemExit(0) after --help."""
+    """Return the options of `similar`. Raises SystemExit(2), or SystemExit(0) after --help."""
     parser = Parser(
         prog="body_moments",
         usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",
@@ -43,7 +43,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[str, int]:
-    """The table, and how many records could not be compared. Raises MeasureError."""
+    """Return the table, and the number of records that could not be compared. Raises MeasureError."""
     entries, failures = [], []
     for path in options.libraries:
         try:

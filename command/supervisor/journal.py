@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run has measured so far: JSON lines, appended as each file ends, from which it can go on after any end.
+"""Journal of a run: JSON lines, appended as each file ends, from which the run can continue after any end.
 
 A line has the file's key (path, size, time of its last change, digest of the options, versions of the add-on and of
 Blender), its status, the attempts and seconds it took, sizes and times of the files that it refers to, and its
@@ -24,9 +24,8 @@ _BEYOND = {"timeout": "seconds", "memory": "memory"}  # statuses that a higher l
 
 @dataclass(frozen=True)
 class Entry:
-    """One file's line without its document. refers: whether the file refers to others. offset, length: where the line
-    is.
-    """
+    """One file's line without its document. refers: whether the file refers to others. offset, length: position of the
+    line."""
 
     key: dict[str, Any]
     status: str
@@ -38,7 +37,7 @@ class Entry:
     length: int
 
     def serves(self, key: dict[str, Any], limits: dict[str, Any]) -> bool:
-        """Whether measuring the file again would give the same."""
+        """Return whether measuring the file again would give the same result."""
         name = _BEYOND.get(self.status)
         if name is not None:
             before, now = self.limits.get(name), limits[name]
@@ -74,9 +73,8 @@ class Journal:
         document: bytes,
         reads: dict[str, Any] | None = None,
     ) -> None:
-        """A line of a file that has ended. document: as JSON on one line. reads: the files that it refers to, each with
-        its `state`. Raises OSError.
-        """
+        """Append the line of a finished file. document: as JSON on one line. reads: the files that it refers to, each
+        with its `state`. Raises OSError."""
         head = {
             "schema": SCHEMA,
             "key": key,
@@ -99,11 +97,11 @@ class Journal:
             self._synced = time.monotonic()
 
     def document(self, path: str) -> dict[str, Any]:
-        """The document of a file that is recorded. Raises OSError."""
+        """Return the document of a file that is recorded. Raises OSError."""
         return self._line(path)["document"]
 
     def is_current(self, path: str) -> bool:
-        """Whether what a recorded file refers to is as it was. Raises OSError."""
+        """Return whether the references of a recorded file are unchanged. Raises OSError."""
         reads = self._line(path)["reads"] if self.entries[path].refers else {}
         return all(state(name) == before for name, before in reads.items())
 
@@ -122,7 +120,7 @@ class Journal:
 
 
 def state(path: str) -> dict[str, int | None]:
-    """Size and time of the last change of a file, by which it is known again; None of what is not there."""
+    """Return the size and modification time of a file, by which it is recognized; None for each if it is missing."""
     try:
         status = os.stat(path)
     except (OSError, ValueError):
@@ -131,7 +129,7 @@ def state(path: str) -> dict[str, int | None]:
 
 
 def is_journal(path: Path) -> bool:
-    """Whether a file is empty, or begins as a journal does. Raises OSError."""
+    """Return whether a file is empty, or begins as a journal does. Raises OSError."""
     start = json.dumps({"schema": SCHEMA})[:-1].encode()
     with open(path, "rb") as file:
         return file.read(len(start)) in (b"", start)
@@ -145,7 +143,7 @@ def _lines(file: Any) -> Iterator[tuple[int, bytes]]:
 
 
 def _entry(line: bytes, offset: int) -> Entry | None:
-    """That of a line, None where it is not one of ours, or not whole."""
+    """Return the entry of a line, or None if it is damaged or foreign."""
     if not line.endswith(b"\n"):
         return None
     try:

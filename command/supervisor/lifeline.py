@@ -40,13 +40,13 @@ def end_with(watched: int) -> None:
     fcntl.fcntl(watched, fcntl.F_SETOWN, os.getpid())
     fcntl.fcntl(watched, fcntl.F_SETFL, fcntl.fcntl(watched, fcntl.F_GETFL) | os.O_ASYNC)
     ready = select.poll()
-    ready.register(watched, select.POLLHUP)  # where the other end is closed already
+    ready.register(watched, select.POLLHUP)  # the other end is closed already
     if ready.poll(0):
         os._exit(0)
 
 
 def end_with_window() -> None:
-    """End with the window that has started this process for a run over files, where that is so."""
+    """End with the window that started this process for a run over files, if any."""
     watched = os.environ.pop(WINDOW, "")
     if BY_SIGNAL and watched:
         end_with(int(watched))
@@ -55,15 +55,14 @@ def end_with_window() -> None:
 class Lifeline:
     """Messages from the supervisor, and answers to it.
 
-    channel: the descriptor for the answers. watched: that of a pipe on which nothing ever comes; None where there is
-    none.
+    channel: the descriptor for the answers. watched: the descriptor of a pipe that never carries data, or None.
     """
 
     def __init__(self, channel: int, watched: int | None) -> None:
         self._channel = channel
         self._waiting: queue.SimpleQueue[bytes] | None = None
         with suppress(OSError), open("/proc/self/oom_score_adj", "w") as file:
-            file.write("500")  # where memory runs out this goes first, not what watches over it
+            file.write("500")  # if memory runs out, this process goes first, not its supervisor
         if BY_SIGNAL and watched is not None:
             end_with(watched)
         else:
@@ -71,7 +70,7 @@ class Lifeline:
             ThreadPoolExecutor().submit(self._listen, self._waiting)
 
     def messages(self) -> Iterator[dict[str, Any]]:
-        """What the supervisor sends, until it closes the pipe."""
+        """Yield the supervisor's messages, until it closes the pipe."""
         lines = iter(self._waiting.get, b"") if self._waiting else iter(sys.stdin.buffer.readline, b"")
         for line in lines:
             yield json.loads(line)
@@ -82,7 +81,7 @@ class Lifeline:
         os._exit(0)
 
     def answer(self, head: dict[str, Any], data: bytes = b"") -> None:
-        """Send a line, with `bytes` of data behind it where there are any."""
+        """Send a line, followed by `bytes` of data, if any."""
         head = {**head, "bytes": len(data)} if data else head
         view = memoryview(MARK + json.dumps(head).encode() + b"\n" + data)
         while view:

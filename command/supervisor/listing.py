@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which files a run is about: those that are named, those in folders, those of a list (a manifest).
+"""List of the files of a run: named files, the files of folders, and of a list (a manifest).
 
-A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files": N}, then {"path": "…"} for each
-file. A name may hold any character, a line break too.
+A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files": N}, then {"path": "…"} for each file.
+A name may hold any character, a line break too.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ SUFFIXES = (
     *(".igs", ".iges"),
     *(".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz"),
 )
-COPY_SUFFIX = ".body_moments.blend"  # what our own copies of .blend files end with
+COPY_SUFFIX = ".body_moments.blend"  # suffix of our own copies of .blend files
 _RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # others are data files of headers
 
 
 def expand(names: Iterable[str]) -> Iterator[str]:
-    """The names, with what can be measured in the place of folders, sorted. Raises QueryError where that is nothing."""
+    """Yield the names, with each folder replaced by its measurable files, sorted. Raises QueryError if it has none."""
     for name in names:
         if not os.path.isdir(name):
             yield name
@@ -41,9 +41,8 @@ def expand(names: Iterable[str]) -> Iterator[str]:
 
 
 def _walk(top: str) -> Iterator[str]:
-    """What can be measured in a folder and the folders in it. Each folder counts once, so that links in a circle end.
-    Hidden entries are left out, and so are folders that may not be read.
-    """
+    """Yield the measurable files in a folder and its subfolders. Each folder counts once, so that links in a circle
+    end. Hidden entries and unreadable folders are left out."""
     known: set[tuple[int, int]] = set()
     waiting = [iter([top])]
     while waiting:
@@ -68,7 +67,7 @@ def _is_measurable(path: str) -> bool:
 
 
 def write_lines(paths: Iterable[str]) -> Iterator[str]:
-    """The text of a manifest of these files, in pieces."""
+    """Yield the text of a manifest of these files, in pieces."""
     paths = list(paths)
     yield json.dumps({"schema": SCHEMA, "files": len(paths)}) + "\n"
     for path in paths:
@@ -76,7 +75,7 @@ def write_lines(paths: Iterable[str]) -> Iterator[str]:
 
 
 def read(path: Path) -> list[str]:
-    """The files that a manifest lists; relative names are meant from its folder. Raises QueryError."""
+    """Return the files that a manifest lists; relative names are meant from its folder. Raises QueryError."""
     try:
         with open(path, "rb") as file:
             lines = [json.loads(line) for line in file if line.strip()]

@@ -22,7 +22,7 @@ from typing import IO, Any
 from . import processes
 from .lifeline import MARK
 
-ATTEMPTS = 2  # of a file that ends its child: the second one in a fresh child
+ATTEMPTS = 2  # for a file that ends its child; the second in a fresh child
 GROWTH = 256 << 20  # bytes that a child may keep of the files that it has measured before another one takes its place
 START_LIMIT = 300.0  # seconds in which a child must be ready
 MAX_FAILED_STARTS = 5  # in a row
@@ -34,11 +34,11 @@ _LOG_TAIL = 1 << 16  # bytes of what a child has said
 
 
 class ChildError(Exception):
-    """No child can be started, with what it said."""
+    """No child can be started; carries its output."""
 
 
 class SetupError(Exception):
-    """Children refuse what was asked of them, with their message, which is complete."""
+    """Children refuse the options; carries their complete message."""
 
 
 @dataclass(frozen=True)
@@ -51,10 +51,10 @@ class Limits:
 
 @dataclass
 class TaskOutcome:
-    """What became of a task.
+    """Outcome of a task.
 
     status: "answered", "crashed", "timeout" or "memory". head, data: the answer. how: the signal or exit code of a
-    crash. attempts, seconds: of all attempts. said: what the child has written on its standard error.
+    crash. attempts, seconds: of all attempts. said: the child's output on its standard error.
     """
 
     task: str
@@ -69,9 +69,9 @@ class TaskOutcome:
 
 @dataclass(eq=False)
 class _Child:
-    """A process. started: when it was, or its task. deadline: when it must be ready, or done. task: what it is at work
-    on. base: its memory when it was ready. measured: how many files it was given. doomed: why it was ended by us.
-    """
+    """A process. started: time of its start, or of its task. deadline: for being ready, or done. task: its current
+    file. base: its memory when it was ready. measured: the number of files it was given. doomed: why it was ended by
+    us."""
 
     process: subprocess.Popen[bytes]
     kept: int | None
@@ -87,13 +87,13 @@ class _Child:
 
     @property
     def requests(self) -> IO[bytes]:
-        """What it is sent goes there."""
+        """The stream of messages to the child."""
         assert self.process.stdin is not None
         return self.process.stdin
 
     @property
     def answers(self) -> IO[bytes]:
-        """What it answers comes from there."""
+        """The stream of answers from the child."""
         assert self.process.stdout is not None
         return self.process.stdout
 
@@ -101,9 +101,9 @@ class _Child:
 class Pool:
     """Children at work on tasks, which are names of files.
 
-    command: what starts a child. count: how many there are at most. setup: the first message to each. verb: what a
-    message asks them to do with a file. work: a folder for all that they write, which must not exist, and is removed in
-    the end. Use it as a context manager; its end kills the children.
+    command: starts a child. count: their largest number. setup: the first message to each. verb: names the action on a
+    file in a message. work: a folder for all their files, which must not exist, and is removed in the end. Use it as a
+    context manager; its end kills the children.
     """
 
     def __init__(
@@ -118,16 +118,16 @@ class Pool:
         self._command, self._count, self._setup, self._limits = command, count, setup, limits
         self._work, self._verb = work, verb
         self._tasks: deque[str] = deque()
-        self._again: deque[str] = deque()  # what ended its child, for a fresh one
+        self._again: deque[str] = deque()  # tasks that ended their child, for a fresh one
         self._attempts: dict[str, tuple[int, float]] = {}
         self._children: list[_Child] = []
         self._ending: list[tuple[_Child, float]] = []
         self._events: queue.SimpleQueue[tuple[_Child, dict[str, Any] | None, bytes]] = queue.SimpleQueue()
         self._readers = ThreadPoolExecutor(max_workers=4 * count + 8)
-        self._early: list[TaskOutcome] = []  # what has ended before anybody has asked
+        self._early: list[TaskOutcome] = []  # outcomes before the first step
         self._started = self._failed_starts = 0
         self._watched = 0.0
-        self.about: dict[str, Any] = {}  # what the children say of themselves when they are ready
+        self.about: dict[str, Any] = {}  # report of the children when they are ready
         self.notes: list[tuple[str, str]] = []  # file and sentence: what children say while they work
 
     def __enter__(self) -> Pool:
@@ -148,7 +148,7 @@ class Pool:
 
     @property
     def is_done(self) -> bool:
-        """Whether nothing is left to do."""
+        """True if no work is left."""
         waiting = self._tasks or self._again or self._early
         return not waiting and all(child.task is None for child in self._children)
 
@@ -158,7 +158,7 @@ class Pool:
             self._early = self.step()
 
     def step(self) -> list[TaskOutcome]:
-        """Give tasks to whoever has none, and return what has ended, waiting a moment for that.
+        """Give tasks to idle children, and return the outcomes, waiting a moment for them.
 
         Raises ChildError and SetupError.
         """
@@ -210,9 +210,9 @@ class Pool:
             child.requests.flush()
 
     def _read(self, child: _Child) -> None:
-        """In a thread: put what a child answers among the events, and at last that it has ended."""
+        """Put a child's answers among the events, and at last its end; runs in a thread."""
         stream = child.answers
-        with suppress(ValueError, TypeError, AttributeError, OSError):  # what has lost its mind is as good as dead
+        with suppress(ValueError, TypeError, AttributeError, OSError):  # a child that answers nonsense counts as dead
             while line := stream.readline():
                 if line.startswith(MARK):
                     head = json.loads(line[len(MARK) :])
@@ -254,7 +254,7 @@ class Pool:
         return [TaskOutcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
 
     def _give(self, child: _Child) -> None:
-        """The next task, where there is one."""
+        """Send the next task, if any."""
         child.deadline = float("inf")
         tasks = self._again if self._again and not child.measured else self._tasks
         if tasks:
@@ -270,7 +270,7 @@ class Pool:
         return self._memory(child) > child.base + GROWTH
 
     def _memory(self, child: _Child) -> int:
-        """The bytes that a child takes, 0 where that is not known."""
+        """Return the bytes of memory of a child, 0 if unknown."""
         return processes.memory_of(child.process.pid) or 0
 
     def _retire(self, child: _Child) -> None:
@@ -302,7 +302,7 @@ class Pool:
         return [TaskOutcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
 
     def _watch(self) -> None:
-        """End children that are late or too large, and those that have nothing more to do and do not end."""
+        """End children that are late or too large, and finished ones that do not end."""
         now = time.monotonic()
         for child in self._children:
             if now >= child.deadline:
@@ -324,7 +324,7 @@ class Pool:
         processes.kill([child.process], gently=gently)
 
     def _said(self, child: _Child) -> str:
-        """The end of what a child has written on its standard error about its file."""
+        """Return the end of a child's output on its standard error about its file."""
         try:
             with open(child.log, "rb") as file:
                 file.seek(max(0, os.fstat(file.fileno()).st_size - _LOG_TAIL))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Child processes: how they are started, what memory they take, how they end."""
+"""Child processes: their start, memory and end."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from pathlib import Path
 from . import windows
 
 _WINDOWS = os.name == "nt"
-_MEMORY_SHARE = 0.8  # of the machine's, for all processes that measure
+_MEMORY_SHARE = 0.8  # share of the machine's memory, for all processes that measure
 _END = 5.0  # seconds that a killed process may take to be gone
 _TOOL = 5.0  # seconds that a tool of the system may take to answer
 _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
@@ -27,12 +27,13 @@ _WORD = "child"  # the command that serves a supervisor
 
 
 def child_command(blender: str | None) -> list[str] | None:
-    """What starts a child: a Blender, or without one this Python, which must have the bpy module (else None)."""
+    """Return the command that starts a child: a Blender, or without one this Python, which must have the bpy module
+    (else None)."""
     return run_command(blender, [_WORD])
 
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
-    """What starts our command line with these words, in a Blender, or in this Python as above."""
+    """Return the command that starts our command line with these words, in a Blender, or in this Python as above."""
     batch = importlib.util.find_spec("...operators.batch", __package__)
     assert batch is not None and batch.origin is not None
     script = str(Path(batch.origin).resolve())
@@ -44,10 +45,9 @@ def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
 
 
 def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.Popen[bytes], int | None]:
-    """Start a child whose temporary and user files are in `folder`, and which writes what it says to `log`. Messages go
-    to its standard input, answers come from its standard output. With it comes the descriptor that it watches: it ends
-    when that is closed, by whatever. Raises OSError.
-    """
+    """Start a child with temporary and user files in `folder` and its standard error in `log`. Messages go to its
+    standard input, answers come from its standard output. Also return the descriptor that keeps it alive: the child
+    ends as soon as this is closed, by whatever. Raises OSError."""
     folder.mkdir(parents=True)
     watched, kept = (None, None) if _WINDOWS else os.pipe()
     temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
@@ -78,7 +78,7 @@ def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.P
 
 
 def kill(processes: Sequence[subprocess.Popen[bytes]], *, gently: bool = False) -> None:
-    """End processes and whatever they have started. gently: they may remove what they are writing first."""
+    """End processes and their descendants. gently: they may remove unfinished files first."""
     if gently and not _WINDOWS:
         for process in processes:
             _signal(process, signal.SIGTERM)
@@ -93,7 +93,7 @@ def kill(processes: Sequence[subprocess.Popen[bytes]], *, gently: bool = False) 
         else:
             _signal(process, signal.SIGKILL)
     for process in processes:
-        with suppress(subprocess.TimeoutExpired):  # where the system itself hangs on it
+        with suppress(subprocess.TimeoutExpired):  # the system itself may hang on it
             process.wait(_END)
 
 
@@ -105,7 +105,7 @@ def _signal(process: subprocess.Popen[bytes], number: int) -> None:
 
 
 def how_it_ended(code: int | None) -> str:
-    """The name of the signal that a process has died of, or its exit code."""
+    """Return the name of the signal that a process has died of, or its exit code."""
     if code is None:
         return "no answer"
     try:
@@ -115,9 +115,7 @@ def how_it_ended(code: int | None) -> str:
 
 
 def memory_of(pid: int) -> int | None:
-    """The bytes of memory that a process takes for itself, without the files that it has mapped; None where that is not
-    known.
-    """
+    """Return the bytes of a process's own memory, without mapped files, or None if unknown."""
     if _WINDOWS:
         return windows.memory_of(pid)
     try:
@@ -143,7 +141,7 @@ def _memory_by_tool(pid: int) -> int | None:
 
 
 def memory_of_machine() -> int | None:
-    """Bytes of physical memory, None where that is not known."""
+    """Return the bytes of physical memory, or None if unknown."""
     if _WINDOWS:
         return windows.memory_of_machine()
     try:
@@ -153,13 +151,13 @@ def memory_of_machine() -> int | None:
 
 
 def memory_share(count: int = 1) -> int | None:
-    """Bytes that each of so many processes may take, None where the machine's memory is not known."""
+    """Return the bytes that each of so many processes may take, or None if the machine's memory is unknown."""
     machine = memory_of_machine()
     return None if machine is None else int(_MEMORY_SHARE * machine / count)
 
 
 def cores() -> int:
-    """How many processors this process may use."""
+    """Return the number of processors that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far a run over many files is: a bar on a terminal, else a line every few seconds."""
+"""Progress of a run over many files: a bar on a terminal, else a line every few seconds."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Progress:
         self.counts[status] += 1
 
     def show(self) -> None:
-        """How far it is, where that is due."""
+        """Show the progress, if due."""
         now = time.monotonic()
         if now < self._due or self._total < 2:
             return
@@ -52,7 +52,7 @@ class Progress:
             self._drawn = False
 
     def finish(self) -> None:
-        """What all of it came to."""
+        """Print the totals of the run."""
         self.clear()
         if self._total > 1:
             counts = ", ".join("{} {}".format(number, status) for status, number in self.counts.most_common())

@@ -28,7 +28,7 @@ class WholeRun:
             raise FileNotFoundError("No module named 'bpy' is here")
         self._journal = output.with_name(output.name + ".journal")
         self._place, self._lines = 0, 0
-        self._kept: int | None = None  # as long as it is open, the run goes on
+        self._kept: int | None = None  # the run continues while this is open
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
         if not BY_SIGNAL:
             flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows it can be asked to end then
@@ -47,7 +47,7 @@ class WholeRun:
         return self._process.poll()
 
     def done(self) -> int:
-        """How many files it has measured."""
+        """Return the number of measured files."""
         try:
             with open(self._journal, "rb") as file:
                 file.seek(self._place)
@@ -59,7 +59,7 @@ class WholeRun:
         return self._lines
 
     def stop(self) -> None:
-        """End it, and its children with it. What it has measured stays in its journal."""
+        """End the run and its children. Measured files stay in its journal."""
         if self._process.poll() is None:
             with suppress(OSError):
                 self._process.send_signal(getattr(signal, "CTRL_BREAK_EVENT", signal.SIGTERM))

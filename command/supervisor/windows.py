@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Windows says of memory, by its own library: its command for that takes half a second a call."""
+"""Memory queries on Windows by its own library: its command for that takes half a second a call."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class _Status(ctypes.Structure):
 
 
 def memory_of(pid: int) -> int | None:
-    """The bytes that a process has for itself, None where that is not known."""
+    """Return the bytes of a process's own memory, or None if unknown."""
     with suppress(OSError, AttributeError):
         library = _library()
         library.OpenProcess.restype = ctypes.c_void_p
@@ -55,7 +55,7 @@ def memory_of(pid: int) -> int | None:
 
 
 def memory_of_machine() -> int | None:
-    """Bytes of physical memory, None where that is not known."""
+    """Return the bytes of physical memory, or None if unknown."""
     with suppress(OSError, AttributeError):
         status = _Status(dwLength=ctypes.sizeof(_Status))
         if _library().GlobalMemoryStatusEx(ctypes.byref(status)):

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether the coordinates in a file are finite numbers, before Blender imports them.
+"""Check for finite coordinates in a file, before Blender imports it.
 
-Blender's importers of .stl, .obj, .ply, .glb, .gltf and .fbx put 0, or the vertex before, where a coordinate is NaN,
-infinite, too large for float32, or in a text no number, and say nothing: a body that nobody made would be measured as
-exact. Files are mapped and looked at in blocks. Numbers that place no point (normals, colors, weights) may be NaN and
-infinite. A file that is damaged otherwise is left to Blender, which says so.
+Blender's importers of .stl, .obj, .ply, .glb, .gltf and .fbx put 0, or the vertex before, in place of a coordinate that
+is NaN, infinite, too large for float32, or in a text no number, and say nothing: a body that nobody made would be
+measured as exact. Files are mapped and checked in blocks. Numbers that place no point (normals, colors, weights) may be
+NaN and infinite. Files with other damage are left to Blender, which reports it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ __all__ = ["Buffers", "check_numbers", "unquote"]
 
 
 def check_numbers(path: str, kind: str) -> None:
-    """Raise FileError where a coordinate in the file is no finite number, or OSError. kind: the file's suffix."""
+    """Raise FileError if a coordinate in the file is no finite number, or OSError. kind: the file's suffix."""
     check = _CHECKS.get(kind)
     if check is not None:
         check(map_file(path), path)

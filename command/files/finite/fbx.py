@@ -25,7 +25,7 @@ _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
 
 @dataclass(frozen=True)
 class FbxNode:
-    """A node of a binary FBX file: where its properties begin, its children, and what follows it."""
+    """A node of a binary FBX file: start of its properties, start of its children, and its end."""
 
     name: bytes
     properties: int
@@ -34,7 +34,7 @@ class FbxNode:
 
 
 def check_fbx(data: Data, _path: str) -> None:
-    """The vertices of meshes and of their shapes."""
+    """Check the vertices of meshes and of their shapes."""
     if data[:23] != _FBX_MAGIC:
         _check_ascii_fbx(data)
         return
@@ -70,7 +70,7 @@ def _check_ascii_fbx(data: Data) -> None:
 
 
 def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Iterator[FbxNode]:
-    """Those of one name."""
+    """Yield the children with this name."""
     head = struct.Struct("<QQQB" if wide else "<IIIB")
     at = parent.children
     while at + head.size <= parent.end:
@@ -84,7 +84,7 @@ def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Itera
 
 
 def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
-    """The numbers of an array in blocks, each with how many were before it."""
+    """Yield the numbers of an array in blocks, each with how many were before it."""
     kind = _FBX_TYPES[data[at : at + 1]]
     count, packed, size = struct.unpack_from("<3I", data, at + 1)
     at += 13

@@ -49,7 +49,7 @@ def _bad_numbers(numbers: Iterable[float]) -> int:
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
-    """The accessors whose numbers place points, each with the mesh whose vertices they are."""
+    """Return the accessors with numbers that place points, and the name of the mesh of each that holds vertices."""
     found: dict[int, str | None] = {}
     for number, mesh in enumerate(document.get("meshes", [])):
         for primitive in mesh["primitives"]:
@@ -85,7 +85,7 @@ def unquote(uri: str) -> str:
 
 
 class Buffers:
-    """The document of a glTF file, and its buffers, those in other files too."""
+    """The document of a glTF file, and its buffers, including external files."""
 
     def __init__(self, data: Data, path: str) -> None:
         self.folder = os.path.dirname(path)
@@ -99,7 +99,7 @@ class Buffers:
         self.document = json.loads(text[:])
 
     def table(self, view_number: int, offset: int, count: int, width: int) -> NDArray[np.float32] | None:
-        """Rows of numbers; None where only an extension knows how to unpack them."""
+        """Return rows of numbers, or None if only an extension can unpack them."""
         view = self.document["bufferViews"][view_number]
         if "EXT_meshopt_compression" in view.get("extensions", {}):
             return None
@@ -108,7 +108,7 @@ class Buffers:
         return np.ndarray((count, width), "<f4", data, start, (view.get("byteStride", 4 * width), 4))
 
     def _buffer(self, number: int) -> tuple[Data, int]:
-        """A buffer's bytes, and where in them it begins. Raises FileError where it is missing or too short."""
+        """Return a buffer's bytes and its start in them. Raises FileError if it is missing or too short."""
         if number not in self.opened:
             buffer = self.document["buffers"][number]
             self.opened[number] = self._open(buffer, buffer["byteLength"])

@@ -24,7 +24,7 @@ def refuse(count: int, place: Finding) -> None:
 
 
 def bad_in_table(rows: NDArray) -> tuple[int, int]:
-    """How many numbers of (n, k) are not finite in float32, and the first row that has one."""
+    """Return the count of numbers in (n, k) that are not finite in float32, and the first row with such a number."""
     if rows.dtype.kind != "f":
         return 0, 0
     count, first = 0, 0

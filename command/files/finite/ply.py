@@ -52,7 +52,7 @@ def _check_binary_ply(data: Data, header: Header) -> tuple[int, int]:
 def _ragged_rows(
     data: Data, start: int, rows: int, properties: Sequence[Property], order: str
 ) -> Iterator[tuple[dict, int]]:
-    """The numbers of rows that hold lists, and where each ends. Lists themselves are passed over."""
+    """Yield the numbers of rows that hold lists, and the end of each row. The lists themselves are skipped."""
     kinds = {"i1": "b", "u1": "B", "i2": "h", "u2": "H", "i4": "i", "u4": "I", "f4": "f", "f8": "d"}
     columns = [
         (one.name, struct.Struct(order + kinds[one.counter or one.type]), int(one.type[1]) if one.counter else 0)
