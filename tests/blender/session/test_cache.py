@@ -10,7 +10,7 @@ import bpy
 from body_moments.blender.session.live import live
 from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.stored import results, walls
-from body_moments.blender.session.tracking import handlers, staleness
+from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.cache import SessionCache
 from body_moments.core.verdict.finding import finding
 
@@ -33,7 +33,7 @@ def caches():
     }
 
 
-def test_what_is_remembered_follows_a_name_and_is_not_a_successor_s():
+def test_cache_follows_renaming_and_ends_with_object():
     cache, (obj,) = SessionCache(), objects(1)
     cache[obj] = 1
     obj.name = "Renamed"
@@ -64,7 +64,7 @@ def remember():
 
 
 @pytest.mark.parametrize("end", ["load", "unregister"])
-def test_nothing_is_remembered_when_the_file_or_the_add_on_is_gone(end, tmp_path):
+def test_caches_are_empty_after_load_and_unregister(end, tmp_path):
     remember()
     assert staleness._shapes
     if end == "load":
@@ -79,27 +79,3 @@ def test_nothing_is_remembered_when_the_file_or_the_add_on_is_gone(end, tmp_path
     finally:
         if end == "unregister":
             body_moments.register()
-
-
-def test_each_application_handler_is_added_once_and_survives_a_file(tmp_path):
-    def ours():
-        return sorted(
-            (name, function.__name__)
-            for name in dir(bpy.app.handlers)
-            if isinstance(functions := getattr(bpy.app.handlers, name), list)
-            for function in functions
-            if function.__module__.startswith("body_moments.")
-        )
-
-    expected = sorted((name, function.__name__) for name, function in handlers.HANDLERS)
-    assert ours() == expected
-    path = str(tmp_path / "session.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert ours() == expected
-    bpy.app.handlers.undo_post.remove(handlers._on_undo)  # another add-on may empty a list
-    body_moments.unregister()
-    subscribers = [*handlers.on_update, *handlers.on_undo, *handlers.on_load, *handlers.on_save]
-    found = ours()
-    body_moments.register()
-    assert found == subscribers == [] and ours() == expected
