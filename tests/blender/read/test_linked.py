@@ -98,7 +98,7 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
 
 
 def test_linked_material_density_is_not_editable(tmp_path):
-    from body_moments.panels.density.density.material_menus import density_row
+    from body_moments.panels.density.material_menus import density_row
 
     from tests.panels.drawing import Layout
 
