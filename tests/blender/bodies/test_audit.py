@@ -11,7 +11,7 @@ pytest.importorskip("bpy")
 import numpy as np
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
-from body_moments.core.robots.audit import Auditor, _measured, _primitive
+from body_moments.core.robots.audit import Auditor
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
 from body_moments.core.robots.read.descriptions import read_description
 from body_moments.core.robots.read.paths import Roots
@@ -206,7 +206,7 @@ def read_angles(angles):
 @pytest.mark.parametrize(
     "head", ["", '<?xml version="1.0"?>\n', "<?xml version='1.0' encoding='utf-16' standalone='yes'?>\n"]
 )
-def test_a_file_of_two_bytes_a_character_is_repaired_as_one_that_can_be_read(tmp_path, head, encoding):
+def test_utf16_description_is_repaired_as_utf8(tmp_path, head, encoding):
     """As shells of Windows write them. A byte of the robot's name is that of a quotation mark."""
     right = robot(tmp_path, 7, links=2)
     wrong = replace(right.links[1].inertial, inertia=right.links[1].inertial.inertia * 1000)
@@ -226,7 +226,7 @@ def test_a_file_of_two_bytes_a_character_is_repaired_as_one_that_can_be_read(tmp
 
 
 @pytest.mark.parametrize("name, writer", [("urdf", urdf), ("sdf", sdf), ("mjcf", mjcf)])
-def test_what_we_write_is_right(tmp_path, name, writer):
+def test_written_descriptions_pass_the_audit(tmp_path, name, writer):
     for seed in range(5):
         path = tmp_path / ("robot." + name)
         path.write_text(writer.write(robot(tmp_path, seed)), encoding="utf-8")
@@ -237,7 +237,7 @@ def test_what_we_write_is_right(tmp_path, name, writer):
 
 
 @pytest.mark.parametrize("name, writer", [("sdf", sdf), ("mjcf", mjcf), ("usd", usd)])
-def test_other_formats_are_repaired_where_they_stand(tmp_path, name, writer):
+def test_other_formats_are_repaired_in_place(tmp_path, name, writer):
     right = robot(tmp_path, 7, placed=False)
     true = right.links[1].inertial
     wrong = Inertial(true.mass, true.center, true.inertia * 1000, true.moments * 1000, true.axes)
@@ -304,7 +304,7 @@ def test_mujoco_reads_a_body_as_we_do(tmp_path):
     assert near(turn, shape.shape.pose.rotation, 1e-10) and shape.shape.size == (0.2, 0.4, 0.02)
 
 
-def test_mujoco_models_are_read_with_what_they_include(tmp_path):
+def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
     """Files in files; what they state is judged, and repaired only where it stands in the model itself."""
     body = '<body name="{}"><inertial mass="{}" pos="0 0 0" diaginertia="1 1 1"/><geom type="box" size="1 1 1"/></body>'
     model = '<mujoco><include file="sub/more.xml"/><worldbody>{}<include file="arm.xml"/></worldbody></mujoco>'
@@ -334,7 +334,7 @@ def test_mujoco_models_are_read_with_what_they_include(tmp_path):
         assert (found.code, found.values["name"]) == (code, text.split('"')[1])
 
 
-def test_what_is_impossible_is_an_error_and_what_is_only_otherwise_is_a_note(tmp_path):
+def test_impossible_inertial_is_error_and_uneven_one_a_note(tmp_path):
     text = """<robot name="r">{}</robot>"""
     link = (
         '<link name="{}"><inertial><origin xyz="{}"/><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" '
@@ -360,7 +360,7 @@ def test_what_is_impossible_is_an_error_and_what_is_only_otherwise_is_a_note(tmp
 
 
 @pytest.mark.parametrize("turned", [False, True])
-def test_the_axis_that_a_mesh_says_is_up_is_obeyed_only_where_that_makes_it_right(tmp_path, turned):
+def test_up_axis_of_mesh_counts_if_it_fits_the_inertial(tmp_path, turned):
     """Readers of COLLADA differ, and so do those who made descriptions for them."""
     points, triangles = body(np.random.default_rng(5))
     link = Link("arm", inertial(points, triangles, 1000.0), shapes=(Shape("mesh", file="arm.dae"),))
@@ -379,7 +379,7 @@ def collada(points, triangles):
     return text.format(" ".join(map(repr, points.ravel().tolist())), " ".join(map(str, triangles.ravel().tolist())))
 
 
-def test_a_missing_inertial_matters_where_something_could_move(tmp_path):
+def test_missing_inertial_counts_for_links_with_shapes(tmp_path):
     path = tmp_path / "r.urdf"
     path.write_text(
         '<robot name="r"><link name="frame"/><link name="arm"><visual><geometry><sphere radius="1"/>'
@@ -435,46 +435,7 @@ def test_published_descriptions_are_judged_as_by_hand(tmp_path):
         assert [one.code for one in found.findings][0] == "inertial_spread_outside" and found.repaired is not None
 
 
-@pytest.mark.parametrize(
-    "kind, size",
-    [("box", (1, 2, 3)), ("sphere", (2,)), ("ellipsoid", (1, 2, 3)), ("cylinder", (2, 3)), ("capsule", (2, 3))],
-)
-def test_primitives_have_the_moments_of_their_slices_and_hulls_that_just_hold_them(kind, size):
-    """Slices across z are ellipses or rectangles, whose moments Gauss' rule adds up exactly; directions all around."""
-    if kind in ("cylinder", "capsule"):
-        (radius, length), cap = size, size[0] if kind == "capsule" else 0.0
-        pieces, across = (
-            [(-length / 2 - cap, -length / 2), (-length / 2, length / 2), (length / 2, length / 2 + cap)],
-            None,
-        )
-        square = lambda z: radius**2 - np.maximum(np.abs(z) - length / 2, 0.0) ** 2  # noqa: E731
-    else:
-        axes = np.array(size * 3 if kind == "sphere" else size, float) / (2.0 if kind == "box" else 1.0)
-        pieces, across = [(-axes[2], axes[2])], axes[:2]
-        square = lambda z: 1.0 if kind == "box" else 1.0 - (z / axes[2]) ** 2  # noqa: E731
-    total = np.zeros(4)
-    for low, high in pieces:
-        nodes, weights = np.polynomial.legendre.leggauss(8)
-        for node, weight in zip((low + high) / 2 + nodes * (high - low) / 2, weights * (high - low) / 2):
-            a, b = np.sqrt(square(node)) * (np.ones(2) if across is None else across)
-            area, share = (4 * a * b, 1 / 3) if kind == "box" else (math.pi * a * b, 1 / 4)
-            total += weight * area * np.array([1.0, share * a * a, share * b * b, node**2])
-    piece = _primitive(Shape(kind, tuple(map(float, size))))
-    assert near([piece.moments.raw[0], *(piece.moments[2 * np.eye(3, dtype=int)[k]] for k in range(3))], total, 1e-12)
-    assert near(piece.moments.raw[1:4], 0.0) and not piece.moments.about.any()
-    directions = np.random.default_rng(1).normal(size=(500, 3))
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
-    if kind in ("cylinder", "capsule"):
-        flat = np.hypot(*directions[:, :2].T)
-        reach = length / 2 * np.abs(directions[:, 2]) + radius * (1.0 if kind == "capsule" else flat)
-    else:
-        scaled = directions * axes
-        reach = np.abs(scaled).sum(axis=1) if kind == "box" else np.linalg.norm(scaled, axis=1)
-    share = (piece.points @ directions.T).max(axis=0) / reach
-    assert share.min() >= 1.0 - 1e-12 and share.max() <= (1.0 + 1e-12 if kind == "box" else 1.0101)
-
-
-def test_a_file_that_is_missing_or_damaged_is_said_once_and_nothing_is_judged_by_the_others(tmp_path):
+def test_missing_mesh_is_named_once_and_stops_judgment(tmp_path):
     """A tensor that no box of this size has is no mistake where other shapes are not known."""
     shape = "<collision><geometry>{}</geometry></collision>"
     shapes = [shape.format('<mesh filename="{}"/>'.format(name)) for name in ("gone.stl", "gone.stl", "bad.stl")]
@@ -491,66 +452,3 @@ def test_a_file_that_is_missing_or_damaged_is_said_once_and_nothing_is_judged_by
     values = [(one.code, one.values.get("name")) for one in found.findings]
     assert [name for _, name in values] == ["gone.stl", "bad.stl"] and found.repaired is None
     assert found.density is None
-
-
-def test_shapes_that_bound_nothing_certain_are_no_reference(tmp_path):
-    """Three faces on one edge, or one alone, beside a box: both make a hull, and no density."""
-    points = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [1, 1, 1], [-1, 1, 1]], float)
-    open_surface, flat = [[0, 1, 2], [0, 1, 3], [0, 1, 4]], [[0, 1, 2]]
-    for name, triangles in {"open": open_surface, "flat": flat}.items():
-        (tmp_path / (name + ".stl")).write_bytes(to_stl(Surface.from_triangles(points, np.array(triangles))))
-        link = """<link name="a"><inertial><origin xyz="{}"/><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1"
-        ixy="0" ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="{}.stl"/></geometry></collision>
-        <collision><geometry><box size="2 2 2"/></geometry></collision></link>"""
-        path = tmp_path / "r.urdf"
-        for center, codes in (("0 0 0", []), ("1.5 0 0", ["inertial_center_outside"])):
-            path.write_text("<robot name='r'>{}</robot>".format(link.format(center, name)))
-            (found,) = audit(path).links
-            assert [one.code for one in found.findings] == codes, name
-            assert found.density is None and found.repaired is None
-
-
-def test_a_shape_has_moments_where_what_it_bounds_is_certain_and_is_turned_as_its_file_says():
-    points, triangles = box((0, 0, 0), (1, 2, 3))
-    upright = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
-    piece = _measured(Surface(points, triangles=triangles), upright)
-    assert close(piece.moments.total, 6.0, 1e-14) and np.array_equal(piece.points, points)
-    turned = piece.turned()
-    assert close(turned.moments.total, 6.0, 1e-14) and close(turned.moments.center, [0.5, -1.5, 1.0], 1e-14)
-    assert np.abs(turned.points - points @ upright.T).max() == 0.0 and turned.upright is None
-    plain = _measured(Surface(points, triangles=triangles))
-    assert plain.upright is None and plain.turned() is plain
-    beyond = points.copy()
-    beyond[0, 0] = np.nan
-    for uncertain in (Surface(points, triangles=triangles[:3]), Surface(beyond, triangles=triangles)):
-        piece = _measured(uncertain, upright)
-        assert piece.moments is None and piece.upright is upright and len(piece.points) == 8
-        assert piece.turned().moments is None and len(piece.turned().points) == 8
-
-
-@pytest.mark.parametrize("share, is_turned", [(0.1, True), (0.25, True), (0.4, False)])
-def test_another_axis_is_up_where_that_halves_how_far_the_inertial_is_from_its_geometry(tmp_path, share, is_turned):
-    """Tensors between that of the mesh as its file turns it and that of the mesh as it is."""
-    points, triangles = body(np.random.default_rng(5))
-    upright = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]])
-    points = points - inertial(points, triangles, 1000.0).center
-    plain, turned = (inertial(one, triangles, 1000.0) for one in (points, points @ upright.T))
-    stated = with_tensor(plain, (1.0 - share) * turned.inertia + share * plain.inertia)
-    (tmp_path / "arm.dae").write_text(collada(points, triangles), encoding="utf-8")
-    path = tmp_path / "r.urdf"
-    path.write_text(text_of([Link("arm", stated, shapes=(Shape("mesh", file="arm.dae"),))]), encoding="utf-8")
-    (found,) = audit(path).links
-    assert ("audit_up_axis" in [one.code for one in found.findings]) == is_turned
-
-
-def test_an_axis_that_is_up_keeps_the_center_within_what_a_surface_that_is_open_spans(tmp_path):
-    """Two triangles that bound nothing, from one edge far along y in the file and up where it is read."""
-    points = np.array([[-1, -1, -1], [1, -1, -1], [0, 9, 0], [0, 9, 1], [1, -1, 1]], float)
-    (tmp_path / "arm.dae").write_text(collada(points, np.array([[0, 1, 2], [0, 1, 3], [0, 1, 4]])), encoding="utf-8")
-    link = """<link name="a"><inertial><origin xyz="{}"/><mass value="1"/><inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0"
-    ixz="0" iyz="0"/></inertial><collision><geometry><mesh filename="arm.dae"/></geometry></collision></link>"""
-    path = tmp_path / "r.urdf"
-    for center, codes in (("0.2 3 0.1", []), ("0.2 -0.1 3", ["audit_up_axis"])):
-        path.write_text("<robot name='r'>{}</robot>".format(link.format(center)), encoding="utf-8")
-        (found,) = audit(path).links
-        assert [one.code for one in found.findings] == codes and found.density is None

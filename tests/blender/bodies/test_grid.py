@@ -3,19 +3,16 @@
 """Volume objects: voxels to the bit by both ways of reading them, and numbers through every transform and type."""
 
 import tempfile
-from contextlib import nullcontext
-from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.grids.grid import density_body
-from body_moments.blender.bodies.measure_object import measure_body, measure_object
+from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.grids import sample_grid, vdb
 from body_moments.blender.read.grids import volume as volume_module
 from body_moments.blender.read.grids.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
-from body_moments.blender.settings.digest import grid_key
 from body_moments.blender.settings.grid import GridOptions
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
@@ -116,7 +113,7 @@ def test_sampling_by_nodes_gives_the_same_bits(tmp_path, monkeypatch, dtype, mat
 
 
 @pytest.mark.parametrize("kind", ["SHELL", "WIRE"])
-def test_a_volume_object_is_solid_whatever_kind_its_settings_hold(kind):
+def test_volume_object_is_solid_for_any_kind(kind):
     bpy.ops.mesh.primitive_cube_add(location=(3, 0, 0))
     fog = mesh_to_volume(bpy.context.object)
     solid = measure(fog)
@@ -129,7 +126,7 @@ def test_a_volume_object_is_solid_whatever_kind_its_settings_hold(kind):
 
 
 @pytest.mark.parametrize("nodes", [False, True])
-def test_what_a_modifier_makes_is_read(monkeypatch, nodes):
+def test_volume_made_by_modifier_is_read(monkeypatch, nodes):
     bpy.ops.mesh.primitive_cube_add(location=(3, 0, 0))
     fog = mesh_to_volume(bpy.context.object)
     fog.modifiers[0].interior_band_width = 0.01
@@ -299,7 +296,7 @@ def level_set(path, radius=2.0, size=0.1):
     return volume_object(path, grid)
 
 
-def test_a_level_set_is_refused_as_a_density_and_measured_as_the_solid_it_bounds(tmp_path):
+def test_level_set_is_no_density_and_measures_as_solid(tmp_path):
     obj = level_set(tmp_path / "a.vdb")
     with refused("grid_is_level_set", grid="distance"):
         measure(obj)
@@ -317,14 +314,7 @@ def test_a_level_set_is_refused_as_a_density_and_measured_as_the_solid_it_bounds
     assert told["grid"] == "distance" and 1.3 < told["polygons"] * 0.1**2 / found.area < 1.6  # through each voxel
 
 
-def test_a_density_is_refused_as_a_solid(tmp_path):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32)))
-    obj.body_moments.grid_as = "SOLID"
-    with refused("grid_is_not_level_set", grid="density"):
-        measure(obj)
-
-
-def test_a_volume_without_a_file_is_asked_for_one_after_saving_too(tmp_path):
+def test_volume_without_file_is_refused_after_saving(tmp_path):
     """Blender saves its empty path as one of a folder."""
     linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
     bpy.ops.mesh.primitive_cube_add()
@@ -337,7 +327,7 @@ def test_a_volume_without_a_file_is_asked_for_one_after_saving_too(tmp_path):
     assert measure(bpy.data.objects["Fog"]).volume > 0.0
 
 
-def test_what_cannot_be_measured_says_why(tmp_path):
+def test_unmeasurable_volumes_are_refused_with_reason(tmp_path):
     empty = linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty")))
     with refused("volume_without_grids"):
         measure(empty)
@@ -367,15 +357,6 @@ def test_what_cannot_be_measured_says_why(tmp_path):
     grid.fill((2**30,) * 3, (2**30,) * 3, 1.0)
     with refused("grid_too_sparse", grid="density"):
         measure(volume_object(tmp_path / "d.vdb", grid))
-
-
-def test_two_clouds_far_apart_cost_nothing_between(tmp_path):
-    grid = vdb_grid(np.ones((4, 4, 4), np.float32))
-    grid.fill((40000, 0, 0), (40003, 3, 3), 1.0)
-    obj = volume_object(tmp_path / "a.vdb", grid)
-    with volume_reading(obj, depsgraph()) as reading:
-        assert sum(block.size for _, block in reading.blocks()) < 10**5
-    assert measure(obj).mass_properties.center == pytest.approx([20001.5, 1.5, 1.5], rel=1e-12)
 
 
 def test_a_mesh_that_its_nodes_turn_into_a_volume():
@@ -450,30 +431,6 @@ def test_numbers_too_large_or_too_far_are_refused(tmp_path):
         measure(volume_object(tmp_path / "b.vdb", vdb_grid(ONES, offset=(5, 1 << 29, -5))))
 
 
-def test_a_volume_that_a_mesh_shows_is_no_sheet(tmp_path):
-    source = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-
-    def shown(tree):
-        info = tree.nodes.new("GeometryNodeObjectInfo")
-        info.inputs["Object"].default_value = source
-        return info.outputs["Geometry"]
-
-    obj = with_nodes(linked(bpy.data.objects.new("Mesh", bpy.data.meshes.new("Mesh"))), shown)
-    assert measure(obj).mass_properties.mass == pytest.approx(512.0)
-    obj.body_moments.kind = "SHELL"
-    with refused("grid_as_shell", obj.name):
-        measure(obj)
-
-
-def test_a_level_set_without_a_surface_bounds_nothing(tmp_path):
-    grid = vdb_grid(np.ones((4, 4, 4), np.float32), "distance", background=1.0)
-    grid.gridClass = "level set"
-    obj = volume_object(tmp_path / "a.vdb", grid)
-    obj.body_moments.grid_as = "SOLID"
-    with refused("level_set_empty", obj.name, grid="distance"):
-        measure(obj)
-
-
 def test_a_grid_on_a_frustum_is_refused(tmp_path):
     grid = vdb_grid(ONES)
     grid.transform = vdb.openvdb().createFrustumTransform((0, 0, 0), (7, 7, 7), 0.5, 2.0)
@@ -481,7 +438,7 @@ def test_a_grid_on_a_frustum_is_refused(tmp_path):
         measure(volume_object(tmp_path / "a.vdb", grid))
 
 
-def test_a_damaged_file_is_refused_with_the_grid_that_cannot_be_read(tmp_path):
+def test_damaged_volume_file_is_refused_with_grid_name(tmp_path):
     """Blender reads the list of grids, and voxels only when they are shown."""
     path = tmp_path / "a.vdb"
     obj = volume_object(path, vdb_grid(random_values(np.float32)))
@@ -491,40 +448,9 @@ def test_a_damaged_file_is_refused_with_the_grid_that_cannot_be_read(tmp_path):
         measure(obj)
 
 
-def test_no_voxels_can_be_written_where_the_disk_is_full(monkeypatch):
-    bpy.ops.mesh.primitive_cube_add()
-    fog = mesh_to_volume(bpy.context.object)
-    monkeypatch.setattr(volume_module.tempfile, "TemporaryDirectory", lambda **_: nullcontext("/nowhere/at/all"))
-    with refused("temporary_folder_full", fog.name):
-        measure(fog)
-
-
-def test_a_volume_that_is_nowhere_is_refused(tmp_path):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    obj.location.x = float("nan")
-    with refused("non_finite_transform", obj.name):
-        measure(obj)
-
-
-def test_what_an_empty_volume_instances_is_its_body():
+def test_instances_of_empty_volume_are_its_body():
     obj = with_nodes(linked(bpy.data.objects.new("Empty", bpy.data.volumes.new("Empty"))), an_instance)
     assert close(measure(obj).volume, 1.0, rel=1e-6)
-
-
-def test_a_whole_node_of_one_value_is_read_and_an_empty_one_is_not(tmp_path):
-    grid = vdb_grid(np.full((1, 1, 1), 3, np.float32), offset=(300, 5, 6))
-    grid.fill((0, 0, 0), (127, 127, 127), 2.0)
-    vdb.openvdb().write(str(tmp_path / "a.vdb"), grid)
-    blocks = list(vdb.VdbGrid(str(tmp_path / "a.vdb"), "density").blocks())
-    assert [(start, block.shape, block.min(), block.max()) for start, block in blocks] == [
-        ((0, 0, 0), (128, 128, 128), 2.0, 2.0),
-        ((300, 5, 6), (1, 1, 1), 3.0, 3.0),
-    ]
-    large = vdb_grid(np.full((1, 1, 1), 3, np.float32), offset=(4096, 0, 0))
-    large.fill((0, 0, 0), (4095, 4095, 4095), 2.0)
-    vdb.openvdb().write(str(tmp_path / "b.vdb"), large)
-    for number, (start, block) in zip(range(2), vdb.VdbGrid(str(tmp_path / "b.vdb"), "density").blocks()):
-        assert start == (0, 0, 128 * number) and block.shape == (128, 128, 128) and block.min() == block.max() == 2.0
 
 
 def test_a_packed_volume_is_read_from_the_file_that_it_is_in(tmp_path):
@@ -537,62 +463,7 @@ def test_a_packed_volume_is_read_from_the_file_that_it_is_in(tmp_path):
     assert measure(obj).mass_properties.mass == truth > 0.0
 
 
-@pytest.mark.parametrize("matrix", [np.eye(4), SHEARED], ids=["plain", "sheared"])
-def test_nodes_sample_the_box_that_blender_shows_with_room_for_rounding(tmp_path, matrix):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(ONES))
-    low, high = np.array([0.2, -1.4, 2.0]), np.array([3.7, 5.5, 4.0])  # in voxels, of which the last ones are whole
-    corners = np.array([[ends[i] for i, ends in zip(which, zip(low, high))] for which in np.ndindex(2, 2, 2)])
-    grid = SimpleNamespace(name="density", data_type="FLOAT", matrix_object=matrix)
-    found = sample_grid.SampledGrid(obj, depsgraph(), grid, corners @ matrix[:3, :3].T + matrix[:3, 3])
-    assert np.array_equal(found.to_object, matrix) and found.level_set is None and found.background == 0.0
-    assert (found.low <= [-1, -3, 1]).all() and (found.low >= [-1, -3, 0]).all()  # which rounding may make one less
-    end = found.low + found.shape
-    assert (end >= [6, 8, 6]).all() and (end <= [6, 8, 7]).all()
-
-
-def test_the_scene_that_nodes_are_evaluated_in_is_at_the_frame_that_is_shown_and_calls_nobody():
-    called, shown = [], bpy.context.scene
-    handlers = [bpy.app.handlers.frame_change_pre, bpy.app.handlers.frame_change_post]
-    for functions in handlers:
-        functions.append(lambda *_: called.append(True))
-    kept = [functions[:] for functions in handlers]
-    try:
-        shown.frame_set(7, subframe=0.25)
-        assert len(called) == 2
-        other = bpy.data.scenes.new("Other")
-        layer = sample_grid._layer_at_frame_of(shown, other)
-        assert (other.frame_current, other.frame_subframe) == (7, 0.25) and len(called) == 2
-        assert layer in other.view_layers.values() and len(other.view_layers) == 2
-        assert [functions[:] for functions in handlers] == kept
-    finally:
-        for functions in handlers:
-            functions.pop()
-
-
-@pytest.mark.parametrize(("slope", "intercept"), [(1.0, 0.0), (2.0, 0.0), (1.0, 1.0), (0.5, -0.5), (2.0, 1.0)])
-def test_samples_that_stand_for_others_weigh_as_those_and_occupy_where_they_are_not_zero(slope, intercept):
-    samples = np.arange(1.0, 25.0).reshape(2, 3, 4)
-    matrix = np.diag([1e-3, 2e-3, 3e-3, 1.0])
-    read = []
-    body = density_body(
-        samples, samples.shape, matrix, GridOptions(), slope=slope, intercept=intercept, progress=read.append, order=4
-    )
-    weights = samples * slope + intercept
-    count = np.count_nonzero(weights)
-    assert close(body.mass.total, 6e-9 * weights.sum(), rel=1e-12) and sum(read) == 2 * samples.size
-    assert close(body.volume.total, 6e-9 * count, rel=1e-12) and body.volume.order == 3
-    assert body.area.order == 0 and body.area.total == 0.0 and body.area.measure == "area" and body.health.closed
-    assert body.higher_mass.order == 4 and close(body.higher_mass.total, body.mass.total, rel=1e-12)
-    volume, area = body.moments(4, True)
-    assert close(volume.total, body.volume.total, rel=1e-12) and volume.measure == "volume" == body.volume.measure
-    assert area.order == 4 and area.measure == "area" and not area.raw.any()
-    assert body.moments(4, False)[1] is None
-    plain = density_body(weights, samples.shape, matrix, GridOptions())
-    assert plain.higher_mass is None and close(plain.mass.total, body.mass.total, rel=1e-12)
-    assert close(plain.moments(3, False)[0].total, 6e-9 * count, rel=1e-12)
-
-
-def test_what_counts_as_empty_and_where_samples_stand_holds_for_moments_of_any_order():
+def test_empty_background_and_positions_hold_for_any_order():
     samples = np.array([5.0, 1.0, 2.0, 5.0, 3.0]).reshape(5, 1, 1)
     places = np.array([0.0, 1.0, 3.0, 4.0, 8.0])
     body = density_body(
@@ -607,14 +478,3 @@ def test_what_counts_as_empty_and_where_samples_stand_holds_for_moments_of_any_o
     assert [one.code for one in body.findings] == ["background_empty", "grid_without_surface"]
     with refused("grid_empty"):
         density_body(np.zeros((0, 2, 2)), (0, 2, 2), np.eye(4), GridOptions())
-
-
-def test_a_grid_weighs_by_the_settings_of_its_own_kind_of_object(tmp_path):
-    obj = volume_object(tmp_path / "a.vdb", vdb_grid(random_values(np.float32, (4, 4, 4))))
-    bpy.ops.mesh.primitive_cube_add(location=(3, 0, 0))
-    for one in (obj, mesh_to_volume(bpy.context.object)):
-        body = measure_body(one, depsgraph(), MeasureOptions(order=2)).body
-        assert body.higher_mass is None and body.density_from == finding("density_from_grid", grid="density")
-        assert body.density_key == grid_key(one, None)
-        one.body_moments.value_density = 3.0
-        assert measure_body(one, depsgraph()).body.density_key == grid_key(one, None) != body.density_key

@@ -8,7 +8,7 @@ import pytest
 bpy = pytest.importorskip("bpy")
 from body_moments.blender.bodies.measure_object import measure_body
 from body_moments.blender.bodies.stacks import stack
-from body_moments.blender.bodies.stacks.many import measure_many, measured_in_turn
+from body_moments.blender.bodies.stacks.many import measure_many
 from body_moments.blender.bodies.stacks.stack import Stacked
 from body_moments.blender.session.stored import results
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
@@ -136,7 +136,7 @@ def all_outcomes(objects, options=AS_SET):
     return pairs, depsgraph
 
 
-def test_shards_of_all_kinds_together_are_those_alone():
+def test_stacked_shards_equal_single_measurements():
     objects = shards()
     pairs, depsgraph = all_outcomes(objects)
     stacked = {obj.name.split()[0] for obj, found in pairs if isinstance(found, Stacked)}
@@ -149,7 +149,7 @@ def test_shards_of_all_kinds_together_are_those_alone():
         assert_same(found, alone(obj, depsgraph))
 
 
-def test_what_is_given_for_all_counts_for_each():
+def test_options_hold_for_each_stacked_object():
     objects = shards(2)
     for options in (
         MeasureOptions(density=2700.0, unit_scale=0.001, pose=True),
@@ -184,7 +184,7 @@ def object_of(points, faces, name="Object"):
     return obj
 
 
-def test_meshes_with_the_same_corners_in_other_faces_are_other_shapes():
+def test_meshes_of_equal_corners_and_other_faces_differ():
     """A triangle and five corners, or five corners and a triangle, and what closes either of them."""
     points = [(0, 0, 0), (2, 0, 0.5), (3, 2, -0.5), (1, 3, 0), (-1, 2, 0.5), (2, 4, 1), (1, 1, 3), (2, 3, -3)]
     a, b, c, d, e, g, p, q = range(8)
@@ -200,7 +200,7 @@ def test_meshes_with_the_same_corners_in_other_faces_are_other_shapes():
 
 
 @pytest.mark.filterwarnings("error")
-def test_axes_beyond_the_range_of_numbers_are_refused_together_as_alone_without_a_warning_of_numpy(capfd):
+def test_overflowing_axes_are_refused_in_stacks_too(capfd):
     """A ring of many faces, whose sixth moments are no numbers."""
     points, faces = s.torus(48, 16)
     obj = object_of(1e36 * np.asarray(points), faces)
@@ -222,7 +222,7 @@ def test_axes_beyond_the_range_of_numbers_are_refused_together_as_alone_without_
         {"overlap": "UNION"},
     ],
 )
-def test_what_is_set_of_each_and_given_for_all_counts_together_as_alone(settings):
+def test_object_settings_and_options_hold_in_stacks(settings):
     obj = object_of(*s.box())
     for name, value in settings.items():
         setattr(obj.body_moments, name, value)
@@ -244,19 +244,6 @@ def test_a_stack_that_fails_measures_each_alone(monkeypatch, capfd):
         assert_same(found, other)
 
 
-def test_some_may_be_left_out_when_they_are_measured_in_turn():
-    objects = shards(1)
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    measured = measured_in_turn(objects, depsgraph)
-    for obj in objects[1::2]:
-        expected = alone(obj, depsgraph)
-        if isinstance(expected, Exception):
-            with pytest.raises(type(expected)):
-                measured(obj)
-        else:
-            assert_same(measured(obj), expected)
-
-
 def stored_on(obj):
     return {
         key: obj[key].to_list() if hasattr(obj[key], "to_list") else obj[key]
@@ -273,7 +260,7 @@ def same_to_rounding(one, other):
     return np.abs(one - other).max() <= 1e-14 * max(np.abs(one).max(), np.abs(other).max())
 
 
-def test_what_a_selection_stores_is_what_each_stores():
+def test_selection_stores_same_results_as_single_objects():
     objects = shards(2)
     only(*objects)
     bpy.ops.object.body_moments_measure()

@@ -172,7 +172,7 @@ def test_a_grid_with_any_spline_order(tmp_path, spline_order):
         assert close(moments["{},{},{}".format(*powers)], truth, rel=1e-12)
 
 
-def test_walls_have_moments_of_the_mass_to_the_order_that_is_known():
+def test_walls_have_mass_moments_to_third_order():
     obj = box()
     settings = obj.body_moments
     settings.kind, settings.wall, settings.thickness = "SHELL", "INWARD", 0.125

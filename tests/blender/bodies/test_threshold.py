@@ -3,20 +3,15 @@
 """The body of a Volume object within a threshold: numbers through every transform, fillings, refusals, the slider."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-from body_moments.blender.bodies.grids import threshold as threshold_module
-from body_moments.blender.bodies.measure_object import measure_body
 from body_moments.blender.session.tracking import staleness
-from body_moments.blender.settings.options import MeasureOptions
-from body_moments.core.verdict.finding import finding
 
 from tests.blender.bodies.test_grid import SHEARED, measure
-from tests.blender.findings import refused, said
+from tests.blender.findings import said
 from tests.blender.grids import vdb_grid, volume_object
 from tests.close import close
 
@@ -40,7 +35,7 @@ def sampled_ball(tmp_path, n=24, radius=9.3):
 
 
 @pytest.mark.parametrize("matrix", [None, SHEARED], ids=["plain", "sheared"])
-def test_a_ball_is_the_set_above_the_threshold_wherever_the_grid_stands(tmp_path, matrix):
+def test_thresholded_ball_is_exact_under_any_transform(tmp_path, matrix):
     obj, values = sampled_ball(tmp_path)
     plain = measure(obj)
     assert close(plain.volume, 4.0 / 3.0 * math.pi * 9.3**3, rel=1e-2) and str(plain.method) == "grid exact"
@@ -56,7 +51,7 @@ def test_a_ball_is_the_set_above_the_threshold_wherever_the_grid_stands(tmp_path
         assert close(moved.mass_properties.center, expected, rel=1e-6)
 
 
-def test_the_body_of_a_ramp_is_a_box_filled_with_material_or_with_the_ramp(tmp_path):
+def test_thresholded_ramp_is_box_of_material_or_ramp(tmp_path):
     """Beyond the last layer the density falls to the background within one voxel, almost at once."""
     obj = ramp(tmp_path)
     obj.body_moments.density = 2000.0
@@ -70,7 +65,7 @@ def test_the_body_of_a_ramp_is_a_box_filled_with_material_or_with_the_ramp(tmp_p
     assert close(filled.mass_properties.mass, 7.0 * 48.0 * (12.0**2 - 3.25**2) / 2.0, rel=1e-4)
 
 
-def test_moments_of_any_order_are_those_of_the_body(tmp_path):
+def test_threshold_moments_of_any_order_are_the_body_s(tmp_path):
     measured = measure(ramp(tmp_path), order=6, surface=True)
     about = measured.volume_moments.about_point((0.0, 0.0, 0.0))
     assert close(about[6, 0, 0], 48.0 * (11.0**7 - 2.25**7) / 7.0, rel=1e-3)
@@ -89,7 +84,7 @@ def test_a_spline_is_measured_within_its_bound(tmp_path, spline_order):
     assert measured.error_bound["estimated"]
 
 
-def test_what_reaches_the_edge_is_reported_where_nothing_is_known_beyond(tmp_path):
+def test_threshold_body_at_grid_edge_is_reported(tmp_path):
     values = np.full((4, 4, 4), 2.0, np.float32)
     obj = volume_object(tmp_path / "full.vdb", vdb_grid(values, background=5.0))
     obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 1.0
@@ -115,7 +110,7 @@ def test_the_threshold_is_a_slider_after_measure(tmp_path):
     assert staleness.stale_reason(obj, bpy.context.scene) is None
 
 
-def test_the_slider_leaves_what_was_edited_since(tmp_path):
+def test_threshold_slider_keeps_results_after_edit(tmp_path):
     obj, _ = sampled_ball(tmp_path)
     before = stored(obj)
     obj.scale = (2.0, 1.0, 1.0)
@@ -123,15 +118,6 @@ def test_the_slider_leaves_what_was_edited_since(tmp_path):
     obj.body_moments.threshold = 2.0
     assert obj["body_volume"] == before
     assert staleness.stale_reason(obj, bpy.context.scene) is not None
-
-
-def test_a_level_set_has_no_threshold(tmp_path):
-    grid = vdb_grid(np.ones((4, 4, 4), np.float32), "distance")
-    grid.gridClass = "level set"
-    obj = volume_object(tmp_path / "level.vdb", grid)
-    obj.body_moments.grid_as, obj.body_moments.threshold = "THRESHOLD", 0.5
-    with refused("grid_is_level_set", obj.name, grid="distance"):
-        measure(obj)
 
 
 @pytest.mark.parametrize("dtype", [np.float64, np.int64])
@@ -143,75 +129,3 @@ def test_values_of_eight_bytes_keep_their_digits(tmp_path, dtype):
     whole = measure(obj).volume
     obj.body_moments.threshold = 2**24 + 6
     assert close(whole - measure(obj).volume, 4.0 * 8.0 * 6.0, rel=1e-4)
-
-
-def test_a_body_of_negative_or_of_too_large_densities_says_which(tmp_path):
-    obj = ramp(tmp_path)
-    obj.body_moments.threshold, obj.body_moments.threshold_fill = 3.25, "GRID"
-    weight = measure(obj).mass_properties.mass
-    assert close(weight, 48.0 * (12.0**2 - 3.25**2) / 2.0, rel=1e-4)
-    obj.body_moments.value_density = 3e38
-    assert close(measure(obj).mass_properties.mass, 3e38 * weight, rel=1e-12)
-    empty = volume_object(tmp_path / "empty.vdb", vdb_grid(np.zeros((4, 4, 4), np.float32) - 2.0))
-    empty.body_moments.grid_as, empty.body_moments.threshold_fill = "THRESHOLD", "GRID"
-    empty.body_moments.threshold = -3.0
-    with refused("grid_empty", empty.name):
-        measure(empty)
-    huge = volume_object(tmp_path / "huge.vdb", vdb_grid(np.full((4, 4, 4), 1e120)))
-    huge.body_moments.grid_as, huge.body_moments.threshold_fill = "THRESHOLD", "GRID"
-    with refused("mass_overflow", huge.name):
-        measure(huge)
-
-
-def body_of(obj, **options):
-    bpy.context.view_layer.update()
-    return measure_body(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(**options)).body
-
-
-def test_what_is_known_of_a_body_and_what_is_summed_to_a_higher_order_agree(tmp_path):
-    obj, _ = sampled_ball(tmp_path, 6, 2.3)
-    settings = obj.body_moments
-    settings.threshold, settings.value_density = 0.5, 3.0
-    for fill in ("MATERIAL", "GRID"):
-        settings.threshold_fill = fill
-        body = body_of(obj, order=4)
-        assert body.estimated and body.health.closed
-        if fill == "GRID":
-            assert body.higher_mass.order == 4 and body.higher_mass.measure == "mass"
-            assert close(body.higher_mass.total, body.mass.total, rel=1e-9)
-            assert body.density_from == finding("density_from_grid", grid="density")
-        else:
-            assert body.higher_mass is body.mass is body.density_from is None
-    volume, area = body.moments(4, True)
-    for known, summed in ((body.volume, volume), (body.area, area)):
-        assert close(summed.total, known.total, rel=1e-9)
-        assert close(summed.about_point(known.about)[2, 0, 0], known[2, 0, 0], rel=1e-9)
-    assert body.moments(4, False)[1] is None
-    for order in (None, 2, 3):
-        assert body_of(obj, order=order).higher_mass is None
-
-
-def test_more_voxels_than_any_memory_has_are_counted_and_refused():
-    for shape, samples in (((1 << 22, 1 << 22, 1 << 22), 1 << 66), (((1 << 29) + 1, 1, 1), (1 << 29) + 1)):
-        reading = SimpleNamespace(level_set=False, shape=shape, grid="large", background=None)
-        with refused("threshold_too_large", grid="large", samples=samples):
-            threshold_module.threshold_grid(reading, 1.0)
-
-
-@pytest.mark.parametrize("fill", ["MATERIAL", "GRID"])
-def test_a_body_may_be_small_and_light(tmp_path, fill):
-    obj = ramp(tmp_path)
-    obj.scale, obj.body_moments.threshold_fill, obj.body_moments.value_density = (1e-3, 1e-3, 1e-3), fill, 10.0
-    found = measure(obj)
-    assert close(found.volume, 420e-9, rel=1e-3)
-    density = 1000.0 if fill == "MATERIAL" else 10.0 * (12.0**2 - 3.25**2) / 2.0 / 8.75
-    assert close(found.mass_properties.mass, density * 420e-9, rel=1e-3)
-
-
-def test_the_largest_value_is_that_of_numbers_as_they_are_converted():
-    values = np.array([[[1.0, np.nan]], [[-7.0, 2.0]]])
-    grid = threshold_module.ThresholdGrid("Grid", values, np.eye(4), None)
-    assert grid.largest() == 2.0
-    turned = threshold_module.ThresholdGrid("Grid", values, np.eye(4), None, lambda block: 1.0 - 2.0 * block)
-    assert turned.largest() == 15.0
-    assert math.isnan(threshold_module.ThresholdGrid("Grid", values[:0], np.eye(4), None).largest())

@@ -6,7 +6,6 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.core.verdict.finding import finding
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -67,7 +66,7 @@ def test_linked_objects_are_left_unchanged_and_told_apart(linked, operator, opti
     assert {values["cause"]["code"] for values in failures} < {"linked_object", "linked_object_data", "linked_results"}
 
 
-def test_settings_are_not_copied_to_linked_objects_without_a_word(linked, reported):
+def test_settings_are_not_copied_to_linked_objects(linked, reported):
     local, *_ = linked
     local.body_moments.density = 5.0
     assert run("copy_settings") == {"CANCELLED"}
@@ -98,6 +97,7 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
     assert not overridden.body_moments.material
 
 
+<<<<<<< HEAD
 def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
     from tests.panels.drawing import labels, shown
 
@@ -105,6 +105,9 @@ def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
 
 
 def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):
+=======
+def test_linked_material_density_is_not_editable(tmp_path):
+>>>>>>> w-tblender
     from body_moments.panels.density.material_menus import density_row
 
     from tests.panels.drawing import Layout

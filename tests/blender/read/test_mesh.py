@@ -8,8 +8,13 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 import bmesh
+<<<<<<< HEAD
 from body_moments.blender.read.mesh import mesh_surface, plain_mesh, vertex_values
 from body_moments.blender.read.objects import read_object
+=======
+from body_moments.blender.read import read_object
+from body_moments.blender.read.mesh import vertex_values
+>>>>>>> w-tblender
 
 from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (
@@ -91,72 +96,14 @@ def test_a_surface_has_the_triangles_that_blender_draws(points, faces):
     assert surface_triangles(surface) == bmesh_triangles(obj)
 
 
-@pytest.mark.parametrize("points, faces", BODIES.values(), ids=BODIES.keys())
-def test_a_surface_holds_the_mesh_as_it_is(points, faces):
-    obj = link("Body", mesh("Body", points, faces))
-    surface = read_object(obj, depsgraph()).parts[0].surface
-    assert surface.points.dtype == np.float32
-    assert np.array_equal(surface.points, [v.co[:] for v in obj.data.vertices])
-    assert np.array_equal(surface.corner_vertices, [loop.vertex_index for loop in obj.data.loops])
-    assert np.array_equal(surface.corner_edges, [loop.edge_index for loop in obj.data.loops])
-    for indices in (surface.triangles, surface.quads, surface.corner_vertices, surface.corner_edges):
-        assert indices.dtype == np.int32
-
-
 @pytest.mark.parametrize(("domain", "kind"), [("FACE", "FLOAT"), ("POINT", "INT")])
-def test_an_attribute_has_values_where_it_has_floats_at_vertices(domain, kind):
+def test_face_or_integer_attribute_is_refused(domain, kind):
     data = mesh("Quads", CUBE, CUBE_FACES)
     data.attributes.new("per_vertex", "FLOAT", "POINT").data.foreach_set("value", range(8))
     data.attributes.new("other", kind, domain)
     assert vertex_values(data, "per_vertex").tolist() == [*range(8)]
     with refused("attribute_type", attribute="other"):
         vertex_values(data, "other")
-
-
-def state_of(obj, state):
-    if state == "instancer":
-        obj.instance_type = "VERTS"
-    elif state == "instanced by its parent":
-        obj.parent = cube("Parent")
-        obj.parent.instance_type = "FACES"
-    elif state == "another user in Edit Mode":
-        activate(link("Other", obj.data))
-        bpy.ops.object.mode_set(mode="EDIT")
-    elif state == "Sculpt Mode":
-        activate(obj)
-        bpy.ops.object.mode_set(mode="SCULPT")
-    elif state == "shape keys":
-        obj.shape_key_add(name="Basis")
-    elif state == "a modifier":
-        obj.modifiers.new("Array", "ARRAY").show_viewport = False
-    elif state == "hidden":
-        obj.hide_set(True)
-    elif state == "elsewhere":
-        bpy.context.scene.collection.objects.unlink(obj)
-
-
-STATES = ["instancer", "instanced by its parent", "another user in Edit Mode", "Sculpt Mode", "shape keys"]
-
-
-@pytest.mark.parametrize("state", [*STATES, "a modifier", "hidden", "elsewhere"])
-def test_a_mesh_is_plain_where_reading_has_nothing_to_decide(state):
-    obj = cube()
-    other = bpy.context.scene.view_layers.new("Other")
-    found = plain_mesh(obj, depsgraph())
-    (part,) = read_object(obj, depsgraph()).parts
-    assert surface_triangles(mesh_surface(found)) == surface_triangles(part.surface)
-    state_of(obj, state)
-    assert plain_mesh(obj, depsgraph()) is None
-    if state == "hidden":
-        other.update()
-        assert plain_mesh(obj, other.depsgraph) is not None
-
-
-def test_a_plain_mesh_is_none_of_another_kind_and_may_have_a_parent():
-    curve = link("Curve", bpy.data.curves.new("Curve", "CURVE"))
-    child = cube("Child")
-    child.parent = curve
-    assert plain_mesh(curve, depsgraph()) is None and plain_mesh(child, depsgraph()) is not None
 
 
 def test_a_modified_mesh_is_read_as_evaluated():
@@ -167,32 +114,6 @@ def test_a_modified_mesh_is_read_as_evaluated():
     plain.modifiers.new("Subdivision", "SUBSURF").levels = 2
     for each in (obj, plain):
         assert surface_triangles(read_object(each, depsgraph()).parts[0].surface) == bmesh_triangles(each)
-
-
-def test_reading_leaves_no_data_block_and_no_byte_changed():
-    obj = link("Body", mesh("Body", *mixed()))
-    obj.modifiers.new("Subdivision", "SUBSURF")
-    before = [v.co[:] for v in obj.data.vertices], [tuple(p.vertices) for p in obj.data.polygons]
-    blocks = {(type(block).__name__, block.name) for block in bpy.data.user_map()}
-    read_object(obj, depsgraph())
-    assert (
-        [v.co[:] for v in obj.data.vertices],
-        [tuple(p.vertices) for p in obj.data.polygons],
-    ) == before
-    assert {(type(block).__name__, block.name) for block in bpy.data.user_map()} == blocks
-
-
-def test_the_arrays_are_copies_that_outlive_the_mesh():
-    obj = cube()
-    surface = read_object(obj, depsgraph()).parts[0].surface
-    points = surface.points.copy()
-    for vertex in obj.data.vertices:
-        vertex.co = (9.0, 9.0, 9.0)
-    obj.data.update()
-    read_object(obj, depsgraph())
-    bpy.data.meshes.remove(obj.data)
-    assert np.array_equal(surface.points, points)
-    assert surface.points.flags.owndata or surface.points.base.flags.owndata
 
 
 def test_edit_mode_reads_edits_that_nothing_has_told_blender_of():
@@ -235,7 +156,7 @@ def test_edit_mode_reads_the_modifiers_that_act_there():
     assert findings["edit_mode_modifiers_off"] == {"modifiers": ["Idle"]}
 
 
-def test_another_user_of_a_mesh_in_edit_mode_reads_the_same_edits():
+def test_other_user_of_edited_mesh_has_the_edits():
     obj = cube()
     other = link("Other", obj.data)
     drag_a_corner(obj)

@@ -5,7 +5,6 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.read.reading import to_si
 from body_moments.blender.read.union import union_surface
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.moments.moments import FLOAT32_HALF_ULP
@@ -15,15 +14,6 @@ from tests.blender.read_bodies import CUBE, CUBE_FACES
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
-
-
-def test_places_in_meters_are_places():
-    matrices = np.random.default_rng(1).normal(size=(3, 4, 4))
-    matrices[:, 3] = 0, 0, 0, 1
-    kept = matrices.copy()
-    found = to_si(matrices, 0.01)
-    assert close(found[:, :3], 0.01 * kept[:, :3], 1e-15) and np.array_equal(found[:, 3], kept[:, 3])
-    assert np.array_equal(matrices, kept) and found.dtype == np.float64
 
 
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])

@@ -113,7 +113,7 @@ def test_mjcf(tmp_path, seed):
     check_repair(tmp_path, description)
 
 
-def test_mjcf_takes_what_is_left_out_from_classes(tmp_path):
+def test_mjcf_defaults_come_from_classes(tmp_path):
     """Of a geom: its own class, else the nearest child class; classes in classes; what the geom has itself counts."""
     description = read(
         tmp_path,
@@ -166,7 +166,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_numbers_are_findings_and_what_is_right_beside_them_is_read(tmp_path, name):
+def test_wrong_numbers_are_findings_and_others_are_read(tmp_path, name):
     content, texts = WRONG[name]
     (link,) = read(tmp_path, content, name).links
     assert [(one.code, one.values["text"]) for one in link.findings] == [("description_number", one) for one in texts]
@@ -253,12 +253,6 @@ def test_urdf(tmp_path, seed):
     assert inertial.startswith(b"<inertial note") and inertial.endswith(b"</inertial>")
     assert description.source[slice(*second.span)] == b"<inertial/>"
     check_repair(tmp_path, description)
-
-
-def test_an_empty_pose_of_a_quaternion_is_no_turn(tmp_path):
-    one = '<sdf><model><link><pose/><inertial><pose rotation_format="quat_xyzw"/></inertial></link></model></sdf>'
-    inertial = read(tmp_path, one).links[0].inertial
-    assert inertial.center.tolist() == [0.0, 0.0, 0.0] and inertial.quaternion == (1.0, 0.0, 0.0, 0.0)
 
 
 @SEEDS

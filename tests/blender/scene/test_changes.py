@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Many objects are changed with few evaluations of the scene, and none is judged by what happens to another."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
@@ -40,7 +38,7 @@ def evaluations():
 @pytest.mark.parametrize(
     "name, options", [*((name, {}) for name in SNAPS), ("add_empty", {}), ("set_rigid_body_mass", {"add": True})]
 )
-def test_many_objects_take_as_few_evaluations_of_the_scene_as_some(name, options, collected, evaluations):
+def test_evaluations_do_not_grow_with_object_count(name, options, collected, evaluations):
     taken = []
     for count in (3, 12):
         objects = bodies(count)
@@ -71,7 +69,7 @@ def wrap_around(obj, other):
 
 
 @pytest.mark.parametrize("name", SNAPS)
-def test_objects_that_depend_on_each_other_are_all_done_and_stay_as_they_are_seen(name):
+def test_dependent_objects_are_reframed_and_stay_in_place(name):
     objects = first, second, third, last = bodies(4)
     wrap_around(second, first)
     wrap_around(third, first)
@@ -99,7 +97,7 @@ def shown_by_nodes(collection):
     return tree
 
 
-def test_what_shows_the_others_through_a_collection_is_changed_after_them():
+def test_object_showing_others_is_changed_after_them():
     members = bodies(2)
     collection = collect(members)
     shower = add(mesh_body(), "Shower", (0, 9, 0))
@@ -145,7 +143,7 @@ def scattering(obj):
 
 
 @pytest.mark.parametrize("made_with", [beveled_by, keyed_by, scattering])
-def test_what_is_made_with_an_object_by_way_of_its_data_keeps_its_shape_too(made_with, reported):
+def test_object_shaping_another_by_its_data_is_refused(made_with, reported):
     if made_with is beveled_by:
         curve = bpy.data.curves.new("Profile", "CURVE")
         curve.dimensions = "2D"
@@ -168,7 +166,7 @@ def test_what_is_made_with_an_object_by_way_of_its_data_keeps_its_shape_too(made
     assert np.abs(seen(other) - before).max() < 1e-6 and np.abs(place(obj) - was).max() == 0.0
 
 
-def test_one_that_is_refused_leaves_the_others_beside_it_to_be_done(reported):
+def test_refused_object_leaves_others_to_be_changed(reported):
     objects = bodies(4)
     objects[1].modifiers.new("Bend", "SIMPLE_DEFORM").angle = 1.0
     objects[2].lock_location[0] = True
@@ -188,26 +186,7 @@ def test_one_that_is_refused_leaves_the_others_beside_it_to_be_done(reported):
         assert np.abs(seen(obj) - points).max() < 1e-5
 
 
-def test_where_one_fails_without_a_reason_the_others_are_put_back():
-    put_back = []
-
-    def change(fails):
-        yield
-        try:
-            yield
-            if fails:
-                raise ZeroDivisionError
-            yield
-        finally:
-            put_back.append(fails)
-
-    running = [change(fails) for fails in (False, True, False)]  # known, and not ended for being forgotten
-    with pytest.raises(ZeroDivisionError):
-        side_by_side.run_change(bpy.context, side_by_side.run_together(running))
-    assert sorted(put_back) == [False, False, True]
-
-
-def test_an_empty_that_another_object_follows_is_placed_before_that_is_measured():
+def test_followed_empty_is_placed_before_its_follower():
     leader, follower = bodies(2)
     only(leader)
     run("add_empty")
@@ -225,7 +204,7 @@ def test_an_empty_that_another_object_follows_is_placed_before_that_is_measured(
     assert np.abs(place(own) - kept).max() < 1e-6
 
 
-def test_what_shows_objects_that_share_a_mesh_does_not_hinder_one_of_them():
+def test_shared_mesh_in_shown_collection_is_reframed():
     first = add(mesh_body(), "First", (1, 2, 0))
     other, third = add(mesh_body(), "Other", (9, 0, 0)), add(first.data, "Third", (4, 5, 6))
     shower = add(mesh_body(), "Shower", (0, 20, 0))
@@ -234,26 +213,3 @@ def test_what_shows_objects_that_share_a_mesh_does_not_hinder_one_of_them():
     only(first)
     assert run("origin_to_center") == {"FINISHED"}
     assert first.data != third.data
-
-
-def test_where_the_scene_cannot_be_evaluated_what_was_changed_is_put_back():
-    states, updates = [], []
-
-    def change():
-        yield
-        states.append("changed")
-        try:
-            yield
-        finally:
-            states.append("as it was")
-
-    def update():
-        updates.append(len(states))
-        if len(updates) == 2:
-            raise KeyboardInterrupt
-
-    context = SimpleNamespace(view_layer=SimpleNamespace(update=update), evaluated_depsgraph_get=lambda: None)
-    running = change()
-    with pytest.raises(KeyboardInterrupt):
-        side_by_side.run_change(context, running)
-    assert states == ["changed", "as it was"] and updates == [0, 1, 2]

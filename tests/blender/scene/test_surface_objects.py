@@ -62,17 +62,7 @@ def test_splines_are_the_patches(offset, factor, rational):
     assert moved * size <= 30.0 * found
 
 
-def test_a_point_and_a_far_one_stay():
-    flat = Patch((clamped_space(2), clamped_space(2)), np.full((2, 2, 3), 0.5))
-    obj, moved = surface_objects.surface_object("Point", [flat])
-    assert tuple(obj.location) == (0.0, 0.0, 0.0) and moved == 0.0
-    for distance, is_moved in ((15.0, False), (17.0, True)):  # sizes
-        points = np.array([[(0, 0, 0), (1, 0, 0)], [(0, 0.5, 0), (1, 0.5, 0.25)]], float) + (distance - 1.0, 0, 0)
-        obj, _ = surface_objects.surface_object("Patch", [Patch(flat.spaces, points)])
-        assert (obj.location.x != 0.0) == is_moved
-
-
-def test_bodies_come_into_a_collection_and_the_scene_stays_as_it_is():
+def test_imported_bodies_are_linked_and_scene_is_unchanged():
     bpy.ops.mesh.primitive_cube_add()
     cube, before = bpy.context.object, bpy.context.scene
     into = bpy.data.collections.new("Into")

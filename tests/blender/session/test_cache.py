@@ -10,7 +10,7 @@ import bpy
 from body_moments.blender.session.live import live
 from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.stored import results, walls
-from body_moments.blender.session.tracking import handlers, staleness
+from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.cache import SessionCache
 from body_moments.core.verdict.finding import finding
 
@@ -33,7 +33,7 @@ def caches():
     }
 
 
-def test_what_is_remembered_follows_a_name_and_is_not_a_successor_s():
+def test_cache_follows_renaming_and_ends_with_object():
     cache, (obj,) = SessionCache(), objects(1)
     cache[obj] = 1
     obj.name = "Renamed"
@@ -64,7 +64,7 @@ def remember():
 
 
 @pytest.mark.parametrize("end", ["load", "unregister"])
-def test_nothing_is_remembered_when_the_file_or_the_add_on_is_gone(end, tmp_path):
+def test_caches_are_empty_after_load_and_unregister(end, tmp_path):
     remember()
     assert staleness._shapes
     if end == "load":
@@ -79,6 +79,7 @@ def test_nothing_is_remembered_when_the_file_or_the_add_on_is_gone(end, tmp_path
     finally:
         if end == "unregister":
             body_moments.register()
+<<<<<<< HEAD
 
 
 def test_each_application_handler_is_added_once_and_survives_a_file(tmp_path):
@@ -104,3 +105,5 @@ def test_each_application_handler_is_added_once_and_survives_a_file(tmp_path):
     found = ours()
     body_moments.register()
     assert found == subscribers == [] and ours() == expected
+=======
+>>>>>>> w-tblender

@@ -10,13 +10,11 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.core.verdict.finding import MeasureError, finding
-from mathutils import Vector
 
 from tests.blender.flat_objects import sheet, text
 from tests.blender.objects import add, mesh_body, only
-from tests.blender.session.test_moments import compute, drawn, settings
+from tests.blender.session.test_moments import compute, settings
 from tests.close import close
-from tests.panels.drawing import labels
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -54,7 +52,7 @@ def truth(p, q, shift=(0, 0)):
     return upright + power(1 - x, 3 - x, p) * power(-y, 1 - y, q)
 
 
-def test_flat_faces_have_their_area_moments_to_any_order_within_their_bounds():
+def test_flat_moments_are_exact_within_bounds():
     sheet(L_SHAPE)
     settings(moments_of="FLAT", moments_about="ORIGIN", frame="WORLD")
     compute(20)
@@ -70,7 +68,7 @@ def test_flat_faces_have_their_area_moments_to_any_order_within_their_bounds():
         assert abs(Fraction(value) - truth(p, q, centroid)) <= Fraction(rounding)
 
 
-def test_the_plane_has_axes_of_its_own_and_the_foot_of_the_frame_as_its_origin():
+def test_flat_moments_have_axes_and_origin_of_the_plane():
     obj = sheet(L_SHAPE, location=(1, 2, 3), rotation=(0.3, 0.4, 0.5), scale=(2, 2, 2))
     settings(moments_of="FLAT", moments_about="ORIGIN", frame="OBJECT")
     compute(6)
@@ -87,7 +85,7 @@ def test_the_plane_has_axes_of_its_own_and_the_foot_of_the_frame_as_its_origin()
     assert np.abs(np.array([found[1, 0][0], found[0, 1][0]]) / found[0, 0][0] - (centroid - foot)).max() < 1e-5
 
 
-def test_closed_curves_have_the_moments_of_the_curves_not_of_what_is_drawn():
+def test_circle_moments_are_exact_for_its_curve():
     bpy.ops.curve.primitive_nurbs_circle_add(radius=2.0)
     circle = bpy.context.object
     circle.data.dimensions, circle.data.fill_mode, circle.data.resolution_u = "2D", "BOTH", 3
@@ -107,7 +105,7 @@ def test_closed_curves_have_the_moments_of_the_curves_not_of_what_is_drawn():
 
 
 @pytest.mark.parametrize("resolution", [1, 12])
-def test_text_has_the_moments_of_its_outlines_whatever_it_is_drawn_with(resolution):
+def test_text_moments_are_independent_of_resolution(resolution):
     found = []
     for drawn_with in (resolution, 200):
         obj = text("O", resolution=drawn_with)
@@ -122,7 +120,7 @@ def test_text_has_the_moments_of_its_outlines_whatever_it_is_drawn_with(resoluti
     assert close(bpy.context.object["body_section"]["area"][0], section, rel=1e-4)
 
 
-def test_selected_faces_of_a_body_in_edit_mode_have_theirs_beside_the_bodys():
+def test_selected_faces_have_flat_moments_beside_body():
     obj = add(mesh_body("Body"), "Body")
     import bmesh  # there once bpy is
 
@@ -141,7 +139,7 @@ def test_selected_faces_of_a_body_in_edit_mode_have_theirs_beside_the_bodys():
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_normalized_moments_and_invariants_do_not_depend_on_place_turn_and_size():
+def test_flat_invariants_are_independent_of_place_and_size():
     found, forms = [], []
     for where in (
         {},
@@ -167,7 +165,7 @@ def test_normalized_moments_and_invariants_do_not_depend_on_place_turn_and_size(
     assert close(values()[0, 0][0], 1.0, rel=1e-12)
 
 
-def test_invariants_beyond_the_range_of_numbers_are_refused_not_copied():
+def test_overflowing_invariants_are_refused():
     """c30,0 c12³⁰ grows with the sixtieth power of length by width."""
     only(sheet([(0, 0), (1024, 0), (0, 1 / 1024)]))
     settings(moments_of="FLAT", moments_about="INVARIANT")
@@ -177,7 +175,7 @@ def test_invariants_beyond_the_range_of_numbers_are_refused_not_copied():
     assert refusal.value.finding == finding("moments_overflow", order=30)
 
 
-def test_moments_in_the_plane_are_about_the_foot_of_the_reference():
+def test_flat_moments_are_about_foot_of_reference():
     from body_moments.blender.session.stored import moments as moments_table
 
     obj = sheet(L_SHAPE)
@@ -192,41 +190,7 @@ def test_moments_in_the_plane_are_about_the_foot_of_the_reference():
         assert close(shown[name], float(truth(p, q, (2, -1))), 1e-12), name
 
 
-def test_what_is_not_flat_and_what_is_flat_say_which_domain_to_choose():
-    add(mesh_body("Body"), "Body")
-    compute(4)
-    settings(moments_of="FLAT")
-    assert "Not flat: points are up to" in " ".join(labels(drawn()))
-    settings(moments_of="VOLUME", moments_about="INVARIANT")
-    assert str(finding("invariants_of_flat")) in " ".join(labels(drawn()))
-    sheet(L_SHAPE)
-    compute(2)
-    settings(moments_about="CENTER")
-    assert str(finding("moments_of_flat")) in " ".join(labels(drawn()))
-    settings(moments_of="FLAT", moments_about="INVARIANT")
-    with pytest.raises(MeasureError, match=str(finding("invariants_order", order=3))):
-        table()
-
-
-def test_outlines_that_cross_are_the_reason_and_not_the_missing_volume(reported):
+def test_crossing_outlines_are_the_reason_of_refusal(reported):
     only(sheet([(0, 0), (1, 1), (1, 0), (0, 1)]))
     assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
     assert "section_face_crosses_itself" in reported.codes
-
-
-def test_a_flat_shape_has_its_center_in_the_world_and_invariants_within_the_range_of_numbers():
-    from body_moments.blender.session.stored import moments as moments_table
-
-    obj = sheet(L_SHAPE, location=(4.0, -2.0, 1.0), rotation=(0.5, -0.25, 1.0))
-    only(obj)
-    compute(6)
-    computed = moments_table.computed_moments(obj)
-    area = float(truth(0, 0))
-    local = float(truth(1, 0)) / area, float(truth(0, 1)) / area, 0.0
-    assert np.abs(computed.center - np.array(obj.matrix_world @ Vector(local))).max() <= 2e-6
-    found = moments_table.invariants(computed, "FLAT", 6)
-    assert len(found) > 7 and max(one.degree for one in found) == 6
-    for order, code in ((2, "invariants_order"), (6, "invariants_of_flat")):
-        with pytest.raises(MeasureError) as refusal:
-            moments_table.invariants(computed, "FLAT" if code == "invariants_order" else "VOLUME", order)
-        assert refusal.value.finding.code == code

@@ -92,15 +92,6 @@ def test_a_click_selects_that_object_alone():
     assert "body_moments_listed" not in scene.keys()  # noqa: SIM118
 
 
-def test_the_total_names_what_is_doubtful_out_of_date_and_missing():
-    _light, heavy, _strip = four()
-    bpy.ops.object.select_all(action="SELECT")
-    heavy.scale.x = 1.0
-    bpy.context.view_layer.update()
-    total = results.total(bpy.context)
-    assert (total.missing, total.stale, total.doubtful) == (("Not Measured",), ("C heavy",), ("a strip",))
-
-
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("masses", [(0.0, 0.0), (0.0, 0.25), (0.125, 0.25)])
 def test_the_total_of_light_bodies_is_one_of_them_all(masses):
@@ -150,7 +141,7 @@ def test_the_file_has_the_numbers_and_is_replaced_as_a_whole(suffix, tmp_path, r
     assert reported.values("numbers_saved") == {"count": 3, "file": path.name}
 
 
-def test_what_cannot_be_saved_is_refused_with_the_reason(tmp_path, reported):
+def test_unsaveable_numbers_are_refused_with_reason(tmp_path, reported):
     four()
     for path, code in (("", "no_export_file"), (tmp_path / "a.txt", "numbers_suffix"), (tmp_path, "numbers_suffix")):
         save_fails(path)

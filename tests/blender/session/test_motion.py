@@ -8,8 +8,7 @@ import pytest
 from body_moments.blender.session.live import motion
 from body_moments.core.statics.mixes import sample_count
 
-from tests.blender.findings import refused
-from tests.blender.objects import add, measured, mesh_body, strip_mesh
+from tests.blender.objects import add, measured, mesh_body
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -26,42 +25,6 @@ def keyed(mesh=None):
     return obj
 
 
-def with_modifier(obj):
-    obj.modifiers.new("Cast", "CAST")
-
-
-def with_group(obj):
-    obj.vertex_groups.new(name="Group")
-    obj.data.shape_keys.key_blocks["First"].vertex_group = "Group"
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        with_modifier,
-        with_group,
-        lambda obj: setattr(obj, "show_only_shape_key", True),
-        lambda obj: setattr(obj.data.shape_keys, "use_relative", False),
-        lambda obj: setattr(obj, "instance_type", "FACES"),
-        lambda obj: obj.modifiers.new("Particles", "PARTICLE_SYSTEM"),
-        lambda obj: setattr(obj.body_moments, "kind", "SHELL"),
-        lambda obj: setattr(obj.body_moments, "density_from", "MATERIALS"),
-        lambda obj: setattr(obj.body_moments, "overlap", "UNION"),
-        lambda obj: obj.shape_key_clear(),
-        lambda obj: bpy.ops.object.mode_set(mode="EDIT"),
-    ],
-)
-def test_a_mesh_that_anything_but_its_keys_may_change_has_no_mix(change):
-    obj = keyed()
-    assert motion._mixed_keys(obj) == ("First", "Second")
-    change(obj)
-    if obj.modifiers and obj.modifiers[0].type == "PARTICLE_SYSTEM":
-        obj.modifiers[0].show_viewport = False  # the system alone
-    assert motion._mixed_keys(obj) == ()
-    if obj.mode == "EDIT":
-        bpy.ops.object.mode_set(mode="OBJECT")
-
-
 def found(followed, obj):
     bpy.context.view_layer.update()
     return followed.mass_and_center(obj, bpy.context.evaluated_depsgraph_get())
@@ -69,7 +32,7 @@ def found(followed, obj):
 
 @pytest.mark.parametrize("frames", [sample_count(2) - 1, sample_count(2)])
 @pytest.mark.parametrize("given", [False, True])
-def test_a_mix_is_sampled_where_that_is_less_work_and_always_what_measuring_gives(frames, given):
+def test_sampled_shape_keys_equal_measured_results(frames, given):
     obj = keyed()
     bpy.context.scene.unit_settings.scale_length = 0.1
     if given:
@@ -100,23 +63,3 @@ def test_a_polygon_that_blender_cuts_otherwise_is_measured():
         obj.data.shape_keys.key_blocks["Second"].value = value
         assert found(followed, obj)[0] == pytest.approx(measured(obj).mass_properties.mass, rel=1e-6)
     assert followed._followed[obj].mixes is not None
-
-
-def test_what_is_open_or_welded_is_no_mix():
-    obj = keyed(strip_mesh())
-    followed = motion.Motion(200)
-    with refused("open_object", obj.name):
-        found(followed, obj)
-    assert followed._followed[obj].mixes is None
-    mesh = mesh_body()
-    count = len(mesh.vertices)
-    split = bpy.data.meshes.new("Split")
-    points = np.array([vertex.co for vertex in mesh.vertices])
-    faces = [[count * side + index for index in face.vertices] for side, face in enumerate(mesh.polygons)]
-    split.from_pydata(np.tile(points, (len(faces), 1)).tolist(), [], faces)
-    split.update()
-    obj = add(split, "Split")
-    for name in ("Basis", "Key"):
-        obj.shape_key_add(name=name)
-    mass, _ = found(followed, obj)
-    assert followed._followed[obj].mixes is None and mass == pytest.approx(measured(add(mesh)).mass_properties.mass)

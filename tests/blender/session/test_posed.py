@@ -12,7 +12,7 @@ from tests.blender.objects import add, mesh_body, only
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-def test_an_armature_stands_for_what_it_deforms():
+def test_armature_stands_for_its_deformed_meshes():
     rig, other = add(bpy.data.armatures.new("Rig"), "Rig"), add(bpy.data.armatures.new("Other"), "Other")
 
     def mesh(name, parent=None, parent_type="OBJECT", armature=None):

@@ -10,7 +10,6 @@ import pytest
 from body_moments.blender.session.stored import results
 from body_moments.blender.session.stored.shown import shown_body
 from body_moments.blender.session.tracking import handlers
-from body_moments.blender.write.properties import BOUND_KEYS
 from body_moments.core.inertia.mass_properties import combine
 
 from tests.blender.bodies.test_assembly import box, collection
@@ -25,35 +24,6 @@ def part(mass, center, volume, area):
     return SimpleNamespace(volume=volume, area=area, body=SimpleNamespace(mass=mass, center=np.array(center)))
 
 
-def of_sum(*parts_and_bounds):
-    parts, bounds = zip(*parts_and_bounds)
-    masses = np.array([one.body.mass for one in parts])
-    center = masses @ [one.body.center for one in parts] / masses.sum()
-    found = results._bound_of_sum(parts, center, [dict(zip(BOUND_KEYS, bound)) for bound in bounds])
-    return [found[name] for name in BOUND_KEYS]
-
-
-@pytest.mark.parametrize(("volume", "share"), [(4.0, 0.25 / 4.0), (0.5, 0.25 / 0.5), (0.0, 0.5 / 8.0)])
-def test_one_body_is_off_by_its_own_bounds(volume, share):
-    """Its mass by a share of it, that of the volume, or of the area where there is no volume."""
-    mass, off, inertia = 3.0, 1e-3, 2e-3
-    found = of_sum((part(mass, (5.0, 6.0, 7.0), volume, 8.0), (0.25, 0.5, off, inertia)))
-    assert close(found[:3], [0.25, 0.5, off * (1.0 + share)], 1e-12)
-    reach = off + off * (1.0 + share)
-    assert close(found[3], inertia + mass * (1.0 + share) * reach**2, 1e-12)
-
-
-def test_two_equal_bodies_that_may_weigh_more_or_less_are_off_by_that_times_how_far_they_are_apart():
-    """Of masses m (1 ± e) at x = ±a the center is off by e a at most, and the inertia by 2 e m a² about there."""
-    mass, away, volume, share = 2.0, 3.0, 8.0, 1e-6
-    bodies = [part(mass, (side * away, 0.0, 0.0), volume, 1.0) for side in (-1.0, 1.0)]
-    found = of_sum(*((body, (share * volume, 0.0, 0.0, 0.0)) for body in bodies))
-    assert close(found[:3], [2.0 * share * volume, 0.0, share * away], 1e-12)
-    least = 2.0 * share * mass * away**2
-    grown = 2.0 * mass * (1.0 + share) * ((away + share * away) ** 2 - away**2)
-    assert close(found[3], least + grown, 1e-9)
-
-
 def measure(*objects):
     only(*objects)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
@@ -65,7 +35,7 @@ def total_of(*objects):
     return results.total(bpy.context)
 
 
-def test_the_total_names_what_has_no_numbers_and_what_does_not_hold(scene):
+def test_total_names_missing_stale_and_doubtful_objects(scene):
     bare = add(mesh_body(), "bare")
     exact, edited, other = (
         add(mesh_body(), name, (9 * i, 0, 0)) for i, name in enumerate(("exact", "edited", "other"))
@@ -94,7 +64,7 @@ def test_the_total_names_what_has_no_numbers_and_what_does_not_hold(scene):
     assert shown_body(exact) is None
 
 
-def test_an_assembly_counts_where_nothing_that_it_holds_is_selected_with_it(scene):
+def test_assembly_counts_without_its_selected_parts(scene):
     root = add(None, "a root")
     parts = [box(collection("Parts " + name), (1, 2, 3), (5 * i, 0, 0), name=name) for i, name in enumerate("bc")]
     for part in parts:
@@ -117,7 +87,7 @@ def test_an_assembly_counts_where_nothing_that_it_holds_is_selected_with_it(scen
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.5])
-def test_an_armature_in_pose_mode_has_the_sum_of_those_meshes_that_have_numbers(unit, scene):
+def test_posed_armature_has_sum_of_measured_meshes(unit, scene):
     scene.unit_settings.scale_length = unit
     meshes = [add(mesh_body(), name, (4 * i, 0, 0)) for i, name in enumerate("abc")]
     meshes[1].body_moments.density = 3000.0

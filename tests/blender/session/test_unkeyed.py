@@ -98,7 +98,7 @@ def is_right(obj):
 
 @pytest.mark.parametrize("name", OPERATORS)
 @pytest.mark.parametrize("channel", CHANNELS)
-def test_what_is_not_keyed_yet_stays(channel, name):
+def test_unkeyed_values_survive_operators(channel, name):
     obj = keyed(channel)
     change(obj, channel, CHANGED)
     if name != "match":
@@ -111,7 +111,7 @@ def test_what_is_not_keyed_yet_stays(channel, name):
         assert staleness.stale_reason(obj, bpy.context.scene) is None
 
 
-def test_drivers_follow_what_was_stored_and_cleared_and_no_geometry_is_evaluated():
+def test_drivers_follow_storing_without_evaluating_geometry():
     obj = add(mesh_body())
     obj["own"] = 0.0
     other = add(None, "Other", select=False)
@@ -152,7 +152,7 @@ def test_drivers_follow_what_was_stored_and_cleared_and_no_geometry_is_evaluated
     assert obj.scale.x == 2.0
 
 
-def test_live_keeps_what_is_not_keyed_yet_and_comes_to_rest(monkeypatch):
+def test_live_keeps_unkeyed_values_and_stops(monkeypatch):
     monkeypatch.setattr(live, "IDLE", 0.0)
     bpy.ops.surface.primitive_nurbs_surface_sphere_add()
     obj = bpy.context.object
@@ -169,7 +169,7 @@ def test_live_keeps_what_is_not_keyed_yet_and_comes_to_rest(monkeypatch):
     assert live.current_numbers(obj).measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
 
 
-def test_the_slider_of_a_wall_keeps_what_is_not_keyed_yet():
+def test_wall_slider_keeps_unkeyed_values():
     obj = keyed("rotation")
     obj.body_moments.kind, obj.body_moments.wall, obj.body_moments.thickness = "SHELL", "INWARD", 0.01
     change(obj, "rotation", CHANGED)
@@ -183,7 +183,7 @@ def test_the_slider_of_a_wall_keeps_what_is_not_keyed_yet():
 
 
 @pytest.mark.parametrize("frame, subframe", [(7, 0.25), (-3, 0.0)])
-def test_sampling_voxels_keeps_what_is_not_keyed_yet_and_sees_the_frame_that_is_shown(monkeypatch, frame, subframe):
+def test_voxel_sampling_keeps_unkeyed_values_and_frame(monkeypatch, frame, subframe):
     monkeypatch.setattr("body_moments.blender.read.grids.volume.openvdb", lambda: None)
     bpy.context.scene.frame_set(frame, subframe=subframe)
     cube = linked(bpy.data.objects.new("Cube", mesh_body()))

@@ -2,16 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Settings: values of grids, positions of samples, given parts, acceptance, copies and linked scenes."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.settings import accepted, preferences, properties
+from body_moments.blender.settings import properties
 from body_moments.blender.settings.given import GIVEN_PROPERTIES, GivenPart, is_point_mass
-from body_moments.blender.settings.grid import GridOptions, positions_text
-from body_moments.core.scans.positions import EVEN
-from body_moments.core.verdict.finding import finding
+from body_moments.blender.settings.grid import GridOptions
 
 from tests.blender.findings import refused
 from tests.blender.objects import add, mesh_body
@@ -79,34 +75,6 @@ def test_values_of_grids_become_densities():
     assert GridOptions.of(tabled).table and not GridOptions.of(tabled, 1.0).table
 
 
-def test_positions_of_samples():
-    rows = (np.array([0.0, 1.0, 4.0]), None, np.array([0.0, 2.0]))
-    text = positions_text(rows)
-    assert text == '{"x":[0.0,0.5,2.0],"z":[0.0,1.0]}' and positions_text(EVEN) == ""
-    options = GridOptions(sample_positions=text)
-    x, y, z = options.positions("rho", np.array([0, 5, 0]), (3, 9, 2))
-    assert x.tolist() == [0.0, 0.5, 2.0] and y is None and z.tolist() == [0.0, 1.0]
-    assert GridOptions().positions("rho", np.zeros(3, int), (1, 1, 1)) == EVEN
-    for low, shape in (((0, 0, 0), (4, 1, 1)), ((-1, 0, 0), (2, 1, 1)), ((1, 0, 0), (3, 1, 1)), ((0, 0, 2), (1, 1, 1))):
-        with refused("positions_of_other_samples", grid="rho"):
-            options.positions("rho", np.array(low), shape)
-    for damaged in (
-        "[",
-        "[1]",
-        '{"x":1}',
-        '{"x":[0]}',
-        '{"x":[0,0]}',
-        '{"x":[1,0]}',
-        '{"x":[0,NaN]}',
-        '{"x":[0,Infinity]}',
-    ):
-        with refused("positions_damaged", grid="rho"):
-            GridOptions(sample_positions=damaged).positions("rho", np.zeros(3, int), (1, 1, 1))
-    GridOptions().needs_even_samples("rho")
-    with refused("positions_only_as_density", grid="rho"):
-        options.needs_even_samples("rho")
-
-
 def test_given_parts():
     obj = add(None)
     settings = obj.body_moments
@@ -135,7 +103,7 @@ def test_given_parts():
     assert not is_point_mass(mesh)
 
 
-def test_settings_are_copied_with_whether_they_are_set():
+def test_copied_settings_keep_set_and_unset_values():
     source, target = add(mesh_body(), "Source").body_moments, add(mesh_body(), "Target").body_moments
     assert not properties.copy_settings(source, target) and not target.is_property_set("density")
     source.density = source.density  # set, to what it is by default
@@ -147,32 +115,3 @@ def test_settings_are_copied_with_whether_they_are_set():
             assert properties._comparable(getattr(target, name)) == properties._comparable(getattr(source, name))
             assert not properties.copy_settings(source, target), name
     assert {*GIVEN_PROPERTIES} < {*properties.COPIED_PROPERTIES}
-
-
-def test_accepted_findings():
-    obj, holes, junctions = add(mesh_body()), finding("holes_capped", count=1), finding("t_junctions", count=2)
-    assert accepted.accepted_codes(obj) == frozenset()
-    assert accepted.set_accepted(obj, "t_junctions", True) and accepted.set_accepted(obj, "holes_capped", True)
-    assert obj.body_moments.accepted == "holes_capped t_junctions"
-    assert not accepted.set_accepted(obj, "holes_capped", True)
-    marked = accepted.with_acceptance([holes, junctions], accepted.accepted_codes(obj))
-    assert [one.values.get("accepted") for one in marked] == [True, True]
-    assert accepted.with_acceptance(marked, accepted.accepted_codes(obj)) == marked
-    assert accepted.set_accepted(obj, "t_junctions", False) and not accepted.set_accepted(obj, "t_junctions", False)
-    now = accepted.with_acceptance(marked, accepted.accepted_codes(obj))
-    assert now == (marked[0], junctions)
-
-
-def test_a_linked_scene_keeps_what_it_has(monkeypatch, scene, tmp_path):
-    bpy.data.libraries.write(str(tmp_path / "a.blend"), {scene})
-    with bpy.data.libraries.load(str(tmp_path / "a.blend"), link=True) as (there, here):
-        here.scenes = there.scenes[:1]
-    source = SimpleNamespace(
-        show_overlay=False, **{name: getattr(scene.body_moments, name) for name in preferences.COPIED}
-    )
-    monkeypatch.setattr(preferences, "preferences", lambda: source)
-    (linked,) = here.scenes
-    preferences.copy_defaults(linked)
-    assert linked.library is not None and not linked.body_moments.has_defaults
-    preferences.copy_defaults(scene)
-    assert scene.body_moments.has_defaults

@@ -2,16 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files that writers make: meshes of robots, glTF, JSON, thumbnails, pages, and stored sections that are damaged."""
 
-import base64
 import json
-import zlib
 from math import inf, nan
 
 import bpy
 import numpy as np
 import pytest
 from body_moments.blender.write import properties
-from body_moments.blender.write.thumbnail import SIZE, thumbnail
 from body_moments.core.measurement import documents
 from body_moments.core.measurement.page import to_html
 from body_moments.core.measurement.plain_text import visible
@@ -73,7 +70,7 @@ def robot():
     return Robot('A "robot"', tuple(links), joints)
 
 
-def test_the_meshes_of_a_robot_are_written_where_its_file_names_them(tmp_path):
+def test_robot_meshes_are_written_to_named_files(tmp_path):
     """Of the shapes that have surfaces."""
     for _ in range(2):  # in place of those of before
         written = stl.write_meshes(robot(), tmp_path / "New arm.urdf")
@@ -88,22 +85,8 @@ def test_the_meshes_of_a_robot_are_written_where_its_file_names_them(tmp_path):
     assert (rows["corners"] == surface.points[surface.all_triangles()[0]]).all()
 
 
-def test_a_glb_file_keeps_what_is_no_json():
-    document, binary = {"name": "Würfel"}, b"\x01\x02\x03\x04"
-    data = gltf.to_glb(json.dumps(document))
-    assert data[:4] == b"glTF" and len(data) == int.from_bytes(data[8:12], "little") and len(data) % 4 == 0
-    assert gltf.read_json(data) == document
-    data += len(binary).to_bytes(4, "little") + b"BIN\0" + binary
-    other = gltf.replace_json(data, {"name": "other", "more": [1]})
-    assert gltf.read_json(other) == {"name": "other", "more": [1]}
-    assert other.endswith(binary) and len(other) == int.from_bytes(other[8:12], "little")
-    assert other[4:8] == (2).to_bytes(4, "little") and other[16:20] == b"JSON"
-    text = gltf.replace_json(b"{}", document)
-    assert text.decode() == '{\n\t"name": "Würfel"\n}\n' and gltf.read_json(text) == document
-
-
 @pytest.mark.parametrize("value", [nan, inf])
-def test_what_is_no_number_of_json_is_never_written(value):
+def test_numbers_beyond_json_are_refused(value):
     entry = {"mass": value}
     for write in (documents.to_json, documents.to_json_lines, audit_report.to_json):
         with pytest.raises(ValueError):
@@ -115,46 +98,13 @@ def test_what_is_no_number_of_json_is_never_written(value):
     assert stored["values"] == {"count": None}
 
 
-def test_what_terminals_would_obey_is_shown():
+def test_control_characters_are_written_visibly():
     assert visible("Würfel 立方体 \x1b[31m\r\n\u2028\u2029\u202e\ud800.") == (
         "Würfel 立方体 \\x1b[31m\\r\\n\\u2028\\u2029\\u202e\\ud800."
     )
 
 
-def picture(url):
-    """The bytes of a thumbnail, and its pixels."""
-    data = base64.b64decode(url.removeprefix("data:image/png;base64,"))
-    start, end = data.index(b"IDAT") + 4, data.index(b"IEND") - 8
-    rows = np.frombuffer(zlib.decompress(data[start:end]), np.uint8).reshape(SIZE, -1)
-    return data, rows[:, 1:].reshape(SIZE, SIZE, 4)
-
-
-def test_the_axes_of_a_thumbnail_cross_at_the_center_of_mass():
-    """Where it is in the picture; a body that is a point fills the inner four fifths with a length of 1."""
-    right, up = np.array([0.8, -0.6, 0.0]), np.array([0.36, 0.48, 0.8])
-    point, middles = np.array([1.0, 2.0, 3.0]), []
-    for offset in (np.zeros(3), 0.02 * right, 0.03 * up):
-        _, pixels = picture(thumbnail(point[None], np.zeros((1, 3), int), point + offset, TURN))
-        row, column = np.nonzero(pixels[..., 3])
-        middles.append(((column.min() + column.max()) / 2.0, -(row.min() + row.max()) / 2.0))
-    moved = np.subtract(middles[1:], middles[0])
-    assert np.abs(moved - 0.8 * SIZE * np.diag([0.02, 0.03])).max() <= 1.0  # a pixel
-
-
-def test_a_triangle_in_a_thumbnail_is_the_darker_the_less_it_faces_the_light():
-    view = np.array([[0.8, -0.6, 0.0], [0.36, 0.48, 0.8], [0.48, 0.64, -0.6]])  # right, up, away from the eye
-    light, full = np.array([0.75, 0.75, -0.35]), np.array([205.0, 208.0, 214.0])
-    for normal in ((0.6, 0.0, -0.8), (0.75, 0.75, -0.35)):  # the second one is of full light
-        normal = np.array(normal) / np.linalg.norm(normal)
-        first = np.cross(normal, (0.0, 1.0, 0.0))
-        corners = np.array([np.zeros(3), first, np.cross(normal, first)]) @ view
-        _, pixels = picture(thumbnail(corners, np.arange(3)[None], corners[1], TURN))
-        shade = full * (0.35 + 0.65 * min(1.0, abs(normal @ light)))
-        colors, counts = np.unique(pixels[pixels[..., 3] > 0], axis=0, return_counts=True)
-        assert np.abs(colors[np.argmax(counts)] - np.array([*shade, 255.0])).max() <= 1.0
-
-
-def test_a_row_of_the_page_has_the_records_picture_or_the_box_of_its_inertia(scene):
+def test_page_row_has_picture_or_inertia_box(scene):
     """No other text can stand there."""
     add(box_mesh(1, 2, 4), "Box")
     document = batch_files.document("--thumbnails")

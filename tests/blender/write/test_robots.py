@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.core.robots import from_records
 from body_moments.core.robots.model import Inertial, Link, Robot
 from body_moments.core.robots.write import gltf, mjcf, stl, text, usd
 from body_moments.core.verdict.finding import FileError, finding
@@ -24,7 +23,7 @@ def with_least(mass, moment):
     return replace(of_box(1.0, (1.0, 2.0, 4.0)), mass=mass, moments=np.array([moment, 2.0 * moment, 3.0 * moment]))
 
 
-def test_what_mujoco_refuses_is_named_with_the_least_of_all():
+def test_too_small_mujoco_inertials_are_named():
     least = mjcf.LEAST
     links = [
         Link("none", None),
@@ -38,7 +37,7 @@ def test_what_mujoco_refuses_is_named_with_the_least_of_all():
     assert mjcf.check(Robot("r", tuple(links))) == [finding("mjcf_inertia_too_small", **values)]
 
 
-def test_what_single_precision_does_not_hold_is_named():
+def test_too_small_usd_inertials_are_named():
     """Half of a moment has all its digits: readers may halve it."""
     least = float(np.finfo(np.float32).tiny)
     links = [
@@ -53,7 +52,7 @@ def test_what_single_precision_does_not_hold_is_named():
     assert found == finding("usd_inertia_too_small", count=3, links=["small", "zero", "unknown"])
 
 
-def test_the_largest_moment_does_not_exceed_the_others_in_single_precision():
+def test_rounded_largest_moment_is_within_sum_of_others():
     """It is lowered no more than that needs, and not at all where nothing is to do."""
     draw = np.random.default_rng(3)
     lowered = 0
@@ -81,17 +80,6 @@ def test_names_that_become_one_are_numbered():
     assert stl.mesh_files(files, "My Robot") == {name: "meshes/my_robot/" + file for name, file in files.items()}
 
 
-def test_a_root_without_a_mass_is_passed_over_in_a_gltf():
-    inertial = of_box(2.0, (1.0, 2.0, 4.0))
-    robot = Robot("r", (Link("empty", None), Link("box", inertial), Link("empty 2", None)))
-    document = {"nodes": [{"name": name} for name in ("empty", "box", "empty 2")]}
-    assert gltf.add_rigid_bodies(document, robot, 1.0) == []
-    assert [gltf.KHR in node.get("extensions", {}) for node in document["nodes"]] == [False, True, False]
-    nothing = {"nodes": [{"name": "empty"}]}
-    assert gltf.add_rigid_bodies(nothing, Robot("r", (Link("empty", None),)), 1.0) == []
-    assert nothing == {"nodes": [{"name": "empty"}]}
-
-
 GLB = struct.pack("<4s2I", b"glTF", 2, 32)
 
 
@@ -108,32 +96,10 @@ GLB = struct.pack("<4s2I", b"glTF", 2, 32)
         GLB + struct.pack("<I", 4),
     ],
 )
-def test_what_is_no_gltf_is_refused(data):
+def test_invalid_gltf_is_refused(data):
     with pytest.raises(FileError) as refused:
         gltf.read_json(data)
     assert refused.value.finding == finding("gltf_unreadable")
-
-
-def record(name, mass=1.0, **link):
-    place = {"position": [0.0, 0.0, 0.0], "rotation": [1.0, 0.0, 0.0, 0.0]}
-    return {"name": name, "mass": mass, "link": {"parents": [], **place, **link}}
-
-
-def of_surface(name, **link):
-    box = of_box(2.0, (1.0, 2.0, 4.0))
-    entry = {
-        **record(name, 2.0, scale=[1.0] * 3, **link),
-        "type": "MESH",
-        "kind": "solid",
-        "center_of_mass": box.center,
-    }
-    return entry | {"inertia": box.inertia, "principal_moments": box.moments, "principal_axes": box.axes}
-
-
-def test_a_link_hangs_on_the_nearest_one_above_that_has_a_mass():
-    records = [of_surface("a"), of_surface("b", parents=["b", "gone", "a"]), of_surface("c", parents=["gone"])]
-    joints = from_records.robot_of_records("r", records)[0].joints
-    assert [(joint.parent, joint.child) for joint in joints] == [("a", "b")]
 
 
 def test_gltf_motion_has_the_inertia_unless_a_moment_is_zero():
@@ -154,7 +120,7 @@ def test_gltf_motion_has_the_inertia_unless_a_moment_is_zero():
 
 
 @pytest.mark.parametrize("length", range(1, 6))
-def test_a_binary_gltf_has_chunks_of_whole_words_and_keeps_the_others(length):
+def test_binary_gltf_has_aligned_chunks_and_keeps_others(length):
     document = {"name": "x" * length}
     other = struct.pack("<II", 8, 0x004E4942) + b"12345678"
     data = gltf.to_glb('{"a": 1}')

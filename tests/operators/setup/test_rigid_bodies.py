@@ -89,19 +89,6 @@ def test_a_parent_with_its_children_is_one_compound():
     assert close(root.rigid_body.mass, 7850 * 8, 1e-6)
 
 
-def test_parts_of_a_compound_keep_their_masses():
-    """Blender's engine has no use for them; whoever takes the compound apart has."""
-    scene = bpy.context.scene.collection
-    root, child = box(scene, (1, 2, 4), (8, 0, -2), 7850, "root"), box(scene, (2, 2, 2), (-4, 6, 1), 1000, "child")
-    child.parent = root
-    only(child)
-    bpy.ops.rigidbody.object_add()
-    child.rigid_body.mass = 3.0
-    only(root, child)
-    assert make() == {"FINISHED"}
-    assert child.rigid_body.mass == 3.0 and close(root.rigid_body.mass, 7850 * 8 + 1000 * 8, 1e-6)
-
-
 def test_compound_of_free_axes_keeps_axes_of_its_parent():
     scene = bpy.context.scene.collection
     root, child = box(scene, (2, 2, 2), (0, 0, 0), 1000, "root"), box(scene, (1, 1, 1), (0, 0, 0), 500, "child")
