@@ -8,14 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.assembly.assembly import measure_assembly
-<<<<<<< HEAD
-from body_moments.blender.read.assembly import MemberKind, members_of
-from body_moments.blender.read.visibility import measurable_objects
-from body_moments.blender.session.tracking import staleness
-=======
-from body_moments.blender.read import measurable_objects
 from body_moments.blender.read.assembly import MemberKind
->>>>>>> w-tblender
+from body_moments.blender.read.visibility import measurable_objects
 from body_moments.core.verdict.finding import MeasureError
 from mathutils import Matrix
 

@@ -7,14 +7,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-<<<<<<< HEAD
-from body_moments.blender.bodies.measure_object import measure_body, measure_object
-from body_moments.blender.bodies.mesh.mesh import mesh_body as polygon_body
-from body_moments.blender.bodies.wall import Walls, find_walls
-from body_moments.blender.read.objects import read_object
-=======
 from body_moments.blender.bodies.measure_object import measure_object
->>>>>>> w-tblender
 from body_moments.blender.session.stored import walls as wall_slider
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.settings.options import MeasureOptions

@@ -97,17 +97,7 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
     assert not overridden.body_moments.material
 
 
-<<<<<<< HEAD
-def test_the_panel_says_that_settings_of_an_override_are_not_kept(overridden):
-    from tests.panels.drawing import labels, shown
-
-    assert str(finding("panel_override")) in " ".join(labels(shown()))
-
-
-def test_the_density_of_a_linked_material_cannot_be_set_by_its_local_namesake(tmp_path):
-=======
 def test_linked_material_density_is_not_editable(tmp_path):
->>>>>>> w-tblender
     from body_moments.panels.density.material_menus import density_row
 
     from tests.panels.drawing import Layout

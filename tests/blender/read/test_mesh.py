@@ -8,13 +8,8 @@ import pytest
 bpy = pytest.importorskip("bpy")
 
 import bmesh
-<<<<<<< HEAD
-from body_moments.blender.read.mesh import mesh_surface, plain_mesh, vertex_values
-from body_moments.blender.read.objects import read_object
-=======
-from body_moments.blender.read import read_object
 from body_moments.blender.read.mesh import vertex_values
->>>>>>> w-tblender
+from body_moments.blender.read.objects import read_object
 
 from tests.blender.findings import refused, said
 from tests.blender.read_bodies import (

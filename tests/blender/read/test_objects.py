@@ -10,12 +10,8 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 
-<<<<<<< HEAD
-from body_moments.blender.read.objects import read_object, read_patches
+from body_moments.blender.read.objects import read_object
 from body_moments.blender.read.visibility import measurable, measurable_objects
-=======
-from body_moments.blender.read import measurable, measurable_objects, read_object
->>>>>>> w-tblender
 from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import findings

@@ -79,31 +79,3 @@ def test_caches_are_empty_after_load_and_unregister(end, tmp_path):
     finally:
         if end == "unregister":
             body_moments.register()
-<<<<<<< HEAD
-
-
-def test_each_application_handler_is_added_once_and_survives_a_file(tmp_path):
-    def ours():
-        return sorted(
-            (name, function.__name__)
-            for name in dir(bpy.app.handlers)
-            if isinstance(functions := getattr(bpy.app.handlers, name), list)
-            for function in functions
-            if function.__module__.startswith("body_moments.")
-        )
-
-    expected = [(name, function.__name__) for name, function in handlers.HANDLERS]
-    expected = sorted([*expected, ("translation_update_post", "register_language")])
-    assert ours() == expected
-    path = str(tmp_path / "session.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.open_mainfile(filepath=path)
-    assert ours() == expected
-    bpy.app.handlers.undo_post.remove(handlers._on_undo)  # another add-on may empty a list
-    body_moments.unregister()
-    subscribers = [*handlers.on_update, *handlers.on_undo, *handlers.on_load, *handlers.on_save]
-    found = ours()
-    body_moments.register()
-    assert found == subscribers == [] and ours() == expected
-=======
->>>>>>> w-tblender
