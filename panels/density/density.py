@@ -161,7 +161,7 @@ def _material(column: UILayout, context: Context, settings, heading: str) -> Non
 
 
 def _unset_material(settings, scene: Scene) -> str:
-    """Return the material name shown for an object with a density from outside the table."""
+    """Return the name shown in place of a material if none was chosen from the table."""
     if settings.is_property_set("density"):
         return "Custom"
     return default_material(scene) or "Custom"
