@@ -6,7 +6,7 @@
     blender -b -c body_moments measure [options] [FILE ...]
     python operators/batch.py measure [options] FILE ...
 
-and `similar LIBRARY --to NAME` in the place of `measure` compares what was measured. The first and the
+and `similar LIBRARY --to NAME` in the place of `measure` compares measurements. The first and the
 third (with the bpy module) need no installation: run as a script, this file loads the add-on's
 folder as a package and registers nothing but the settings that objects carry. All three reach
 `main`.
@@ -37,9 +37,8 @@ _command = None
 def main(argv: list[str], *, channel: int | None = None, file_needed: bool = False) -> int:
     """Run the command line and return its exit code.
 
-    argv: the words from `measure` on. channel: a descriptor for the result, by default the
-    standard output, which nothing else in this process reaches from then on. file_needed: whether
-    no file can be open.
+    argv: the words from `measure` on. channel: a descriptor for the result, by default the standard output, which
+    nothing else in this process reaches from then on. file_needed: no file can be open.
     """
     from ..command import interruption
     from ..command.files import output
@@ -60,7 +59,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
 
 
 def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
-    """Do what is asked for, and return the exit code."""
+    """Run the requested command, and return the exit code."""
     from ..command.files import output
     from ..command.parser import HelpRequested
 
@@ -119,7 +118,7 @@ def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:
 
 
 def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
-    """Compare what was measured, and print the nearest."""
+    """Compare measurements, and print the nearest."""
     from ..command.files import output
     from ..command.results import similar
     from ..core.measurement.plain_text import print_message
@@ -180,7 +179,7 @@ _COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {
 
 
 def _load_settings() -> None:
-    """The settings that objects, collections and bones carry, where the add-on is not registered."""
+    """Register the settings of objects, collections and bones if the add-on is not registered."""
     import bpy
 
     from ..blender.settings import assembly, bone, properties, reference

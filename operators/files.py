@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators that write a file do with its path in the file browser."""
+"""File paths of operators that write a file, as set in the file browser."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ def ask_for_table(operator: Operator, context: Context) -> set[str]:
 
 
 def ensure_suffix(operator: Operator, suffix: str, others: Collection[str] = ()) -> bool:
-    """Give the path the suffix, unless it has one of the others or no name at all. What `check` returns: whether the
-    path was changed."""
+    """Give the path the suffix, unless it has one of the others or no name at all. Return whether the path was changed,
+    as `check` does."""
     path, name = operator.filepath, os.path.basename(operator.filepath)
     if name and os.path.splitext(name)[1].lower() not in others:
         operator.filepath = bpy.path.ensure_ext(path, suffix)

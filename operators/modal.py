@@ -15,22 +15,22 @@ from bpy.types import Context, Event
 from ..blender.write import reports
 from ..core.verdict.finding import Finding
 
-# seconds of work between two of the window's events: as long as the window takes in between, within these limits, so
-# that half of the time is work where a scene is slow to draw
+# Seconds of work between two of the window's events: the time that the window itself takes, within these limits,
+# to spend half of the time on work if a scene is slow to draw.
 STEP_SECONDS, MAX_STEP_SECONDS = 0.1, 1.0
 
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
 def redraw(context: Context) -> None:
-    """Have the window drawn again, where there is one: what was stored shows in several of its areas."""
+    """Redraw the window, if there is one: stored results show in several of its areas."""
     for area in context.screen.areas if context.screen else ():
         area.tag_redraw()
 
 
 @contextmanager
 def progress(count: float) -> Iterator[Callable[[float], None]]:
-    """What to call with how much of `count` is done; shown at the cursor where there are many."""
+    """Yield a function to call with the completed part of `count`; shown at the cursor if `count` is more than 1."""
     manager = bpy.context.window_manager
     shown = count > 1
 
@@ -48,27 +48,27 @@ def progress(count: float) -> Iterator[Callable[[float], None]]:
 
 
 class ModalSteps:
-    """Of an operator, whose `_steps` is a generator that does the work and yields how much is done, and whose `_finish`
-    alone changes anything.
+    """Base of operators with a generator `_steps`, which does the work and yields the completed part, and with
+    `_finish`, which alone changes anything.
 
-    PROGRESS: for the status bar; it gets the value `share`, that is done. CANCELED: the report after Esc.
+    PROGRESS: for the status bar; it gets the value `share`, the completed share. CANCELED: the report after Esc.
     """
 
     PROGRESS: Finding
     CANCELED: Finding
     _steps: Generator[float, None, None]
     _finish: Callable[[Context], set[str]]
-    _returned_at = 0.0  # when the last step gave control back to the window
+    _returned_at = 0.0  # time at which the last step returned control to the window
 
     def run_all_steps(self, context: Context, count: float) -> set[str]:
-        """Every step, in one call of the operator. count: what the last step yields."""
+        """Run every step, in one call of the operator. count: the last value that the steps yield."""
         with progress(count) as step:
             for done in self._steps:
                 step(done)
         return self._finish(context)
 
     def start_modal(self, context: Context, count: float) -> set[str]:
-        """The steps as the window's timer calls for them."""
+        """Run the steps as the window's timer calls for them."""
         self._count = count
         manager = context.window_manager
         self._timer = manager.event_timer_add(0.0, window=context.window)

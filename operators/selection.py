@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all operators on the selection share: which objects, polls that say why, progress, and
-one report a run.
-"""
+"""Common parts of all operators on the selection: choice of objects, polls with reasons, progress, and one report a
+run."""
 
 from __future__ import annotations
 
@@ -21,7 +20,7 @@ from .modal import progress
 
 
 def selected_measurable(context: Context) -> list[Object]:
-    """The selected objects that could be measured, parents before children. Works in background
+    """Return the measurable selected objects, parents before children. Works in background
     too. A scene that is used for the first time gets its defaults.
     """
     copy_defaults(context.scene)
@@ -30,7 +29,7 @@ def selected_measurable(context: Context) -> list[Object]:
 
 
 def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
-    """Whether something is selected, in Object Mode unless any mode will do; says why not."""
+    """Return whether something is selected, in Object Mode unless any mode will do; report why not."""
     if not any_mode and context.mode != "OBJECT":
         return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
     if not context.view_layer.objects.selected:
@@ -39,7 +38,7 @@ def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False
 
 
 def report(operator: Operator, *findings: Finding) -> None:
-    """One report, which stands in the panel until the next action where it refuses or warns."""
+    """Report once; refusals and warnings stay in the panel until the next action."""
     outcome.remember(operator.bl_label, findings)
     reports.report(operator, *findings)
 
@@ -53,11 +52,11 @@ def summarize(
     findings: Sequence[Finding] = (),
     idle: Finding | None = None,
 ) -> set[str]:
-    """One report for the run, and what `execute` returns. All failures and warnings stand in the panel until the next
-    action.
+    """Report the run once, and return the result of `execute`. All failures and warnings stay in the panel until the
+    next action.
 
-    done: what happened to `changed` of `total` objects. failures: of each that was left as it is, why. findings: what
-    else was noticed. idle: where nothing had to be done, why.
+    done: the action on `changed` of `total` objects. failures: the reasons for objects left unchanged. findings: other
+    observations. idle: the reason if nothing had to be done.
     """
     if not changed and not failures and idle is not None:
         done = finding(NOTHING_TO_DO, cause=idle.as_record()) if total else finding(NOTHING_MEASURABLE)
@@ -89,8 +88,8 @@ def iterate_objects(
 def apply_to_all(
     objects: Sequence[Object], action: Callable[[Object], bool | None]
 ) -> tuple[list[Object], list[Finding]]:
-    """Run `action` on each object; which it changed, all but those of which it says no, and why others were refused or
-    failed."""
+    """Run `action` on each object. Return the objects for which it returned True or None, and the reasons for refusals
+    and failures."""
     changed: list[Object] = []
     failures: list[Finding] = []
 

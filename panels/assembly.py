@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Assemblies: a collection, or an empty with its children, as one body, with the tree of its members.
 
-The sub-panel shows the active empty where it has children, else the active collection, which has a panel among the
+The sub-panel shows the active empty if it has children, else the active collection, which has a panel among the
 collection's properties too.
 """
 
@@ -30,7 +30,7 @@ MEMBER_ICONS = {
     "OBJECT": "OBJECT_DATA",
     "POINT": "EMPTY_SINGLE_ARROW",
 }
-LINES = 8  # of the tree, before it scrolls
+LINES = 8  # height of the tree, before it scrolls
 
 
 class BODY_MOMENTS_UL_assembly(UIList):
@@ -62,7 +62,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
             numbers.label(text="", icon=rows.ICONS[severity(worst)])
 
     def filter_items(self, _context, data, name) -> tuple[list[int], list[int]]:
-        """Hide what is below a closed member, and what a search does not name."""
+        """Hide rows below a closed member, and rows that do not match a search."""
         flags, closed = [], None
         for row in getattr(data, name):
             if closed is not None and row.depth > closed:
@@ -112,7 +112,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
 
 
 def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
-    """The members, and what is to be said of the one that is highlighted."""
+    """Draw the members, and the details of the highlighted one."""
     layout.template_list(
         BODY_MOMENTS_UL_assembly.__name__,
         "",

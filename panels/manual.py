@@ -42,7 +42,7 @@ PAGES = (
 
 
 def folder() -> Path:
-    """Where the manual lies, if it is there."""
+    """Return the folder of the manual, which need not exist."""
     return Path(sys.modules[_PACKAGE].__path__[0]) / "manual"
 
 

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus, named as users think, where they look for them. Blender's search finds what is in a
-menu.
-"""
+"""Entries in Blender's own menus, under users' names and in their usual places. Blender's search finds entries of
+menus."""
 
 from __future__ import annotations
 
@@ -74,7 +73,7 @@ class VIEW3D_MT_body_moments(Menu):
 
 
 def _entries(*entries: tuple[str, str, str], separator: bool = True, mode: str = "OBJECT") -> Callable:
-    """A function that adds entries to a menu, in one mode or, with "", in all of them."""
+    """Return a function that adds entries to a menu, in one mode or, with "", in all of them."""
 
     def draw(menu: Menu, context: Context) -> None:
         if mode and context.mode != mode:

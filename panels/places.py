@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every panel is in two places: the 3D Viewport's sidebar, and the object's properties, where it stays open beside
-other settings.
+"""The two places of every panel: the 3D Viewport's sidebar, and the object's properties, which stay open beside other
+settings.
 
-To add a sub-panel: a class with `bl_label`, `draw` and, where needed, `poll`, made into panels by `in_both_places`, in
-a module that `panels/__init__.py` names. Sub-panels of the main panel stand in the order of `ORDER`.
+To add a sub-panel: a class with `bl_label`, `draw` and, if needed, `poll`, made into panels by `in_both_places`, in a
+module that `panels/__init__.py` names. Sub-panels of the main panel follow `ORDER`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ ORDER = (
     "assembly",
     "bones",
     "advanced",
-)  # of CAD's mass property dialogs
+)  # the order of CAD's mass property dialogs
 ROOT = "body_moments"
 
 
@@ -31,11 +31,11 @@ def in_both_places(contents: type, name: str = "", parent: str | None = None) ->
     Parameters
     ----------
     contents : type
-        A class with `bl_label`, `draw(self, context)` and, where needed, `poll`, `bl_options` and `draw_header_preset`.
+        A class with `bl_label`, `draw(self, context)` and, if needed, `poll`, `bl_options` and `draw_header_preset`.
     name : str
-        Of the sub-panel, part of its identifier; "" for the main panel.
+        Name of the sub-panel, part of its identifier; "" for the main panel.
     parent : str, optional
-        The name of the panel that it is a part of, by default the main one.
+        Name of the parent panel, by default the main one.
 
     Returns
     -------

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rows of a narrow panel: values that can be copied, and sentences that wrap.
 
-Blender translates what it draws: what is a label in the source, as it is; what is filled, before that (`filled`,
-`message`). Names, numbers and filled texts are drawn as they are.
+Blender translates labels as it draws them: constant labels are passed as in the source, filled ones are translated
+before that (`filled`, `message`). Names, numbers and filled texts are drawn without translation.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
 
 # share of a row that its label takes, one of few letters, and of one
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
-REGION_MARGIN = 88  # what tabs, borders and an icon take of the region's width, in unscaled pixels
-ROW_MARGIN = 80  # the same of a row without an icon, but with a button
+REGION_MARGIN = 88  # width of tabs, borders and an icon in the region, in unscaled pixels
+ROW_MARGIN = 80  # width for a row without an icon, but with a button
 TEXT_MARGIN = 0.2  # around a text in a row, of the size of the font
 DEFAULT_WIDTH = 300  # unscaled pixels of a region that is not known
-BOX_MARGIN = 12  # what a box takes besides
+BOX_MARGIN = 12  # additional width of a box
 MIN_LINE_WIDTH = 50  # no line is made narrower
 MIN_PART, MIN_LAST_PART = 4, 3  # letters of a word that is broken
 NARROW = 220  # regions below this width have buttons without icons, and headings above
@@ -44,7 +44,7 @@ def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) 
 
 
 def quantities(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float]]) -> None:
-    """A row for each (label, quantity, SI value), each in the unit that suits it."""
+    """Draw a row for each (label, quantity, SI value), each in the unit that suits it."""
     table(
         layout,
         [(label, units.text(quantity, si), repr(float(si)), SI_UNITS[quantity]) for label, quantity, si in entries],
@@ -59,7 +59,7 @@ def values(
     si: Sequence[float],
     size: float = 0.0,
 ) -> None:
-    """A row for each value, all in the same unit. size: as for `Units.texts`."""
+    """Draw a row for each value, all in the same unit. size: as for `Units.texts`."""
     texts = units.texts(quantity, si, size)
     table(
         layout,
@@ -68,19 +68,19 @@ def values(
 
 
 def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
-    """A heading whose button copies all values below it."""
+    """Draw a heading with a button that copies all values below it."""
     row = layout.row(align=True)
     _title(row, localized(label))
     _copy(row, repr(np.asarray(si, float).tolist()), SI_UNITS.get(quantity, ""))
 
 
 def title(layout: UILayout, label: str) -> None:
-    """A label above rows, in more lines where one is too narrow for it."""
+    """Draw a label above rows, in more lines if one is too narrow for it."""
     _title(layout, localized(label))
 
 
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
-    """A unit vector in one row, or in three where that is too narrow."""
+    """Draw a unit vector in one row, or in three if that is too narrow."""
     cosines = ["{:.4f}".format(component).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
     if not fits(1.0 - INDEX_LABEL_SHARE, *cosines):
         table(
@@ -108,9 +108,8 @@ def text(layout: UILayout, label: str, shown: str, exact: str, unit: str) -> Non
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
-    """Rows of label, text to the right, copy button, all of one form: labels are above their texts where rows are too
-    narrow for both, and units beside the labels where rows are too narrow for the texts.
-    """
+    """Draw rows of label, text to the right, copy button, all in one form: labels are above their texts if rows are too
+    narrow for both, and units beside the labels if rows are too narrow for the texts."""
     if not cells:
         return
     labels = [localized(label) for label, *_ in cells]
@@ -136,7 +135,7 @@ def table(layout: UILayout, cells: Sequence[Cell]) -> None:
 
 
 def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
-    """The share of a row that its label takes, 0 where it stands above, and whether the text has place in a row."""
+    """Return the share of a row that its label takes, 0 if it is above, and whether the text fits into a row."""
     letters = max(map(len, labels))
     share = INDEX_LABEL_SHARE if letters < 2 else SHORT_LABEL_SHARE if letters < 4 else LABEL_SHARE
     room = _room()
@@ -149,7 +148,7 @@ def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
 
 
 def _title(layout: UILayout, text: str) -> None:
-    """A label, already translated, in as many lines as it needs."""
+    """Draw a label, already translated, in as many lines as it needs."""
     room = _room()
     if room is None or _length(text) <= room:
         layout.label(text=text, translate=False)
@@ -170,26 +169,25 @@ def _copy(row: UILayout, exact: str, unit: str) -> None:
 
 
 def filled(layout: UILayout, template: str, *values: object, icon: str = "NONE") -> None:
-    """A label that is filled after it was translated."""
+    """Draw a label that is filled after its translation."""
     layout.label(text=localized(template).format(*values), icon=icon, translate=False)
 
 
 def is_narrow(context: Context) -> bool:
-    """Whether the region that is drawn has room for little more than words."""
+    """Return whether the region has room for little more than words."""
     region = context.region
     return region is not None and 0 < region.width < NARROW * context.preferences.system.ui_scale
 
 
 def button(layout: UILayout, context: Context, idname: str, icon: str, short: str = "", **options: object):
-    """The button of an operator; where there is little room, without its icon, and with a text that is short."""
+    """Draw the button of an operator; in a narrow panel without its icon, and with a short text."""
     if not is_narrow(context):
         return layout.operator(idname, icon=icon, **options)
     return layout.operator(idname, **(options | {"text": short} if short else options))
 
 
 def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE", boxed: bool = False) -> None:
-    """A text, already translated, in as many lines as the region's width asks for. boxed: whether a box is around
-    it."""
+    """Draw a translated text, wrapped to the region's width. boxed: a box is around it."""
     column = layout.column(align=True)
     column.scale_y = 0.85
     width, size = _width(context)
@@ -202,13 +200,13 @@ def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE", 
 
 
 def message(layout: UILayout, context: Context, shown: Finding, icon: str = "", boxed: bool = False) -> None:
-    """The sentence of a finding. icon: by default that of its severity. boxed: as for `sentence`."""
+    """Draw the sentence of a finding. icon: by default that of its severity. boxed: as for `sentence`."""
     text = localized_sentence(shown, context.scene.unit_settings)
     sentence(layout, context, text, icon or ICONS[severity(shown)], boxed)
 
 
 def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
-    """Why numbers no longer hold, where they do not."""
+    """Draw the reason why numbers are out of date, if any."""
     if code is not None:
         row = layout.row()
         row.alert = True
@@ -217,28 +215,27 @@ def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
 
 
 def fits(share: float, *cells: str) -> bool:
-    """Whether texts have place beside each other in that share of a row, beside its button, of the region that is being
-    drawn."""
+    """Return whether texts fit side by side in that share of a row, beside its button, of the region being drawn."""
     room = _room()
     return room is None or len(cells) * max(map(_length, cells)) <= share * room
 
 
 def _room() -> float | None:
-    """Pixels that a row has beside its button; None where no region is being drawn."""
+    """Return the pixels of a row beside its button, or None if no region is being drawn."""
     if bpy.context.region is None:
         return None
     return bpy.context.region.width - ROW_MARGIN * bpy.context.preferences.system.ui_scale
 
 
 def _length(text: str) -> float:
-    """Pixels that a text takes, with the space around it."""
+    """Return the pixels of a text, with the space around it."""
     _, size = _width(bpy.context)
     blf.size(0, size)
     return blf.dimensions(0, text)[0] + TEXT_MARGIN * size
 
 
 def _width(context: Context) -> tuple[int, float]:
-    """(pixels, font size in pixels) that a line has."""
+    """Return the width of a line and the font size, in pixels."""
     scale = context.preferences.system.ui_scale or 1.0  # 0 without a window
     region = context.region
     width = region.width if region is not None and region.width else DEFAULT_WIDTH * scale
@@ -263,7 +260,7 @@ def _wrapped(text: str, width: int, size: float) -> tuple[str, ...]:
 
 
 def _parts(word: str, width: int) -> list[str]:
-    """A word that is longer than a line, in several; else itself."""
+    """Split a word that is longer than a line; return a shorter one unchanged."""
     parts, rest = [], word
     while len(rest) > MIN_PART and not _is_within(rest, width):
         end = len(rest) - MIN_LAST_PART

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings in a panel: beside their labels, or below them where the region is narrow."""
+"""Settings in a panel: beside their labels, or below them in a narrow region."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bpy.types import PropertyGroup, UILayout
 from ..blender.write.translations import localized
 from . import rows
 
-VALUE_SHARE = 0.6  # of a row, beside the label
+VALUE_SHARE = 0.6  # share of a row, beside the label
 BUTTON_MARGIN = "m"  # a letter as wide as what a button has around its text
 
 
@@ -23,11 +23,11 @@ def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", ex
         A column.
     data : bpy.types.PropertyGroup
     name : str
-        Of the setting.
+        Name of the setting.
     text : str
         The label, by default the setting's own.
     expand : bool
-        Whether choices stand beside each other, where there is room for their names.
+        Put choices side by side, if there is room for their names.
     """
     definition = data.bl_rna.properties[name]
     options = {"text": text} if text else {}

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of stability: whether the object stands, margin and tipping angle, the poses in which it rests."""
+"""The sub-panel of stability: the standing state of the object, margin and tipping angle, the poses in which it
+rests."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ from . import rows
 from .findings import PANEL_STABILITY_STALE, PANEL_STABILITY_UNKNOWN
 from .places import in_both_places
 
-MAX_POSES = 6  # that are listed: round bodies have thousands
+MAX_POSES = 6  # limit of the list: round bodies have thousands
 
 
 class StabilityPanel:

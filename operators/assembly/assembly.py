@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measure Assembly: a collection, or an empty with its children, as one body; and to clear what that stored."""
+"""Measure Assembly: a collection, or an empty with its children, as one body; and Clear for its results."""
 
 from bpy.props import EnumProperty
 from bpy.types import Context, Event, Operator
@@ -36,7 +36,7 @@ TARGET = EnumProperty(
 
 
 def target_of(context: Context, target: str) -> Root:
-    """Return the assembly that an operator works on. MeasureError where there is none."""
+    """Return the assembly that an operator works on. MeasureError if there is none."""
     if target == "COLLECTION":
         if context.collection is None:
             raise MeasureError(NO_ACTIVE_COLLECTION)
@@ -48,7 +48,7 @@ def target_of(context: Context, target: str) -> Root:
 
 
 def measured_assembly(context: Context, target: str) -> Assembly:
-    """Measure an operator's assembly as it is now. MeasureError where it has no mass."""
+    """Measure an operator's assembly as it is now. MeasureError if it has no mass."""
     depsgraph = context.evaluated_depsgraph_get()
     root = members_of(target_of(context, target), depsgraph)
     results: Results = {}
@@ -81,7 +81,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
         return self.start_modal(context, count)
 
     def _begin(self, context: Context) -> int | None:
-        """Start with the members; how many objects there are, None where nothing can be measured."""
+        """Start with the members; return the number of objects, or None if nothing can be measured."""
         depsgraph = context.evaluated_depsgraph_get()
         try:
             data = target_of(context, self.target)

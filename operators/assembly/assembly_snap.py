@@ -33,12 +33,12 @@ from ..findings import (
 )
 from .assembly import TARGET, measured_assembly
 
-PLACE_RTOL = 4e-6  # what float32 matrices leave of places
+PLACE_RTOL = 4e-6  # rounding of places in float32 matrices
 FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows
 
 
 class _SnapToAssembly:
-    """Of an operator that places something at an assembly's center of mass."""
+    """Base of the operators that place something at an assembly's center of mass."""
 
     bl_options = {"REGISTER", "UNDO"}
     target: TARGET
@@ -61,7 +61,7 @@ class _SnapToAssembly:
 
 
 def _center(context: Context, body: MassProperties) -> NDArray[np.float64]:
-    """(3,) in Blender units."""
+    """Return the assembly's (3,) center in Blender units."""
     return body.center / shortest_decimal(context.scene.unit_settings.scale_length)
 
 
@@ -92,7 +92,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
 
     def _place(self, context: Context, assembly: Assembly) -> list[Finding]:
         root, body = assembly.root.member.data, assembly.measurement.mass_properties
-        owner = context.scene if root == context.scene.collection else root  # which nothing else can point to
+        owner = context.scene if root == context.scene.collection else root  # nothing else can point to it
         empty = next((obj for obj in context.scene.objects if obj.get(FRAME_OF) == owner), None)
         if empty is None:
             empty = bpy.data.objects.new("{:s} Principal Frame".format(root.name), None)
@@ -132,7 +132,7 @@ class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
 
 
 def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
-    """Put an empty at a point while its children stay. EditRefusedError where something else holds one of them."""
+    """Put an empty at a point while its children stay. EditRefusedError if something else holds one of them."""
     children = [child for child in empty.children if child.parent_type == "OBJECT"]
     saved = TransformChannels(empty)
     inverses = {child: child.matrix_parent_inverse.copy() for child in children}
@@ -164,13 +164,13 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
 
 
 def _is_at(obj: Object, place: NDArray, tolerance: float) -> bool:
-    """Whether an object is there: within `tolerance`, and turned and scaled so to rounding."""
+    """Return whether an object is at a place: within `tolerance`, and with equal rotation and scale to rounding."""
     off = np.abs(world(obj) - place)
     return bool(off[:, 3].max() <= tolerance and off[:, :3].max() <= PLACE_RTOL * np.abs(place[:, :3]).max())
 
 
 def _refresh(context: Context, root: Root) -> None:
-    """Measure again what was stored on an assembly that an operator has moved."""
+    """Measure again an assembly with stored results that an operator has moved."""
     if properties.is_stored(root):
         stored_assembly.store(context, measured_assembly(context, "OBJECT"))
 

@@ -30,11 +30,11 @@ def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = Tru
     ----------
     part : MemberBody
     mass : float
-        Of the whole, kg.
+        Mass of the whole, kg.
     level : int
-        How many assemblies it is in.
+        Number of assemblies that contain it.
     counted : bool
-        Whether its mass is part of the whole.
+        Its mass is part of the whole.
     """
     moments = part.mass
     measurement = part.measurement

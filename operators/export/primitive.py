@@ -94,7 +94,7 @@ class OBJECT_OT_body_moments_equal_inertia(Operator):
 
 
 def _mesh(name: str, shape: Shape, unit: float) -> Mesh:
-    """The shape in Blender units, in its own frame."""
+    """Return the shape in Blender units, in its own frame."""
     made = bmesh.new()
     if shape.kind == "box":
         bmesh.ops.create_cube(made, size=1.0)

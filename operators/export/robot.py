@@ -54,7 +54,7 @@ GEOMETRY = (
 
 
 class RobotExport(ExportHelper):
-    """What the exporters share. FORMAT: of `WRITERS`."""
+    """The common base of the exporters. FORMAT: of `WRITERS`."""
 
     FORMAT = ""
     bl_options = {"REGISTER", "PRESET"}
@@ -158,7 +158,7 @@ class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
 
 
 class GeometryExport(RobotExport):
-    """Of those that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
+    """Base of exporters that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
     _export_over: Callable[[Context, SceneLinks, Path], list[Finding]]  # writes the geometry as Blender does, with the
     # masses, and returns what is to be said about them
@@ -248,7 +248,7 @@ LABELS = ("URDF", "SDF", "MuJoCo (MJCF)", "USD with Mass Properties", "glTF with
 
 
 def _file_handler(exporter: type[RobotExport], label: str) -> type[FileHandler]:
-    """What makes an exporter one of a collection."""
+    """Return the file handler that makes an exporter a collection exporter."""
     name = "IO_FH_body_moments_{}".format(exporter.FORMAT)
     members = {
         "bl_idname": name,

@@ -133,7 +133,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         return {"FINISHED"}
 
     def _import(self, context: Context) -> list[Finding]:
-        """Make the object. What was done and what was decided."""
+        """Make the object, and return findings about the steps and decisions."""
         module = openvdb()
         if module is None:
             raise FileError(OPENVDB_MISSING)
@@ -190,8 +190,8 @@ def _read_positions(files: dict[str, str], scan: Scan) -> Positions:
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
-    """Write the scan as a grid, whole or not at all, and return its least value. The background is not any sample's
-    value, so that none is lost, but zero where no sample is negative."""
+    """Write the scan as a grid, whole or not at all, and return its least value. The background differs from every
+    sample's value, so that none is lost, but is zero if no sample is negative."""
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):

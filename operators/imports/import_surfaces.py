@@ -81,7 +81,7 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
         return [] if path.is_dir() else [path]
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding]]:
-        """The objects of a file, and what was done and decided."""
+        """Return the objects of a file, and findings about the steps and decisions."""
         try:
             file = read_surfaces(path, scan_limits())
         except OSError as error:

@@ -51,7 +51,7 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
 
 def poll_stored(cls: type[Operator], context: Context) -> bool:
-    """Whether a selected object has stored results; says why not."""
+    """Return whether a selected object has stored results; report why not."""
     if not selection.poll_selection(cls, context, any_mode=True):
         return False
     if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
@@ -60,7 +60,7 @@ def poll_stored(cls: type[Operator], context: Context) -> bool:
 
 
 def selected_document(context: Context) -> dict[str, Any]:
-    """The stored results of the selected objects and their total, with what is out of date or doubtful in it."""
+    """Return the stored results of the selected objects and their total, with marks for outdated or doubtful ones."""
     objects = selection.selected_measurable(context)
     outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]

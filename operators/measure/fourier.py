@@ -38,7 +38,7 @@ SUFFIX = ".npz"
 
 
 class _Settings:
-    """What is asked for, in both operators."""
+    """The common settings of both operators."""
 
     filepath: StringProperty(
         name="File Path", description="Path of the .npz file to write", subtype="FILE_PATH", options={"SKIP_SAVE"}
@@ -180,7 +180,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         self._steps = (done for done in self._work.steps())
 
     def _grid(self, size: float) -> FrequencyGrid:
-        """The grid for a body of this size in m. Where no largest frequency is asked for, its step is π over the
+        """Return the grid for a body of this size in m. Without a given largest frequency, its step is π over the
         size."""
         largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
         return FrequencyGrid(self.count, largest, self._dimension)

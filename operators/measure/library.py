@@ -37,7 +37,7 @@ _PAUSE = 0.05  # seconds between looks at the run
 
 
 def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[str, str, str]]:
-    """The folder that is chosen in the browser, and the asset libraries of the preferences."""
+    """Return the folder chosen in the browser, and the asset libraries of the preferences."""
     libraries = context.preferences.filepaths.asset_libraries if context else ()
     found = [(FOLDER, "Folder", "The folder that is open in the file browser")]
     found += [("LIBRARY_{:d}".format(number), one.name, one.path) for number, one in enumerate(libraries)]
@@ -147,7 +147,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
 
 
 class _Documents:
-    """Those of a journal, read again each time."""
+    """The documents of a journal, read again each time."""
 
     def __init__(self, journal: Journal, paths: list[str]) -> None:
         self._journal, self._paths = journal, paths

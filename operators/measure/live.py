@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The button that lets the numbers of objects follow what happens to them."""
+"""The button that lets the numbers of objects follow their changes."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
 
 def _subjects(context: Context) -> list[Object]:
-    """The active object and the selected ones, as far as they can be measured."""
+    """Return the measurable ones of the active object and the selected objects."""
     objects = posed.subjects([context.object, *context.view_layer.objects.selected])
     return [obj for obj in objects if measurable(obj)]
 

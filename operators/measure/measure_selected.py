@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The button: measure the selected objects and store what came out on them."""
+"""The button that measures the selected objects and stores the results on them."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     PROGRESS = finding(PROGRESS_MEASURING)
     CANCELED = finding(CANCELED_MEASURING)
 
-    # What can be changed after the fact, in the redo panel; the objects' settings are kept as they are by default.
+    # Settings for the redo panel; by default the objects keep their own settings.
     material: EnumProperty(
         name="Material",
         description="Material to give the objects before they are measured",
@@ -90,7 +90,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         return self.start_modal(context, self._begin(context))
 
     def _begin(self, context: bpy.types.Context) -> int:
-        """Start with the selected objects, in edit mode those being edited; how many there are."""
+        """Start with the selected objects, in edit mode the edited ones; return their number."""
         copy_defaults(context.scene)
         self._objects = objects = list(context.selected_objects)
         for obj in objects:
@@ -101,7 +101,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         return len(objects)
 
     def _change_settings(self, obj: bpy.types.Object) -> None:
-        """Set what the redo panel says of the settings; library overrides and linked objects keep theirs."""
+        """Apply the settings of the redo panel; library overrides and linked objects keep theirs."""
         if not obj.is_editable or obj.override_library is not None:
             return
         settings = obj.body_moments

@@ -82,8 +82,8 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 def _compute(
     context: Context, obj: Object, order: int, key: tuple[str, str, int]
 ) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
-    """The moments of a body, of a flat shape, or of both; None of a wire that bounds nothing. MeasureError where the
-    object is neither."""
+    """Return the moments of a body, of a flat shape, or of both, or None for a wire that bounds nothing. MeasureError
+    if the object is neither."""
     depsgraph = context.evaluated_depsgraph_get()
     region, flat, not_flat = None, None, None
     try:

@@ -19,7 +19,7 @@ from ..findings import AXIS_NEEDS_TWO_POINTS, POLL_MEASURE_SELECTED, REFERENCE_S
 from ..modal import redraw
 from .copy import copy_text
 
-POINTS = 2  # of an axis
+POINTS = 2  # points of an axis
 
 
 class OBJECT_OT_body_moments_store_reference(Operator):

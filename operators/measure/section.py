@@ -34,9 +34,10 @@ from .copy import copy_text
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:
-    """The section of one object in SI units and world axes, what of it was measured, and what was decided.
+    """Return the section of one object in SI units and world axes, a description of the measured part, and the
+    findings.
 
-    Raises MeasureError where there is none.
+    Raises MeasureError if there is none.
     """
     found = flat_region(obj, depsgraph, exact=False)
     section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
@@ -44,7 +45,7 @@ def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[F
 
 
 def stale_reason(obj: Object, scene: bpy.types.Scene, stored: record.StoredSection) -> str | None:
-    """The code of why the stored section is out of date, None where it is not."""
+    """Return the code of the reason why the stored section is out of date, or None."""
     if stored.unit != shortest_decimal(scene.unit_settings.scale_length):
         return STALE_UNIT_SCALE
     return staleness.section_stale_reason(obj)
@@ -127,11 +128,11 @@ class OBJECT_OT_body_moments_copy_section(Operator):
 
 
 def _objects_with_sections(context: Context) -> list[Object]:
-    """The meshes being edited, else the selected objects that may have a section."""
+    """Return the meshes being edited, else the selected objects that may have a section."""
     if context.mode != "EDIT_MESH":
         return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
     edited = [obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode]
-    # Where none has selected faces, each is refused.
+    # If no mesh has selected faces, each is refused.
     return [obj for obj in edited if obj.data.total_face_sel] or edited
 
 

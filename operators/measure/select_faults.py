@@ -129,7 +129,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
 
 def require_editable_mesh(obj: Object) -> None:
-    """Raises where what is measured is not what could be edited."""
+    """Raise EditRefusedError if the measured mesh is not the editable one."""
     if not obj.data.is_editable:  # nor is it then of a linked object
         raise EditRefusedError(LINKED_OBJECT_DATA)
     changing = [

@@ -17,7 +17,7 @@ from ..modal import redraw
 
 
 def poll_armature(cls: type[Operator], context: Context) -> bool:
-    """Whether the active object is an armature; says why not."""
+    """Return whether the active object is an armature; report why not."""
     if context.object is None or context.object.type != "ARMATURE":
         return reports.unavailable(cls, finding(NO_ACTIVE_ARMATURE))
     return True

@@ -83,7 +83,7 @@ def _create(context: Context, rig: Rig, parts: list[BonePart]) -> tuple[int, int
 
 
 def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
-    """The object of a part: its closed pieces, in a frame at its center along its principal axes."""
+    """Add the object of a part: its closed pieces, in a frame at its center along its principal axes."""
     assert part.measurement is not None
     body = part.measurement.mass_properties
     frame = np.eye(4)
@@ -103,12 +103,12 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
 
 
 def _parent_with_part(bone: Bone, bodies: dict[str, Object]) -> str | None:
-    """The nearest bone above that has a body."""
+    """Return the nearest bone above that has a body."""
     return next((parent.name for parent in bone.parent_recursive if parent.name in bodies), None)
 
 
 def _joint(context: Context, made: MadeCollection, bone: PoseBone, above: Object, below: Object) -> None:
-    """A joint at a bone's head, along its axes, with the limits that its inverse kinematics has."""
+    """Add a joint at a bone's head, along its axes, with the limits of its inverse kinematics."""
     armature = bone.id_data
     joint = bpy.data.objects.new("{:s} {:s} Joint".format(armature.name, bone.name), None)
     joint.empty_display_size = 0.25 * bone.bone.length * float(np.mean(armature.matrix_world.to_scale()))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Center of Mass as a node group of geometry nodes: it follows modifiers and animation, renders, and works where the
-add-on is not installed.
+"""Center of Mass as a node group of geometry nodes: it follows modifiers and animation, renders, and works without the
+add-on.
 
 Over the triangles (a, b, c), with corners relative to the middle of the bounding box, the volume is Σ a·(b×c) / 6 and
 the center of mass Σ a·(b×c) (a + b + c) / 4 over Σ a·(b×c). Both sums change their sign together in a mirrored object
@@ -101,7 +101,7 @@ class _Builder(NamedTuple):
 
 
 def center_of_mass_group() -> GeometryNodeTree:
-    """Return the file's node group, built where there is none of this version."""
+    """Return the file's node group, built if there is none of this version."""
     for group in bpy.data.node_groups:
         if group.get(KEY) == VERSION and group.library is None:
             return group
@@ -166,7 +166,7 @@ def _build(make: _Builder) -> None:
 
 
 def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSocket:
-    """A corner of each triangle, from the middle of the box."""
+    """Return a corner of each triangle, from the middle of the box."""
     row = 2 + index
     corner = make.node("GeometryNodeCornersOfFace", 4, row)
     corner.inputs["Sort Index"].default_value = index
@@ -179,7 +179,7 @@ def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSoc
 
 
 def _add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object:
-    """A ball at the object's center of mass, in an object of its own that stands at the world's origin."""
+    """Add a ball at the object's center of mass, in an object of its own at the world's origin."""
     tree = bpy.data.node_groups.new(MARKER_NAME, "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")

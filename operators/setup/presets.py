@@ -32,7 +32,7 @@ PRESET_FOLDER = "body_moments"  # folder of the user's presets
 
 
 def _targets(context: Context) -> list[Object]:
-    """The selected objects, and the active one, whose settings the panel shows."""
+    """Return the selected objects, and the active one, whose settings the panel shows."""
     active = context.view_layer.objects.active
     objects = list(context.view_layer.objects.selected)
     return objects if active is None or active in objects else [active, *objects]

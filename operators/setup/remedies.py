@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the buttons beside warnings do for the active object, which is measured again after it."""
+"""Actions of the buttons beside warnings on the active object, which is measured again after them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ MILLIMETER = 0.001
 
 
 def measure_anew(context: Context, objects: list[Object]) -> None:
-    """Measure objects as the button does, with what it reports."""
+    """Measure objects as the button does, with its reports."""
     with context.temp_override(selected_objects=objects):
         bpy.ops.object.body_moments_measure()
 

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make Rigid Bodies: what Blender's physics engine takes for granted, made true, for one object or a thousand.
+"""Make Rigid Bodies: fulfillment of the assumptions of Blender's physics engine, for one object or a thousand.
 
 Bullet takes an object's origin as its center of mass and its axes as principal axes; Blender's own Calculate Mass
-weighs the collision shape. So mass, origin and axes belong together, and what Calculate Mass would have said is shown
-beside the exact mass.
+weighs the collision shape. So mass, origin and axes belong together, and the result of Calculate Mass is shown beside
+the exact mass.
 """
 
 from collections.abc import Callable, Iterable
@@ -61,7 +61,7 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """What a body is. density: its mean one, kg/m³. parts: what each of its objects was measured as."""
+    """A measured body. density: mean density, kg/m³. parts: its objects with their measurements."""
 
     body: Body
     target: snapping.SnapTarget
@@ -168,7 +168,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         return self._report(context, measured, blender, len(bodies), failures)
 
     def _place(self, context: Context, measured: dict[Object, Measured]) -> list[Finding]:
-        """Give each body the frame that was asked for; those that cannot have it are left out, with the reason."""
+        """Give each body the requested frame; leave out bodies that cannot have it, and return the reasons."""
         failures: list[Finding] = []
         if self.frame == "KEEP":
             return failures
@@ -255,7 +255,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
 
 
 def _bodies(objects: list[Object]) -> list[Body]:
-    """The selected objects, those with selected children together with these."""
+    """Return a body for each selected object without a selected parent, with its selected children."""
     chosen = set(objects)
     members: dict[Object, list[Object]] = {obj: [] for obj in objects if obj.parent not in chosen}
     for obj in objects:
@@ -268,13 +268,13 @@ def _bodies(objects: list[Object]) -> list[Body]:
 
 
 def _asked(context: Context, bodies: Iterable[Body]) -> Callable[[Object], MeasuredBody | Stacked]:
-    """What gives the measurements of all their objects in turn."""
+    """Return a function that measures all their objects in turn."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
     return measured_in_turn(parts, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))
 
 
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]) -> Measured:
-    """A body as it is now. EditRefusedError where it can be no rigid body."""
+    """Measure a body as it is now. EditRefusedError if it cannot be a rigid body."""
     require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
     parts = [(body.obj, _measured_part(body.obj, ask))]
     for part in body.members:
@@ -307,7 +307,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
-    """An object of a body as it is now. EditRefusedError where it can be part of no rigid body."""
+    """Measure an object of a body as it is now. EditRefusedError if it cannot be part of a rigid body."""
     require_storable_data(part, LIBRARY_OVERRIDE_MASS)
     if part.type != "MESH":
         raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
@@ -318,7 +318,7 @@ def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]
 
 
 def _store(context: Context, measured: dict[Object, Measured]) -> None:
-    """Keep up to date what is stored on the objects."""
+    """Update results that are stored on the objects."""
     found = [item for one in measured.values() for item in one.parts if properties.is_stored(item[0])]
     stored = [obj for obj, refusal in results.store_many(found, context.scene) if refusal is None]
     shapes = {obj: result.shape_digest for obj, result in found if isinstance(result, Stacked)}
@@ -326,7 +326,7 @@ def _store(context: Context, measured: dict[Object, Measured]) -> None:
 
 
 def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
-    """What Blender's Calculate Mass makes of each body with the same density."""
+    """Return the mass by Blender's Calculate Mass of each body with the same density."""
     objects = list(measured)
     if not objects:
         return {}
@@ -336,7 +336,7 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
 
 
 def _joint_in_place(context: Context, obj: Object) -> Object | None:
-    """Where the object itself is a joint, whose place its frame is, an empty that can be that joint in its place."""
+    """Return an empty that takes over the object's joint at its place, or None if the object is no joint."""
     joint = obj.rigid_body_constraint
     if joint is None:
         return None

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Find Similar: the objects of the scene, or the bodies of a library, whose shape is most like the active one's.
+"""Find Similar: the objects of the scene, or the bodies of a library, nearest in shape to the active one.
 
-What was found is kept with the scene, for the panel; nothing of the objects is changed but, where it is asked for, what
-is selected.
+Matches are kept with the scene, for the panel; objects are not changed except, on request, their selection.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ from ..findings import (
 )
 from ..modal import ModalSteps, redraw
 
-DESCRIPTOR_ORDER = 12  # of the descriptors: more than separate parts, a fourth of the time that 20 takes
+DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of order 20
 MAX_LISTED_BODIES = 20
 MIRRORED = BoolProperty(name="Ignore Mirroring", default=False, description="Rank mirror images like copies")
 SCALED = BoolProperty(name="Ignore Size", default=False, description="Rank scaled copies like copies")
@@ -72,7 +71,7 @@ SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}  # co
 
 
 class _SearchMixin:
-    """What both searches share."""
+    """The common part of both searches."""
 
     bl_label: str
     bl_options = {"REGISTER", "UNDO"}
@@ -88,8 +87,8 @@ class _SearchMixin:
         return True
 
     def measure_active(self, context: Context) -> Iterator[float]:
-        """Measure the active object: `shape`, and `wanted`, its signature. It stays None where there is none, which is
-        reported."""
+        """Measure the active object: `shape`, and `wanted`, its signature, which stays None with a report if there is
+        none."""
         self.wanted: Signature | None = None
         try:
             self.shape = comparable_shape_of(context.object, context.evaluated_depsgraph_get())
@@ -161,7 +160,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
             obj for obj in measurable_objects(context.view_layer) if obj != context.object and obj.visible_get()
         ]
         self._objects: dict[Entry, Object] = {}
-        self._mirror_images: dict[Entry, bool | None] = {}  # of those whose signatures leave it open
+        self._mirror_images: dict[Entry, bool | None] = {}  # only if the signatures leave it open
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
 
@@ -289,7 +288,7 @@ def _read(path: Path) -> tuple[list[Entry], list[Finding]]:
 
 
 def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:
-    """Whether the surfaces say that it is a mirror image; None where they say neither."""
+    """Return whether the match is a mirror image by the surfaces, or None if they do not decide it."""
     return False if match.max_distance <= MAX_FIT_RTOL * size else True if match.is_mirror_image else None
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Find Symmetry: the rotation axes and mirror planes of the selected objects, by their moments and confirmed on their
-surfaces. What was found is kept with each object, in its own axes, for the panel."""
+surfaces. They are kept with each object, in its own axes, for the panel."""
 
 from __future__ import annotations
 
@@ -177,7 +177,7 @@ def _store_symmetry(
 
 
 def _canonical_direction(turn: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Of the two directions of a line the one whose largest component, in the object's axes, is positive."""
+    """Return the direction of a line whose largest component, in the object's axes, is positive."""
     local = turn @ direction
     return direction if local[np.argmax(np.abs(local))] > 0.0 else -direction
 
@@ -193,7 +193,7 @@ def _elements(found_symmetry: Symmetry) -> list[tuple[str, int, np.ndarray]]:
 
 
 def describe(found_symmetry: Symmetry) -> list[Finding]:
-    """What a symmetry consists of."""
+    """Describe the elements of a symmetry."""
     if len(found_symmetry.revolution_axes) == 3:
         return [finding(SYMMETRY_SPHERE)]
     if len(found_symmetry.revolution_axes) == 1:

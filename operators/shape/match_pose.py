@@ -68,7 +68,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
 
     def _begin(self, context: Context) -> None:
         self._others = [obj for obj in selection.selected_measurable(context) if obj != context.object]
-        self._size = 0.0  # of the active object, once it is measured
+        self._size = 0.0  # size of the active object, once it is measured
         self._plans: list[tuple[reframe.Plan, RigidMatch]] = []
         self._failures: list[Finding] = []
         self._steps = self._compare(context)
@@ -100,7 +100,7 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         yield from selection.iterate_objects(self._others, find, self._failures)
 
     def _finish(self, context: Context) -> set[str]:
-        """Nothing moves before all places are found, so that a canceled run leaves everything where it was."""
+        """Move the objects after all places are known, so that a canceled run leaves everything in place."""
         if not self._size:
             return {"CANCELLED"}
         moved, distances = [], []
@@ -124,7 +124,7 @@ def _distance(name: str, found: RigidMatch, size: float) -> Finding:
 
 
 def _require_movable(context: Context, obj: Object) -> None:
-    """Raises where the object cannot be laid onto the active one."""
+    """Raise EditRefusedError if the object cannot be laid onto the active one."""
     reframe.check_movable(obj)
     if obj in selection.ancestors(context.object):
         raise EditRefusedError(ACTIVE_IS_CHILD)
@@ -133,7 +133,7 @@ def _require_movable(context: Context, obj: Object) -> None:
 def _plan_move(
     context: Context, obj: Object, shape: Shape | FlatShape, target: Shape | FlatShape, match: RigidMatch
 ) -> tuple[reframe.Plan, RigidMatch]:
-    """Where the object lies on the target, and how well."""
+    """Return the place of the object on the target, and the quality of the match."""
     if match.is_mirror_image:
         raise EditRefusedError(FLAT_MIRROR_IMAGE if isinstance(shape, FlatShape) else MIRROR_IMAGE)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)

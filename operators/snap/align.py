@@ -16,13 +16,12 @@ from .. import selection
 from ..findings import ALIGNED_TO_WORLD, ALREADY_ALIGNED
 from . import base as snapping
 
-# Where principal axes 1, 2 and 3 go. An odd order would mirror the body, so there axis 3 points the
-# other way.
+# Targets of principal axes 1, 2 and 3. An odd order would mirror the body, so axis 3 is reversed in it.
 ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
 
 
 def directions(order: str) -> NDArray[np.float64]:
-    """(3, 3) rotation: the world directions that principal axes 1, 2, 3 are to have, as columns."""
+    """Return the (3, 3) rotation: the target directions of principal axes 1, 2, 3 in the world, as columns."""
     frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
     if np.linalg.det(frame) < 0.0:
         frame[:, 2] = -frame[:, 2]
@@ -79,7 +78,7 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
         return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding(ALREADY_ALIGNED))
 
     def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
-        """Whether the object had to be moved."""
+        """Align the object, and return whether it had to be moved."""
         reframe.check_movable(obj)
         body = snapping.snap_target(context, obj, self.strict)
         goal = body.center if self.pivot == "CENTER" else np.zeros(3)

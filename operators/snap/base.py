@@ -1,12 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the snapping operators share: where the body is now, in Blender units, and refreshing
-what was stored.
+"""The common parts of the snapping operators: the current place of the body, in Blender units, and updates of stored
+results.
 
-Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured
-again they turn, by about rounding over the gap between the moments. Whether axes are principal is
-therefore decided by the tensor, which must be diagonal in them to rounding, not from the angle
-between two measured frames.
+Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured again they turn, by
+about rounding over the gap between the moments. Whether axes are principal is therefore decided by the tensor, which
+must be diagonal in them to rounding, not from the angle between two measured frames.
 """
 
 from __future__ import annotations
@@ -49,17 +48,17 @@ STRICT_PROPERTY = BoolProperty(
 )
 POSE, CENTER = MeasureOptions(pose=True), MeasureOptions(axes=False)
 NOTHING: Mapping[Object, Measured | Stacked] = {}
-MAX_DIRECTION_NOISE = 1e-3  # what float32 coordinates may turn directions by that moments of higher order fix
-DIAGONAL_RTOL = 4e-7  # of the trace: what float32 coordinates leave of products of inertia
+MAX_DIRECTION_NOISE = 1e-3  # rounding in float32 of directions fixed by moments of higher order
+DIAGONAL_RTOL = 4e-7  # products of inertia by rounding in float32, relative to the trace
 
 
 @dataclass(frozen=True)
 class SnapTarget:
     """An object as measured now, world axes, lengths in Blender units.
 
-    center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in
-    kg·m²; gyration (3,) radii; size: the largest of them; finding: what was free to choose. shape_axes: the
-    axes of equal moments whose directions are the shape's own; is_unique: whether the shape fixes all.
+    center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in kg·m²; gyration (3,)
+    radii; size: the largest of them; finding: about free choices. shape_axes: the axes of equal moments fixed by the
+    shape itself; is_unique: the shape fixes all.
     """
 
     obj: Object
@@ -77,8 +76,8 @@ class SnapTarget:
         return float(self.gyration.max())
 
     def is_principal(self, frame: NDArray) -> bool:
-        """Whether the columns of `frame` are this body's principal axes, in this order and with
-        these signs, as far as its coordinates can show."""
+        """Return whether the columns of `frame` are this body's principal axes, in this order and with these signs, as
+        far as its coordinates can show."""
         tensor = frame.T @ self.inertia @ frame
         limit = DIAGONAL_RTOL * np.trace(tensor)
         diagonal = np.diag(tensor)
@@ -92,8 +91,8 @@ class SnapTarget:
         )
 
     def _matches_shape_axes(self, frame: NDArray) -> bool:
-        """Whether the axes of equal moments lie as the shape requires: a cube's sides along any of its
-        own axes."""
+        """Return whether the axes of equal moments lie as the shape requires: a cube's sides along any of its own
+        axes."""
         cosines = (frame.T @ self.axes)[:, self.shape_axes]
         expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
@@ -102,20 +101,20 @@ class SnapTarget:
 def targets_in_turn(
     context: Context, objects: Sequence[Object], strict: bool = False
 ) -> Callable[[Object], SnapTarget]:
-    """`snap_target` of objects that are asked for one after the other, while nothing changes: they are measured
-    together."""
+    """Return a function that gives the `snap_target` of one object at a time, measured in batches. The scene must not
+    change meanwhile."""
     measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
     return lambda obj: target_of(context, obj, measured(obj), strict)
 
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
-    """Measure an object; EditRefusedError where its numbers depend on a reference point. strict: with the axes of Zhang
-    and Chen's rule, or refused where it has none."""
+    """Measure an object; EditRefusedError if its numbers depend on a reference point. strict: use the axes of Zhang and
+    Chen's rule, or refuse the object if it has none."""
     return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict)
 
 
 def target_of(context: Context, obj: Object, measured: Measured | Stacked, strict: bool) -> SnapTarget:
-    """What `snap_target` says of an object that was measured."""
+    """Return the `snap_target` of a measured object."""
     if measured.method.verdict == Verdict.OPEN:
         raise EditRefusedError(OPEN_OBJECT)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
@@ -145,9 +144,8 @@ def target_of(context: Context, obj: Object, measured: Measured | Stacked, stric
 def remeasure(
     context: Context, objects: Sequence[Object], known: Mapping[Object, Measured | Stacked] = NOTHING
 ) -> None:
-    """Measure and store again the objects that carry results: an operator that moved them keeps
-    them up to date. known: what those of them that have not moved since then were measured as.
-    """
+    """Measure and store again the objects with stored results, after an operator has moved them. known: measurements of
+    objects that have not moved since."""
     stored = [obj for obj in objects if properties.is_stored(obj)]
     if not stored:
         return
@@ -156,7 +154,7 @@ def remeasure(
     unknown = [obj for obj in stored if obj not in known]
     for together in measure_many(unknown, context.evaluated_depsgraph_get(), POSE):
         for obj, outcome in together:
-            if isinstance(outcome, Exception):  # what is stored stays, and the panel shows that it is out of date
+            if isinstance(outcome, Exception):  # stored results stay, and the panel shows that they are out of date
                 internal_error.finding_of(outcome)
             else:
                 measured.append((obj, outcome))
@@ -177,12 +175,12 @@ def reframe_objects(
     move_only: bool,
     strict: bool = False,
 ) -> tuple[list[reframe.Plan], list[Finding]]:
-    """Do for objects what `reframe_selected` does; what was changed, and why others were not."""
+    """Carry out `reframe_selected` for objects; return the changes, and the reasons for refusals."""
 
     def plans_of(
         chosen: Sequence[Object], right: dict[Object, Measured | Stacked] | None = None
     ) -> tuple[list[reframe.Plan], list[Finding]]:
-        """right: gets the measurements of those that have to be stored and are right as they are."""
+        """Plan the moves. right: gets the measurements of objects to be stored that are in place already."""
         plans: list[reframe.Plan] = []
         measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)
 
@@ -221,8 +219,7 @@ def reframe_selected(
     strict: bool = False,
 ) -> set[str]:
     """Give each selected object the matrix that `target_matrix` returns for it, while nothing visible moves, and report
-    it. `target_matrix` returns None where the object is right as it is. done: the report; it gets the value `count`.
-    """
+    it. `target_matrix` returns None if the object is in place already. done: the report; it gets the value `count`."""
     objects = selection.selected_measurable(context)
     changed, failures = reframe_objects(context, objects, target_matrix, move_only, strict)
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]

@@ -47,8 +47,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
         added, failures = selection.apply_to_all(objects, add)
         findings = []
         if bodies:
-            # One body keeps the frame that was measured, with what its own exact third moments say
-            # of the signs.
+            # One body keeps its measured frame, with the signs by its own exact third moments.
             total = bodies[0][1] if len(bodies) == 1 else combine([moments for moments, _ in bodies])
             cursor = context.scene.cursor
             cursor.location = total.center / shortest_decimal(context.scene.unit_settings.scale_length)

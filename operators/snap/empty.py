@@ -94,7 +94,7 @@ class OBJECT_OT_body_moments_add_empty(Operator):
             except Exception as error:
                 failures.append(reports.failure(obj.name_full, error))
 
-        followers = dependents(existing.values())  # what moves with an empty is measured after that
+        followers = dependents(existing.values())  # objects that move with an empty are measured after it
         with progress(len(objects)) as step:
             for several in independent_rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
                 target_in_turn = snapping.targets_in_turn(context, several)
@@ -105,8 +105,8 @@ class OBJECT_OT_body_moments_add_empty(Operator):
     def _place(
         self, existing: Object | None, context: Context, body: snapping.SnapTarget
     ) -> Generator[None, Depsgraph, bool]:
-        """Move the empty, or a new one, to the body's frame; returns whether it was elsewhere. EditRefusedError where
-        it cannot be there: then all is as it was."""
+        """Move the empty, or a new one, to the body's frame; return whether it was elsewhere. EditRefusedError if it
+        cannot be there: then nothing has changed."""
         parent = body.obj if self.parent else None
         if existing is not None:
             return (yield from _moved(existing, body, parent, self.size))
@@ -138,8 +138,7 @@ def _new_empty(context: Context, obj: Object) -> Object:
 def _moved(
     empty: Object, body: snapping.SnapTarget, parent: Object | None, size: float
 ) -> Generator[None, Depsgraph, bool]:
-    """Move the empty to the body's frame; returns whether it was elsewhere. EditRefusedError where it cannot be
-    there."""
+    """Move the empty to the body's frame; return whether it was elsewhere. EditRefusedError if it cannot be there."""
     if _follows(body.obj, empty):
         raise EditRefusedError(EMPTY_FOLLOWED, empty=empty.name)
     if _is_there(empty, body) and empty.parent == parent:

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Transform Orientation from Principal Axes: move, turn and scale along them without changing
-any data.
+"""Transform Orientation from Principal Axes: move, turn and scale along them without changing any data.
 
-Blender makes orientations only from a 3D view. Where there is none (batch), the operator reports it.
+Blender makes orientations only from a 3D view. Without one (batch), the operator reports it.
 """
 
 import bpy
@@ -67,9 +66,8 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
 
 
 def _view_3d(context: Context) -> dict | None:
-    """A 3D view to create orientations from: the one that the operator was called from, or the
-    first that is open.
-    """
+    """Return a 3D view to create orientations from: the one that the operator was called from, or the first that is
+    open."""
     windows = [context.window] if context.window else []
     windows += [window for window in context.window_manager.windows if window not in windows]
     for window in windows:

@@ -41,7 +41,7 @@ class OBJECT_OT_body_moments_origin_to_center(Operator):
 
 
 def matrix_at_center(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
-    """Where the object is to be, its origin at the body's center; None where it is."""
+    """Return the object's matrix with its origin at the body's center, or None if it is there already."""
     target = world(obj)
     off = np.abs(target[:3, 3] - body.center).max()
     if off <= reframe.location_tolerance(obj, body.size):

@@ -48,7 +48,7 @@ class OBJECT_OT_body_moments_axes_to_principal(Operator):
 
 
 def matrix_along_axes(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
-    """Where the object is to be, its axes along the body's; None where it is."""
+    """Return the object's matrix with its axes along the body's, or None if they are already."""
     if _is_there(obj, body):
         return None
     target = np.eye(4)

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make it stand".
 
-Which vertices: the selected ones in Edit Mode, those of a vertex group in Object Mode, as freely as their weights
-say. The change is made on the mesh itself and measured again, the way the object is always measured; where faces that
-are not flat were cut anew by it, it is found again for the new cut. What does not come there is put back.
+The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as their weights say. The
+change is made on the mesh itself and measured again, the way the object is always measured; if it cuts faces that are
+not flat anew, it is solved again for the new cut. A change that misses the point is undone.
 """
 
 from __future__ import annotations
@@ -59,8 +59,8 @@ from ..findings import (
 from . import base as snapping
 
 MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
-REACHED_RTOL = 1e-6  # of the body's size: what float32 coordinates leave of a center
-ROUNDING = 1e-7  # of the body's size: a coordinate below is reported as 0
+REACHED_RTOL = 1e-6  # rounding of a center in float32, relative to the body's size
+ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported as 0
 
 
 class OBJECT_OT_body_moments_sculpt_balance(Operator):
@@ -149,7 +149,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
         )
         try:
             mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
-            with tracking_paused():  # what is tried and restored is not an edit
+            with tracking_paused():  # a trial that is undone is not an edit
                 findings = _balance_mesh(context, obj, mesh, balance_target, unit)
             obj.data.update_tag()  # for others that show the mesh it is one
         except MeasureError as error:
@@ -170,7 +170,7 @@ class _Target:
 
 
 def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
-    """(2, 3) the two directions across gravity, or across Z where there is none."""
+    """Return the two directions (2, 3) across gravity, or across Z without gravity."""
     down = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
     axis: NDArray[np.float64] = down if down.any() else np.eye(3)[2]
     return np.linalg.svd(axis[None])[2][1:]
@@ -193,7 +193,7 @@ class _EditedMesh:
         return bmesh.from_edit_mesh(self.obj.data).verts
 
     def set_points(self, points: NDArray[np.float32]) -> None:
-        """(n, 3) where the vertices go."""
+        """Move the vertices to (n, 3) points."""
         self.is_changed = True
         vertices = self._vertices()
         vertices.ensure_lookup_table()
@@ -228,7 +228,7 @@ class _GroupedMesh:
         self.start = self.start.reshape(-1, 3)
 
     def set_points(self, points: NDArray[np.float32]) -> None:
-        """(n, 3) where the vertices go."""
+        """Move the vertices to (n, 3) points."""
         self.is_changed = True
         self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
         self.mesh.vertices[0].co = self.mesh.vertices[0].co  # tells Blender, which keeps normals and a box
@@ -237,7 +237,7 @@ class _GroupedMesh:
 def _balance_mesh(
     context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, target: _Target, unit: float
 ) -> list[Finding]:
-    """Carry it out, or leave all as it was. Returns what to report."""
+    """Carry out the change, or undo all of it. Return the findings."""
     _require_balanceable(obj)
     part = _read_surface(context, obj, mesh)
     before = _measure(context, obj)
@@ -285,7 +285,7 @@ def _balance_mesh(
 
 @contextmanager
 def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[None]:
-    """Put the vertices back where something fails in here."""
+    """Put the vertices back if the block fails."""
     try:
         yield
     except BaseException:
@@ -296,7 +296,7 @@ def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> It
 
 
 def _require_balanceable(obj: Object) -> None:
-    """EditRefusedError where the mesh cannot be changed, or its change is not the object's."""
+    """Raise EditRefusedError if the mesh cannot be changed, or its change is not the object's."""
     if not obj.data.is_editable:
         raise EditRefusedError(BALANCE_LINKED_MESH)
     if obj.data.shape_keys is not None:
@@ -306,8 +306,7 @@ def _require_balanceable(obj: Object) -> None:
 
 
 def _measure(context: Context, obj: Object) -> Measurement:
-    """The object as it is always measured; EditRefusedError where its center cannot be differentiated by its
-    vertices."""
+    """Measure the object in the usual way; EditRefusedError if its center cannot be differentiated by its vertices."""
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
         raise EditRefusedError(BALANCE_VARYING_DENSITY)
@@ -317,7 +316,7 @@ def _measure(context: Context, obj: Object) -> Measurement:
 
 
 def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
-    """The surface as it is measured; EditRefusedError where its vertices are not those of the mesh."""
+    """Return the surface as it is measured; EditRefusedError if its vertices differ from the mesh."""
     reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
     if reading.all_singular:
@@ -335,7 +334,7 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
 def _mesh_coordinates(
     mesh: _EditedMesh | _GroupedMesh, balanced: BalanceResult, start: Surface, linear: NDArray
 ) -> NDArray[np.float32]:
-    """(n, 3) the mesh's own coordinates: those that do not move to the bit."""
+    """Return (n, 3) the mesh's own coordinates; vertices that are not movable stay to the bit."""
     points = mesh.start.copy()
     moves = balanced.points[mesh.movable] - start.points[mesh.movable]
     local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves.T).T

@@ -37,7 +37,7 @@ from ..findings import (
 )
 from ..modal import ModalSteps, redraw
 
-REACH = 0.01  # of the contact objects' extent: what is that near to the ground touches it
+REACH = 0.01  # contact with the ground within this distance, relative to the contact objects' extent
 
 
 class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
@@ -53,7 +53,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     PROGRESS = finding(PROGRESS_BALANCE)
     CANCELED = finding(CANCELED_BALANCE)
     _assembly: bpy.types.Collection | None = None  # the collection, where its mass is given
-    _is_interactive = False  # whether its dialog has just been confirmed; not in a script, nor from the redo panel
+    _is_interactive = False  # its dialog has just been confirmed; False in a script, and from the redo panel
 
     collection: StringProperty(
         name="Collection",
@@ -154,7 +154,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         return collection
 
     def _members(self, context: Context) -> list[Object]:
-        """The objects that are followed, by name."""
+        """Return the followed objects, by name."""
         if self.collection:
             depsgraph = context.evaluated_depsgraph_get()
             root = members_of(self._collection(self.collection), depsgraph)
@@ -196,7 +196,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         self._supports.append(self._support(motion, depsgraph, center) if self._feet else None)
 
     def _center(self, motion: Motion, depsgraph: Depsgraph) -> NDArray[np.float64]:
-        """The common center at this frame, in Blender's units."""
+        """Return the common center at this frame, in Blender's units."""
         if self._assembly is not None:
             body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
             return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
@@ -204,7 +204,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         return centers[0] + np.einsum("i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0])
 
     def _support(self, motion: Motion, depsgraph: Depsgraph, center: NDArray) -> Support | None:
-        """What the contact objects stand on at this frame, None where they are all in the air."""
+        """Return the support of the contact objects at this frame, or None if they are all in the air."""
         down = stability.down(depsgraph.scene)
         points = np.concatenate([motion.hull_points(obj, depsgraph) for obj in self._feet])
         reach = self.reach or REACH * float(np.ptp(points, axis=0).max())
@@ -273,18 +273,7 @@ def has_given_mass(root: Member) -> bool:
 
 
 def deformed_by(armature: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the meshes that an armature deforms, and the objects that are parented to its bones.
-
-    Parameters
-    ----------
-    armature : bpy.types.Object
-    objects : iterable of bpy.types.Object
-        Those that are looked at.
-
-    Returns
-    -------
-    list of bpy.types.Object
-    """
+    """Return the objects that an armature deforms, and the ones that are parented to its bones."""
     return [obj for obj in objects if is_skin_of(obj, armature) or obj.parent == armature and obj.parent_type == "BONE"]
 
 

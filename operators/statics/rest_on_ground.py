@@ -86,7 +86,7 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         return selection.summarize(self, len(moved), len(objects), done, failures, findings, idle)
 
     def _lay(self, context: Context, obj: Object, findings: list[Finding]) -> bool:
-        """Whether the object had to be moved."""
+        """Lay the object on the ground, and return whether it had to be moved."""
         reframe.check_movable(obj)
         measured: list[Object] = []
         findings.extend(check_stability(context, obj, measured))
@@ -96,7 +96,7 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
             raise EditRefusedError(NO_STABLE_POSE)
         if isinstance(poses, Finding):
             raise EditRefusedError(poses.code, **poses.values)
-        assert body is not None  # of which the poses are
+        assert body is not None  # the poses belong to it
         down = stability.down(context.scene)
         _, rotation = stability.frame(obj)
         normals = poses.normals @ rotation.T
@@ -115,7 +115,7 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         return bool(is_moved)
 
     def _ground(self, context: Context, obj: Object, center: NDArray, down: NDArray) -> float:
-        """How far the ground is below the center."""
+        """Return the distance of the ground below the center."""
         if self.ground == "LOWEST":
             support = stability.support(obj, context.scene)
             assert support is not None  # it is known as its poses are

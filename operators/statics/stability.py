@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stability: whether the selected objects stand, drawn and listed, and the poses in which they rest."""
+"""Stability: the standing state of the selected objects, drawn and listed, and the poses in which they rest."""
 
 from __future__ import annotations
 
@@ -55,8 +55,8 @@ class OBJECT_OT_body_moments_stability(Operator):
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[Finding]:
-    """Remember the hull of an object, and measure it where its numbers are out of date; it is then added to
-    `measured`. Returns what is to be said about it. MeasureError where it has no certain center or no surface."""
+    """Remember the hull of an object, and measure it if its numbers are out of date; it is then added to `measured`.
+    Return the findings. MeasureError if it has no certain center or no surface."""
     depsgraph = context.evaluated_depsgraph_get()
     if properties.numbers(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of the density, and what of it stands beside the answer: given mass, one value, materials, polynomial,
-attribute, Volume object."""
+"""The sub-panel of the density, and its row in the main panel: given mass, one value, materials, polynomial, attribute,
+Volume object."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def _has_density(obj: Object) -> bool:
 
 
 def material_row(layout: UILayout, context: Context, obj: Object) -> None:
-    """Draw the one row of the density that is changed most: the material, or what stands in its place."""
+    """Draw the one row of the density that is changed most: the material, or its alternative."""
     if not _has_density(obj):
         return
     settings = obj.body_moments
@@ -112,7 +112,7 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
 
 
 def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
-    """How thick the wall may be, once that is known."""
+    """Draw the largest thickness of the wall, once it is known."""
     limit = wall_slider.max_thickness(obj)
     if limit is None:
         return
@@ -137,7 +137,7 @@ def _materials(layout: UILayout, context: Context, obj: Object) -> None:
 
 
 def _labeled_row(column: UILayout, label: str) -> UILayout:
-    """A row beside a label, as Blender puts properties there, or below it where there is little room."""
+    """Return a row beside a label, as Blender aligns properties, or below it in a narrow panel."""
     if rows.is_narrow(bpy.context):
         rows.title(column, label)
         return column.row(align=True)
@@ -149,7 +149,7 @@ def _labeled_row(column: UILayout, label: str) -> UILayout:
 
 
 def _uniform_density(column: UILayout, context: Context, settings, heading: str) -> None:
-    """The object's own density, with the table and the user's presets."""
+    """Draw the object's own density, with the table and the user's presets."""
     _material(column, context, settings, heading)
     setting(column, settings, density_field_name(context.scene))
 
@@ -161,7 +161,7 @@ def _material(column: UILayout, context: Context, settings, heading: str) -> Non
 
 
 def _unset_material(settings, scene: Scene) -> str:
-    """What stands for the material of an object whose density was not taken from the table."""
+    """Return the name shown in place of a material if none was chosen from the table."""
     if settings.is_property_set("density"):
         return "Custom"
     return default_material(scene) or "Custom"

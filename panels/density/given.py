@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts whose mass is known: the sub-panel of their center and inertia, and of point masses."""
+"""Parts of known mass: the sub-panel of their center and inertia, and of point masses."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def _may_be_point(obj) -> bool:
 
 
 def given_rows(layout: UILayout, settings: PropertyGroup) -> None:
-    """Draw what may be given beside a mass."""
+    """Draw the optional properties of a given mass."""
     column = layout.column()
     setting(column, settings, "use_center")
     if settings.use_center:

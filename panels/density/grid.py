@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows for a grid of voxels: which one, and what its values stand for."""
+"""Rows for a grid of voxels: its choice, and the meaning of its values."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..settings import setting
 
 
 def settings_rows(layout: UILayout, context: Context, obj: Object) -> bool:
-    """The settings of an object's grid; whether the mass comes from the grid, not from a material."""
+    """Draw the settings of an object's grid, and return whether the mass comes from the grid, not from a material."""
     settings = obj.body_moments
     column = layout.column()
     setting(column, settings, "grid")

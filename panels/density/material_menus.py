@@ -37,7 +37,7 @@ class OBJECT_MT_body_moments_materials(Menu):
         _set_density(layout, context, text="Search...", icon="VIEWZOOM")
         layout.separator()
         layout.operator_context = "EXEC_DEFAULT"
-        _entries(layout, context, FILAMENT)  # what is chosen most, without a further menu
+        _entries(layout, context, FILAMENT)  # the most frequent choice, without a further menu
         layout.separator()
         for category in CATEGORIES:
             if category != FILAMENT:
@@ -49,7 +49,7 @@ def _menu_name(category: str) -> str:
 
 
 def _set_density(layout: UILayout, context: Context, **options: str):
-    """The button that sets the density of a material, or of objects."""
+    """Return the button that sets the density of a material, or of objects."""
     target = getattr(context, "body_moments_material", None)
     if target is None:
         return layout.operator(OBJECT_OT_body_moments_set_material.bl_idname, **options)
@@ -59,7 +59,7 @@ def _set_density(layout: UILayout, context: Context, **options: str):
 
 
 def density_row(layout: UILayout, scene: Scene, material: Material, label: str = "") -> None:
-    """A material's density with the menu of the table."""
+    """Draw a material's density with the menu of the table."""
     settings = material.body_moments
     row = layout.row(align=True)
     row.enabled = material.is_editable  # the menu goes by names, which a local one may share with a linked one

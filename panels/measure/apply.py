@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of the buttons that apply what was measured."""
+"""The sub-panel of the buttons that apply measurements."""
 
 from __future__ import annotations
 

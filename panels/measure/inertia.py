@@ -16,7 +16,7 @@ from ..findings import PANEL_EQUAL_MOMENTS_12, PANEL_EQUAL_MOMENTS_23, PANEL_EQU
 from ..places import in_both_places
 from .numbers import PRINCIPAL_LABELS
 
-ERROR_OF_A_DIFFERENCE = 6.0  # of principal moments: each is off by at most 3 times what an entry of the tensor is
+ERROR_OF_A_DIFFERENCE = 6.0  # each principal moment is off by at most 3 times the error of a tensor entry
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
     (True, True): PANEL_EQUAL_MOMENTS_ALL,
     (True, False): PANEL_EQUAL_MOMENTS_12,

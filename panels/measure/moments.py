@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of the moments to a chosen order: what a button has computed, as a table whose cells can be copied."""
+"""The sub-panel of the moments to a chosen order: results of a button, as a table whose cells can be copied."""
 
 from __future__ import annotations
 

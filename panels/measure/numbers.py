@@ -17,11 +17,11 @@ from ..findings import PANEL_DENSITY_MEAN
 AXIS_LABELS = ("X", "Y", "Z")
 PRINCIPAL_LABELS = ("1", "2", "3")
 CENTER_HEADINGS = {"WORLD": "Center of Mass (World)", "OBJECT": "Center of Mass (Object)"}  # by the frame
-RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # of rigs
+RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # for rigs
 
 
 def numbers(layout: UILayout, context: Context, units: Units, shown: properties.StoredProperties) -> None:
-    """Draw mass, volume, area, density and center of what was measured."""
+    """Draw mass, volume, area, density and center of the measurement."""
     column = layout.column(align=True)
     entries = [("Mass", "mass", shown.body.mass)]
     length = properties.optional(context.object, "body_length")

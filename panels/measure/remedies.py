@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Warnings right under the verdict, each with the buttons that do its remedy or accept it; what the last action
-refused; and the question whether a unit is a millimeter.
-"""
+"""Warnings right under the verdict, each with the buttons that apply its remedy or accept it; the refusals of the last
+action; and the question whether a unit is a millimeter."""
 
 from __future__ import annotations
 
@@ -70,7 +69,7 @@ REMEDIES = {
     RIGID_BODY_CENTER_ELSEWHERE: (("object.body_moments_axes_to_principal", "EMPTY_AXIS"),),
 }
 MESH_ONLY = (OUTSIDE, DEFECTS)
-MAX_SHOWN = 8  # of what the last action refused
+MAX_SHOWN = 8  # limit for refusals of the last action
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
 QUESTION_DIGITS = 3
@@ -79,7 +78,7 @@ QUESTION_DIGITS = 3
 def warnings(
     layout: UILayout, context: Context, idname: str, findings: Sequence[Finding], can_accept: bool = True
 ) -> None:
-    """Draw a sub-panel, open at first, of warnings and errors, where there are any; errors first."""
+    """Draw a sub-panel, open at first, of any errors and warnings; errors first."""
     alarming = [*of_severity(findings, Severity.ERROR), *of_severity(findings, Severity.WARNING)]
     if not alarming:
         return
@@ -108,7 +107,7 @@ def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Fi
 
 
 def remedies(layout: UILayout, context: Context, shown: Finding) -> None:
-    """Draw the buttons that do what the sentence of a finding advises."""
+    """Draw the buttons that carry out the advice of a finding."""
     for idname, icon in REMEDIES.get(shown.code, ()):
         if context.object.type == "MESH" or (idname, icon) not in MESH_ONLY:
             rows.button(layout, context, idname, icon)
@@ -124,7 +123,7 @@ def _accept(layout: UILayout, context: Context, shown: Finding, accepted: bool) 
 
 
 def last_action(layout: UILayout, context: Context) -> None:
-    """Draw what the last action refused or warned of, until the next one."""
+    """Draw the refusals and warnings of the last action, until the next one."""
     last = outcome.last()
     if last is None:
         return
@@ -145,7 +144,7 @@ def last_action(layout: UILayout, context: Context) -> None:
 
 
 def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -> None:
-    """Ask whether a unit is a millimeter, where the body is as large as prints in millimeters are; once a scene."""
+    """Ask whether a unit is a millimeter, if the body is as large as prints in millimeters are; once a scene."""
     scene, length = context.scene, max(context.object.dimensions)
     if (
         scene.body_moments.units_answered

@@ -26,7 +26,7 @@ VERDICT_ICONS = {  # the form says it, not the color alone
     Trust.DOUBTFUL: "ERROR",
     Trust.OUT_OF_DATE: "FILE_REFRESH",
 }
-LINES = 5  # of the list, before it scrolls
+LINES = 5  # height of the list, before it scrolls
 
 
 class BODY_MOMENTS_UL_measured(UIList):
@@ -88,7 +88,7 @@ class SelectionPanel:
 
 
 def _listed(layout: UILayout, context: Context) -> None:
-    """Draw the measured objects, and what makes a table of the selected ones."""
+    """Draw the measured objects, and the buttons that make a table of the selected ones."""
     layout.template_list(
         BODY_MOMENTS_UL_measured.__name__,
         "",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The verdict on what was measured: headline, method, reason."""
+"""The verdict on a measurement: headline, method, reason."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ ICONS = {
     "given": "EMPTY_AXIS",
     "assembly": "OUTLINER_COLLECTION",
 }
-SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # of what was measured, before a verdict
+SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # prefix for the measured data, before a verdict
 
 LIVE = {
     live.Lag.NONE: PANEL_LIVE,
@@ -50,7 +50,7 @@ LIVE = {
 
 
 def method_and_findings(obj: Object) -> tuple[Method | None, Sequence[Finding]]:
-    """Of the numbers that are shown: live or stored."""
+    """Return the method and findings of the displayed numbers: live or stored."""
     now = live.current_numbers(obj)
     if now is not None and now.measurement is not None:
         return now.measurement.method, now.measurement.findings
@@ -58,7 +58,7 @@ def method_and_findings(obj: Object) -> tuple[Method | None, Sequence[Finding]]:
 
 
 def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> None:
-    """Draw the object's name, and whether and how it was measured."""
+    """Draw the object's name, and the state and method of its measurement."""
     column = layout.column(align=True)
     column.label(text=obj.name, icon="OBJECT_DATA", translate=False)
     refusal = results.failure(obj)
@@ -88,7 +88,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
 
 
 def _posed(column: UILayout, context: Context, armature: Object) -> None:
-    """Which meshes an armature stands for, and which of them have no numbers, or none that hold."""
+    """Draw the meshes that an armature deforms, with warnings about missing and outdated numbers."""
     meshes = posed.deformed_meshes(armature)
     rows.message(column, context, finding(PANEL_POSED, count=len(meshes)), icon="POSE_HLT")
     lacking = [mesh.name for mesh in meshes if results.in_world(mesh, context.scene) is None]
@@ -103,7 +103,7 @@ def _posed(column: UILayout, context: Context, armature: Object) -> None:
 
 
 def _headline(column: UILayout, context: Context, obj: Object) -> None:
-    """What the method was, in two lines. A method of another version of the add-on speaks for itself."""
+    """Draw the method in two lines. A method of another version of the add-on is shown by its own text."""
     method, findings = method_and_findings(obj)
     key = method_key(method, any(found.code == WALL_MEASURED for found in findings))
     source = Source.POLYGONS if method is None or key == str(method) else method.source

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which bodies are drawn, as arrays in Blender's units and world axes."""
+"""The displayed bodies, as arrays in Blender's units and world axes."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ class Bodies:
         return len(self.centers)
 
     def chosen(self, mask: NDArray[np.bool_]) -> Bodies:
-        """Those where a mask is true."""
+        """Return the bodies selected by a mask."""
         return Bodies(self.centers[mask], self.axes[mask], self.gyration[mask], self.verdicts[mask])
 
     def differ_from(self, others: Bodies) -> NDArray[np.bool_]:
-        """Which of them are not as those of as many others."""
+        """Return a mask of the bodies that differ from `others`, compared index by index."""
         changed = self.verdicts != others.verdicts
         for own, other in ((self.centers, others.centers), (self.axes, others.axes), (self.gyration, others.gyration)):
             changed |= (own != other).reshape(len(self), own[0].size if len(self) else 1).any(axis=1)
@@ -57,13 +57,13 @@ class Bodies:
 
 @dataclass(frozen=True, eq=False)
 class Collected:
-    """What is shown of the objects, and of which.
+    """The displayed bodies and their objects.
 
     Attributes
     ----------
     bodies : Bodies
     objects : list of (int, str)
-        Session uids and names of the bodies' objects; none where some bodies are of something else.
+        Session uids and names of the bodies' objects; empty if some bodies belong to something else.
     alone : dict of int to int
         Session uids of objects whose numbers change with no move of another object, and their places.
     """
@@ -78,8 +78,8 @@ NOTHING = Collected(NO_BODIES, [], {})
 
 
 def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
-    """The objects whose numbers are drawn in a view: visible and, if not all, selected. In Pose Mode an armature stands
-    for its meshes."""
+    """Yield the objects with numbers to draw in a view: visible and, if not all, selected. In Pose Mode an armature
+    represents its meshes."""
     layer, space = context.view_layer, context.space_data
     for obj in layer.objects if show_all else layer.objects.selected:
         has_numbers = "body_mass" in obj or live.is_live(obj) or posed.stands_for_meshes(obj)
@@ -88,8 +88,8 @@ def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
 
 
 def collect(context: Context) -> Collected:
-    """Gather what is shown of the objects, of the selected pose bones, and of the selection as one body where that is
-    switched on."""
+    """Gather the displayed bodies of the objects, of the selected pose bones, and if enabled of the selection as one
+    body."""
     scene = context.scene
     settings = scene.body_moments.overlay
     bodies, objects, alone = [], [], {}
@@ -120,7 +120,7 @@ def collect(context: Context) -> Collected:
 
 
 def collect_moved(context: Context, before: Collected, moved: set[int]) -> Collected | None:
-    """Gather what is shown after some objects have moved; None where that takes all of `collect`."""
+    """Gather the displayed bodies after some objects have moved, or return None if that takes a full `collect`."""
     if not before.objects:
         return None
     places = {before.alone[uid] for uid in moved if uid in before.alone}

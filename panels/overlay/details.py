@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn of single objects: faults and support polygons, as colored segments and triangles in the world."""
+"""Details of single objects: faults and support polygons, as colored segments and triangles in the world."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Detail:
 
 
 def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> Iterator[Detail]:
-    """Yield what is switched on of each drawn object."""
+    """Yield the enabled details of each drawn object."""
     if settings.show_path:
         for empty in balance_groups.groups(context.scene):
             if empty.visible_in_viewport_get(context.space_data) and (path := balance_groups.path(empty)) is not None:
@@ -49,7 +49,8 @@ def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> I
 
 
 def _path(path: balance_groups.Path) -> Detail:
-    """A line from frame to frame, orange where the center leaves the support polygon, with a tick at each frame."""
+    """Return a line from frame to frame, orange if the center is outside the support polygon, with a tick at each
+    frame."""
     starts, ends = path.centers[:-1], path.centers[1:]
     outside = np.zeros(len(starts), bool) if path.inside is None else ~(path.inside[:-1] & path.inside[1:])
     colors = np.where(outside[:, None], look.TIPS, look.PATH)
@@ -70,7 +71,7 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
 
 
 def support_detail(support: Support) -> Detail:
-    """Draw the support polygon, filled where the body stands, and an arrow from the foot to where it tips."""
+    """Return the support polygon, filled if the body stands, and an arrow from the foot to the tipping edge."""
     color = look.SUPPORT if support.stands else look.TIPS
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drawing in the 3D Viewport: a few batches for all bodies, made again only when something has changed.
+"""Drawing in the 3D Viewport: a few batches for all bodies, remade only after a change.
 
-Lines and discs are drawn twice, so that one sees how deep they lie: through everything, lines faint and discs without
-their white quadrants, and then in full where nothing is in front of them. The nearest come last. What is drawn depends
-on the session's generation and the settings, where discs are on the view also: as long as these stay, a redraw makes no
-array. While some bodies move, the batches of all others stay.
+Lines and discs are drawn twice, to show how deep they lie: through everything, lines faint and discs without their
+white quadrants, and then in full if nothing is in front of them. The nearest come last. The drawing depends on the
+session's generation and the settings, and with discs also on the view: as long as these stay, a redraw makes no array.
+While some bodies move, the batches of all others stay.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from .bodies import Bodies, Collected, collect, collect_moved
 from .details import Detail, objects_details
 from .view import View
 
-MAX_REGIONS = 8  # of which batches are kept
+MAX_REGIONS = 8  # number of regions with cached batches
 SETTINGS = tuple(name for name in BodyMomentsOverlaySettings.__annotations__ if name != "show")
 
 Batch = gpu.types.GPUBatch
@@ -44,7 +44,7 @@ class _Layer:
     lines: tuple[Batch, ...] = ()  # faint, full
     fills: tuple[Batch, ...] = ()
     discs: tuple[Batch, ...] = ()  # hidden, seen
-    view_key: tuple = ()  # that the discs were made for
+    view_key: tuple = ()  # view of these discs
 
     @property
     def is_empty(self) -> bool:
@@ -53,13 +53,13 @@ class _Layer:
 
 @dataclass(frozen=True, eq=False)
 class _Drawn:
-    """What was made for a region, and what it was made for."""
+    """The cached batches of a region and their key."""
 
     generation: int
     key: tuple
     collected: Collected
-    moving: NDArray[np.bool_]  # which are in the second layer
-    layers: tuple[_Layer, _Layer]  # what rests; what moves, and what is drawn of single objects
+    moving: NDArray[np.bool_]  # mask of bodies in the second layer
+    layers: tuple[_Layer, _Layer]  # resting bodies; moving bodies, and details of single objects
 
 
 @dataclass(eq=False)
@@ -93,7 +93,7 @@ def draw() -> None:
 
 
 def _drawn(context: Context) -> _Drawn:
-    """What is up to date of the region that Blender is drawing, made where it is not."""
+    """Return current batches of the region that Blender is drawing, remade if outdated."""
     pointer, key, generation = context.region.as_pointer(), _key(context), handlers.generation()
     drawn = _state.regions.get(pointer)
     if drawn is None or drawn.key != key or drawn.generation != generation:
@@ -105,7 +105,7 @@ def _drawn(context: Context) -> _Drawn:
 
 
 def _key(context: Context) -> tuple:
-    """What all that is drawn depends on, beside the view and the session's generation."""
+    """Return everything that the drawing depends on, besides the view and the session's generation."""
     settings = context.scene.body_moments.overlay
     return (
         context.scene.session_uid,
@@ -129,8 +129,8 @@ def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> View:
 
 
 def _made(before: _Drawn | None, context: Context, key: tuple, generation: int) -> _Drawn:
-    """Make anew what has changed since what has the same key, all where there is none. Bodies that move are in a layer
-    of their own, so that the others' batches stay."""
+    """Rebuild the batches that changed, or all of them if the key is new. Moving bodies are in their own layer, so that
+    the others' batches stay."""
     settings, collected, resting = context.scene.body_moments.overlay, None, None
     if before is not None and not settings.show_sum:
         moved = handlers.moved_since(before.generation)
@@ -156,7 +156,7 @@ def _layer(bodies: Bodies, settings: BodyMomentsOverlaySettings, details: list[D
 
 
 def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
-    """parts: (k, 3, 3) triangles and (k, 4) colors."""
+    """Return the batches of parts: (k, 3, 3) triangles and (k, 4) colors."""
     parts = [(triangles, colors) for triangles, colors in parts if len(triangles)]
     if not parts:
         return ()
@@ -166,7 +166,7 @@ def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
 
 
 def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
-    """parts: (k, 2, 3) segments and (k, 4) colors."""
+    """Return the batches of parts: (k, 2, 3) segments and (k, 4) colors."""
     parts = [(segments, colors) for segments, colors in parts if len(segments)]
     if not parts:
         return ()
@@ -243,14 +243,14 @@ def _draw_batch(batch: Batch, shader: gpu.types.GPUShader) -> None:
 
 
 def register() -> None:
-    """Draw from now on, where there are windows."""
+    """Draw from now on, if there are windows."""
     if not bpy.app.background:
         _state.handle = SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
         _redraw()
 
 
 def unregister() -> None:
-    """Draw no more, and free what was made."""
+    """Draw no more, and free the batches."""
     if _state.handle is not None:
         SpaceView3D.draw_handler_remove(_state.handle, "WINDOW")
         _state.handle = None

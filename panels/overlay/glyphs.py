@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from . import appearance as look
 
-SEGMENTS = 24  # of a circle
+SEGMENTS = 24  # segments of a circle
 DOT_SEGMENTS = 12
 Part = tuple[NDArray[np.float64], NDArray[np.int32]]  # (k, 2) corners in pixels, (l, 3) triangles
 
@@ -31,9 +31,9 @@ class Glyphs:
     corners : (n, k, 2) array
         In pixels.
     colors : (2, n, k, 4) array
-        Where something is in front of them, and where nothing is.
+        Hidden by something in front, and visible.
     triangles : (n, l, 3) array
-        Of a glyph's corners, painted in this order.
+        Corner indices, painted in this order.
     """
 
     corners: NDArray[np.float32]
@@ -57,13 +57,13 @@ def _arc(radius: float, first: int = 0, last: int = SEGMENTS, segments: int = SE
 
 
 def _fan(points: NDArray) -> Part:
-    """What is between the origin and an open polyline."""
+    """Return the triangle fan between the origin and an open polyline."""
     count = np.arange(1, len(points), dtype=np.int32)
     return np.concatenate([np.zeros((1, 2)), points]), np.stack([0 * count, count, count + 1], axis=1)
 
 
 def _stroke(path: NDArray, width: float) -> Part:
-    """A polyline with width; each of its segments is longer by half the width at both ends."""
+    """Return a polyline with width; each of its segments is longer by half the width at both ends."""
     starts, ends = path[:-1], path[1:]
     along = ends - starts
     along = along / np.linalg.norm(along, axis=1, keepdims=True) * (width / 2.0)
@@ -76,7 +76,7 @@ def _stroke(path: NDArray, width: float) -> Part:
 
 
 def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
-    """Parts with their color, and with how much of it is left where something is in front of them."""
+    """Join parts with their colors, and with the factor of opacity behind other objects."""
     starts = np.cumsum([0, *(len(corners) for (corners, _), _, _ in layers)])
     colors = [np.stack([color * (1.0, 1.0, 1.0, hidden), color]) for _, color, hidden in layers]
     return (
@@ -87,7 +87,7 @@ def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
 
 
 def _frame(verdict: int) -> list[NDArray[np.float64]]:
-    """The polylines around the disc that say the verdict by their form."""
+    """Return the polylines around the disc that show the verdict by their form."""
     polygons = {1: (45.0, 4, 1.25), 2: (90.0, 3, 1.75), 4: (90.0, 4, 1.3)}  # square, triangle, diamond
     if verdict in polygons:
         start, count, size = polygons[verdict]
@@ -133,11 +133,11 @@ def _stack(shapes: Sequence[GlyphShape]) -> Glyphs:
 
 @lru_cache(maxsize=1)
 def discs() -> Glyphs:
-    """The discs, in the order of `appearance.VERDICTS`."""
+    """Return the discs, in the order of `appearance.VERDICTS`."""
     return _stack([_disc(verdict) for verdict in range(len(look.VERDICTS))])
 
 
 @lru_cache(maxsize=1)
 def digits() -> Glyphs:
-    """The digits 1, 2 and 3."""
+    """Return the digits 1, 2 and 3."""
     return _stack([_digit(points) for points in DIGITS])

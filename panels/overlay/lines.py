@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn of bodies, as arrays: colored segments in the world, and discs and digits of constant size."""
+"""Drawings of bodies, as arrays: colored segments in the world, and discs and digits of constant size."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Segments = tuple[NDArray[np.float64], NDArray[np.float32]]  # (k, 2, 3) in the w
 
 
 def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> Iterator[Segments]:
-    """Yield the segments of what is switched on."""
+    """Yield the segments of the enabled drawings."""
     place = bodies.centers, bodies.axes, bodies.gyration
     if settings.show_axes:
         yield _colored(solids.axis_lines(*place), bodies)
@@ -49,13 +49,13 @@ def disc_triangles(
     scale : float
         Pixels for one of `appearance`.
     with_digits : bool
-        Whether the axes are named.
+        Name the axes.
 
     Returns
     -------
     points : (k, 3) array
     colors : (2, k, 4) array
-        Where something is in front of the points, and where nothing is.
+        Hidden by something in front, and visible.
     triangles : (l, 3) array
         The nearest bodies last.
     """
@@ -77,7 +77,7 @@ def disc_triangles(
 def _glyphs(
     bodies: Bodies, group: NDArray[np.intp], view: View, scale: float, with_digits: bool
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
-    """As `disc_triangles`, of some bodies, in this order."""
+    """Make the `disc_triangles` of some bodies, in this order."""
     count, centers, verdicts = len(group), bodies.centers[group], bodies.verdicts[group]
     discs = glyphs.discs()
     points, colors = [view.place(centers, scale * discs.corners[verdicts])], [discs.colors[:, verdicts]]
@@ -101,7 +101,7 @@ def _glyphs(
 
 
 def _digit_offsets(centers: NDArray, tips: NDArray, scale: float) -> NDArray[np.float64]:
-    """(n, 3, 2) pixels from the ends of axes, (n, 3, 2), to their digits: beyond the end, and off the disc."""
+    """Return (n, 3, 2) pixels from the ends of axes, (n, 3, 2), to their digits: beyond the end, and off the disc."""
     arms = tips - centers[:, None]
     lengths = np.linalg.norm(arms, axis=2, keepdims=True)
     fallback = np.array([(1.0, 0.3), (-0.3, 1.0), (-1.0, -0.3)])

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)
 RING = CIRCLE[::3]
-DASHES = 12  # of a drop line
+DASHES = 12  # dashes of a drop line
 EDGES = np.array([[i, i | 1 << axis] for i in range(8) for axis in range(3) if not i & 1 << axis])
 CORNERS = np.array([[(i >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for i in range(8)])
 
@@ -24,7 +24,7 @@ def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np
 
 
 def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArray[np.float64]:
-    """A dashed line from the center to the floor, and a ring where it meets it."""
+    """Return a dashed line from each center to the floor, and a ring at its foot."""
     feet = centers.copy()
     feet[:, 2] = floor
     steps = np.arange(2 * DASHES).reshape(-1, 2) / (2.0 * DASHES - 1.0)
@@ -37,20 +37,22 @@ def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArr
 
 
 def _spread(gyration: NDArray) -> NDArray[np.float64]:
-    """(n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration: twice the mean square distance along axis i."""
+    """Return (n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration: twice the mean square distance along axis
+    i."""
     squares = gyration**2
     return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
 
 
 def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """The box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i) / m."""
+    """Return the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i) / m."""
     half = np.sqrt(6.0 * _spread(gyration)) / 2.0
     corners = centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half)
     return corners[:, EDGES]
 
 
 def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """The ellipsoid with the same mass and inertia, semi-axes a_i² = 5 (I_j + I_k - I_i) / (2 m): three ellipses."""
+    """Return the ellipsoid with the same mass and inertia, semi-axes a_i² = 5 (I_j + I_k - I_i) / (2 m): three
+    ellipses."""
     half = np.sqrt(2.5 * _spread(gyration))
     circles = np.zeros((3, len(CIRCLE), 3))
     for axis in range(3):

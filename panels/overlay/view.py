@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The view that is drawn: where points of the world are on the screen, and how large a pixel is there."""
+"""The view being drawn: screen positions of points of the world, and pixel sizes there."""
 
 from __future__ import annotations
 
@@ -27,18 +27,19 @@ class View:
     size: NDArray[np.float64]
 
     def depths(self, points: NDArray) -> NDArray[np.float64]:
-        """(n,) distances of (n, 3) points from the eye along the view, negative behind it in perspective."""
+        """Return (n,) distances of (n, 3) points from the eye along the view, negative behind it in perspective."""
         return -(points @ self.view[2, :3] + self.view[2, 3])
 
     def pixels(self, points: NDArray) -> NDArray[np.float64]:
-        """(n, 2) where (n, 3) points are, from the lower left corner. Without meaning for points behind the eye."""
+        """Return (n, 2) screen positions of (n, 3) points, from the lower left corner. Meaningless for points behind
+        the eye."""
         seen = points @ self.view[:3, :3].T + self.view[:3, 3]
         clip = seen @ self.projection[:, :3].T + self.projection[:, 3]
         scale = np.where(clip[:, 3] == 0.0, 1.0, clip[:, 3])
         return (clip[:, :2] / scale[:, None] + 1.0) / 2.0 * self.size
 
     def pixel_sizes(self, points: NDArray) -> NDArray[np.float64]:
-        """(n, 2) how long a pixel is at (n, 3) points, along the width and the height; 0 behind the eye."""
+        """Return (n, 2) lengths of a pixel at (n, 3) points, along the width and the height; 0 behind the eye."""
         seen = points @ self.view[:3, :3].T + self.view[:3, 3]
         w = seen @ self.projection[3, :3] + self.projection[3, 3]
         return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
