@@ -116,7 +116,7 @@ def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.f
 
 
 def _cardinal(order: int, x: float) -> float:
-    """The B-spline of this order over integer knots, centered."""
+    """Return the B-spline of this order over integer knots, centered."""
     return sum(
         (-1.0) ** j * math.comb(order, j) * max(x + order / 2.0 - j, 0.0) ** (order - 1) for j in range(order + 1)
     ) / math.factorial(order - 1)

@@ -160,7 +160,7 @@ def measure_patches(
 
 
 def oriented_parts(patches: Sequence[Patch], topology: PatchTopology) -> list[list[Patch]]:
-    """The patches of each component, facing the same way, with the caps of its holes."""
+    """Return the patches of each component, facing the same way, with the caps of its holes."""
     parts: list[list[Patch]] = [[] for _ in range(topology.number)]
     for patch, turn, part in zip(patches, topology.flipped, topology.component):
         parts[part].append(patch.reverse_orientation() if turn else patch)
@@ -270,7 +270,7 @@ def _judge_parts(
 
 
 def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
-    """misoriented: patches that face against the rest of their part."""
+    """Return the verdict's method. misoriented: the number of patches that face against the rest of their part."""
     if is_open:
         return Verdict.OPEN
     if verdict.caps[verdict.solid].any():

@@ -233,7 +233,7 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """The inertia about another point than the center; the parallel-axis term with the wrong sign."""
+    """Yield the inertia about another point than the center; the parallel-axis term with the wrong sign."""
     term = stated.mass * _square(stated.center)
     yield AUDIT_INERTIA_ABOUT_ORIGIN, {}, stated.along_link(stated.inertia - term)
     yield AUDIT_INERTIA_SHIFTED_TWICE, {}, stated.along_link(stated.inertia + term)
@@ -248,7 +248,7 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 
 
 def _frames(stated: StatedInertial) -> Iterator[Change]:
-    """The inertial frame's rotation in other units, the other way round, or not meant."""
+    """Yield the inertial frame's rotation in other units, the other way round, or not meant."""
     if stated.angles is not None:
         for code, convert in ((AUDIT_ANGLES_IN_DEGREES, radians), (AUDIT_ANGLES_IN_RADIANS, degrees)):
             turned = rotation_of_angles(*map(convert, stated.angles))
@@ -283,7 +283,7 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
 
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
-    """Axes in another order: of the tensor, of the center, of both."""
+    """Yield axes in another order: of the tensor, of the center, of both."""
     for order in AXES:
         swapped = stated.inertia[np.ix_(order, order)]
         values = {"order": "".join("xyz"[axis] for axis in order)}

@@ -176,7 +176,7 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
 
 
 def _sphere(count: int) -> NDArray[np.float64]:
-    """(count, 3) directions all around, evenly: a spiral."""
+    """Return (count, 3) directions all around, evenly: a spiral."""
     index = np.arange(count) + 0.5
     height, turn = 1.0 - 2.0 * index / count, index * np.pi * (1.0 + 5.0**0.5)
     across = np.sqrt(1.0 - height * height)

@@ -83,7 +83,7 @@ def _mjcf(_link: StatedLink, inertial: StatedInertial, _description: Description
 
 
 def _usd(link: StatedLink, inertial: StatedInertial, description: Description, old: str) -> str:
-    """The attributes in the place of the old ones, before anything below."""
+    """Return the text with new attributes in the place of the old ones, before anything below."""
     unit, mass = description.scales["length"], description.scales["mass"]
     local = np.eye(4) if link.local is None else link.local
     principal = with_principal_axes(inertial)

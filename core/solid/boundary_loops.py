@@ -24,18 +24,19 @@ MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in t
 
 
 def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-    """The vertices from which and to which sides run. Side 3t + i runs from corner i of triangle t to the next one."""
+    """Return the vertices from which and to which sides run. Side 3t + i runs from corner i of triangle t to the next
+    one."""
     triangle, corner = sides // 3, sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
 def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(k, 2) sides as pairs of vertices, the lower first."""
+    """Return (k, 2) sides as pairs of vertices, the lower first."""
     return np.sort(np.stack(side_ends(triangles, sides), axis=1))
 
 
 def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
+    """Return (k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
     return unique_pairs(vertex_pairs(triangles, sides))
 
 
@@ -161,12 +162,12 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(l,) which loops are holes; the others are narrower than `tolerance` (length, of all or of each) and much
-        longer than wide."""
+        """Return a (l,) mask of loops that are holes; the others are narrower than `tolerance` (length, of all or of
+        each) and much longer than wide."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:
-        """(l,) the value of the first side of each loop. side_values: (r,)."""
+        """Return (l,) the value of the first side of each loop. side_values: (r,)."""
         values = np.empty(len(self.perimeter), side_values.dtype)
         values[self.of_side[::-1]] = side_values[::-1]  # The last of equal indices wins.
         return values

@@ -140,7 +140,7 @@ def cap_stack(
 
 
 def _numbered_by_triangles(part: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Labels from 0 on, in the order of the first triangles that have them."""
+    """Return labels from 0 on, in the order of the first triangles that have them."""
     _, first, number = np.unique(part, return_index=True, return_inverse=True)
     return first.argsort().argsort()[number.ravel()]
 

@@ -29,7 +29,7 @@ class ClosedParts:
     host_part: NDArray[np.integer]
 
     def areas(self, linear: NDArray | None = None) -> NDArray[np.float64]:
-        """(t,) of the triangles under a (3, 3) map, by default as they are."""
+        """Return (t,) areas of the triangles under a (3, 3) map, by default as they are."""
         points = self.points.astype(np.float64)
         if linear is not None:
             points = points @ np.asarray(linear).T

@@ -113,9 +113,9 @@ def classify_pairs(
 def _breakthrough(
     components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
 ) -> NDArray[np.float64]:
-    """(k,) how far the two components of each pair (inner, outer) reach out of each other: the largest distance of
-    places on edges of the inner one outside the outer one from its surface, and of places on edges of the outer one in
-    the inner one. At least the tolerance, by which they are known to pass through each other."""
+    """Return (k,) how far the two components of each pair (inner, outer) reach out of each other: the largest distance
+    of places on edges of the inner one outside the outer one from its surface, and of places on edges of the outer one
+    in the inner one. At least the tolerance, by which they are known to pass through each other."""
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
         return depth
@@ -234,7 +234,7 @@ def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDA
 
 
 def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[np.intp]:
-    """(number,) the innermost component around each, -1 for none."""
+    """Return (number,) the innermost component around each, -1 for none."""
     inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
@@ -272,7 +272,7 @@ def _interior_samples(
     number: int | NDArray[np.integer],
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """(n, 3) the k-th of so many points under the skins of components, about the tree's origin."""
+    """Return (n, 3) the k-th of so many points under the skins of components, about the tree's origin."""
     triangle = (
         components.start[component] + k * (components.start[component + 1] - components.start[component]) // number
     )

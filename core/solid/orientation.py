@@ -125,7 +125,7 @@ class OrientedSolid:
     comparison: ComponentComparison | None
 
     def closed_parts(self) -> ClosedParts:
-        """The triangles of ``surface`` by closed part."""
+        """Return the triangles of ``surface`` by closed part."""
         mesh = self.mesh
         host = np.arange(mesh.number) if self.comparison is None else self.comparison.host
         if self.is_proven:

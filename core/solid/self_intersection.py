@@ -89,7 +89,7 @@ def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, orien
 
 
 def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Surface:
-    """The surface of some triangles without the points of others."""
+    """Return the surface of some triangles without the points of others."""
     used = np.zeros(len(points), bool)
     used[triangles.ravel()] = True
     return Surface(points[used], (np.cumsum(used) - 1)[triangles])
@@ -109,7 +109,7 @@ def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
 
 
 def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
-    """The corners of the triangles, three times (3, k), the first block short."""
+    """Yield the corners of the triangles, three times (3, k), the first block short."""
     for faces in (surface.quads, surface.triangles):
         starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
         for start, stop in zip(starts[:-1], starts[1:]):

@@ -86,8 +86,8 @@ def wall_links(
 
 
 def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
-    """(k, 2) the sides that are joined within walls. within: (e, 4) sides on edges between two faces of a wall, of the
-    first layer and then of the other one; wall: (t,) as of `_layers`.
+    """Return (k, 2) the sides that are joined within walls. within: (e, 4) sides on edges between two faces of a wall,
+    of the first layer and then of the other one; wall: (t,) as of `_layers`.
 
     Which copy of a face is the first one is an accident: a copy goes with the one of its neighbors that it agrees with.
     """

@@ -94,7 +94,7 @@ class SolidStack:
         return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
 
     def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
-        """The volumes of some, in ascending order, to a higher order than third."""
+        """Return the volume moments of the bodies `rows`, ascending, to a higher order than third."""
         stack, volume = self.caps.triangles.some(rows), self.volume.at(rows)
         low, high = stack.box
         reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + stack.coordinate_error
@@ -193,7 +193,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
 
 
 def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Labels from 0 on, without gaps, in the same order."""
+    """Return labels from 0 on, without gaps, in the same order."""
     return np.unique(labels, return_inverse=True)[1].ravel()
 
 

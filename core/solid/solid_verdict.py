@@ -214,7 +214,8 @@ def judge(
 
 
 def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
-    """The mesh faces that were turned within their components, and the components that were turned as a whole."""
+    """Return the mesh faces that were turned within their components, and the components that were turned as a
+    whole."""
     of_mesh = mesh.face >= 0
     flipped, component = (mesh.flipped ^ turned[mesh.component])[of_mesh], mesh.component[of_mesh]
     whole = np.bincount(component, ~flipped) == 0
@@ -229,7 +230,7 @@ def _health(
     inverted_count: int,
     cap_share: float,
 ) -> MeshHealth:
-    """The report of the repair, completed, with edges in the input's vertices."""
+    """Return the report of the repair, completed, with edges in the input's vertices."""
     report, vertices = oriented.mesh.report, checked.vertices
     defects = report.defective_elements
     edges = defects.boundary_edges, defects.non_manifold_edges, defects.inconsistent_edges
@@ -287,7 +288,7 @@ def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: floa
 
 
 def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[np.intp]:
-    """The edges of the capped holes of components that have a volume."""
+    """Return the edges of the capped holes of components that have a volume."""
     mesh, vertices = oriented.mesh, checked.vertices
     edges = mesh.capped_edges[oriented.solid[mesh.capped_component]]
     return unique_pairs(edges if vertices is None else vertices[edges])

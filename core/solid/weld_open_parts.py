@@ -139,7 +139,7 @@ def _weld(
 
 
 def _unique_sorted(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
-    """The distinct values, sorted."""
+    """Return the distinct values, sorted."""
     present = np.zeros(width, bool)
     present[values] = True
     return np.flatnonzero(present)

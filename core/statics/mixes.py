@@ -118,5 +118,5 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
 
 
 def _powers(values: NDArray, exponents: NDArray) -> NDArray[np.float64]:
-    """(f, c) the products of powers."""
+    """Return (f, c) the products of powers."""
     return np.prod(values[:, None, :] ** exponents, axis=2)

@@ -159,7 +159,7 @@ def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike 
 
 
 def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray) -> Support:
-    """contacts: (n, 2) on the ground, from the foot."""
+    """Return the support of (n, 2) contacts on the ground, from the foot."""
     corners = contacts[convex_polygon(contacts)]
     margin, direction = polygon_margin(corners)
     polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center

@@ -119,7 +119,8 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
 
 
 def _pieces(shape: Shape) -> list[Shape]:
-    """A shape as URDF has them: a capsule is a cylinder and two spheres, an ellipsoid the box of its inertia."""
+    """Return the URDF shapes of a shape: a capsule is a cylinder and two spheres, an ellipsoid the box of its
+    inertia."""
     if shape.kind != "capsule":
         return [box_of_ellipsoid(shape)]
     radius, length = shape.size
@@ -130,7 +131,7 @@ def _pieces(shape: Shape) -> list[Shape]:
 def _add_joint(
     root: Element, taken: set[str], name: str, parent: str, child: str, pose: Pose, free: Sequence[FreeAxis]
 ) -> None:
-    """One joint for each degree of freedom, with frames without mass between them."""
+    """Add one joint for each degree of freedom, with frames without mass between them."""
     for number_, axis in enumerate(free or (None,)):
         last = number_ + 1 >= len(free)
         frame = child if last else _free_name("{}_axis_{}".format(child, number_ + 1), taken)

@@ -140,7 +140,7 @@ def identifier(name: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """A string of a layer."""
+    """Return a string of a layer."""
     return '"{}"'.format(text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n"))
 
 
@@ -190,14 +190,14 @@ def round_down(moments: NDArray) -> NDArray[np.float32]:
 
 
 def single(value: float) -> str:
-    """The shortest text that is read as this float32; no negative zero."""
+    """Return the shortest text that is read as this float32; no negative zero."""
     if abs(value) == inf:
         return "inf" if value > 0.0 else "-inf"
     return repr(float(str(np.float32(value) + np.float32(0.0))))
 
 
 def singles(values: Iterable[float]) -> str:
-    """A tuple of them."""
+    """Return a tuple of single-precision numbers."""
     return "({})".format(", ".join(map(single, values)))
 
 
@@ -229,7 +229,7 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 def _shape(shape: Shape, name: str) -> list[str]:
-    """A primitive to collide as."""
+    """Return a primitive to collide as."""
     kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
     lines = [*_prim("def " + kinds[shape.kind], name, ("PhysicsCollisionAPI",)), "{"]
     scale = None
@@ -246,7 +246,8 @@ def _shape(shape: Shape, name: str) -> list[str]:
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """A mesh that collides as its convex hull. USD knows no files of other formats, so it stands in the layer."""
+    """Return a mesh that collides as its convex hull. USD knows no files of other formats, so it stands in the
+    layer."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)
