@@ -337,7 +337,7 @@ def _to_bernstein(degree: int) -> NDArray[np.float64]:
 
 
 def _most_curved_axis(net: NDArray) -> int:
-    """Return the axis of the largest second differences, the error of the net as a polynomial."""
+    """Return the axis of the largest second differences, which bound the net's distance from the polynomial."""
     return int(np.argmax([np.abs(np.diff(net, 2, axis)).max() for axis in range(3)]))
 
 

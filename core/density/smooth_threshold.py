@@ -123,7 +123,7 @@ def _cardinal(order: int, x: float) -> float:
 
 
 def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> ThresholdBody:
-    """With a share of the difference to another one added to the moments, or with share None to their bounds."""
+    """Add a share of the difference to another body to the moments, or with share None to their bounds."""
 
     def combined(fine: Moments, coarse: Moments) -> Moments:
         difference = fine.raw - coarse.about_point(fine.about).raw

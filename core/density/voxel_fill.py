@@ -110,7 +110,7 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
 
 
 def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[np.float64]]:
-    """For each power r the integral of ρ (z - center)^r over all voxels below, in the column of each."""
+    """Return for each power r the integral of ρ (z - center)^r over all voxels below, in the column of each."""
     z = np.arange(densities.shape[2] + 1) - center
     sums = []
     for r in range(order + 1):

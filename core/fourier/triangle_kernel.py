@@ -79,7 +79,8 @@ class SortedTriangles:
         self._sort(triangles)
 
     def _sort(self, triangles: NDArray) -> None:
-        """By diameter to a factor of two, then along a space-filling curve, so that a block's triangles share edges."""
+        """Sort by diameter to a factor of two, then along a space-filling curve, so that a block's triangles share
+        edges."""
         keys, diameters, heights, self.area = [], [], [], 0.0
         for start in range(0, len(triangles), TRIANGLES_PER_BATCH):
             a, b, c = (self.points[corner].T for corner in triangles[start : start + TRIANGLES_PER_BATCH].T)

@@ -148,7 +148,7 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
 
 
 def area_slope(patches: Sequence[Patch]) -> float:
-    """By how much the area changes at most, to first order, for each unit that every control point moves: the sum of
+    """Return the largest change of the area, to first order, for each unit that every control point moves: the sum of
     the lengths of its gradients by them. By a fixed rule: an estimate."""
     total = 0.0
     for patch in patches:

@@ -368,7 +368,7 @@ def _compare_parts(
 
 
 def _component_findings(comparison: ComponentComparison | None, size: float) -> list[Finding]:
-    """About parts in others' material, and parts that go through others."""
+    """Return findings about parts in others' material, and parts that go through others."""
     findings: list[Finding] = []
     if comparison is None:
         return findings
@@ -420,7 +420,7 @@ def _sagitta(grid: NDArray, each: int) -> float:
 
 
 def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
-    """Return whether patches are too small to matter, as `_is_slight` of meshes; their area is that of the box around
+    """Return whether patches are too small to matter, as `_is_slight` of meshes; the area is taken from the box around
     the control points of each group, at most twice the square of its diagonal.
     """
     return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
@@ -429,7 +429,8 @@ def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -
 def _orientation_findings(
     closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
 ) -> list[Finding]:
-    """About patches, and whole parts, that were turned. mixed: patches that face against the rest of their part."""
+    """Return findings about patches, and whole parts, that were turned. mixed: patches that face against the rest of
+    their part."""
     findings = []
     if mixed:
         findings.append(finding(FLIPPED_PATCHES_SLIGHTLY if slight_patches else FLIPPED_PATCHES, count=mixed))

@@ -142,7 +142,7 @@ class Auditor:
         return pieces, unread
 
     def _piece(self, stated: StatedShape) -> _Piece:
-        """In the coordinates of the shape itself."""
+        """Return the piece in the coordinates of the shape itself."""
         shape = stated.shape
         if shape.kind != "mesh":
             return _primitive(shape)

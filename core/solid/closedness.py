@@ -165,7 +165,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
 
 def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
-    """Return whether numbers of one sign, rounding aside, give the sums `total` (of absolute values) and `signed`."""
+    """Return whether numbers that add up to `signed`, and without signs to `total`, have one sign but for rounding."""
     return total - abs(signed) <= SUM_ROUNDING * total
 
 

@@ -102,7 +102,7 @@ def _regions_of_one_layer(
 def _copies_findings(
     ignored: NDArray[np.integer], counted: NDArray[np.integer], area: NDArray[np.float64]
 ) -> list[Finding]:
-    """About copies that were left out, and copies that count twice. area: of each face, doubled."""
+    """Return findings about copies that were left out, and copies that count twice. area: of each face, doubled."""
     findings = []
     if len(ignored):
         slight = area[ignored].sum() < NEGLIGIBLE * area.sum()

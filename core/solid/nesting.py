@@ -21,10 +21,10 @@ from ..numerics.arrays import segment_ranges
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)
 MAX_COMPONENT_PAIRS = 100_000
-# points under the skin of a component of few faces that are asked whether it surrounds them twice
+# Points under the skin of a component of few faces, tested for being surrounded twice.
 MAX_OVERLAP_SAMPLES = 4096
 SAMPLES_PER_PAIR = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
-BREAKTHROUGH_TRIANGLES = 4096, 8, 20_000  # along whose edges it is asked how far they reach out: the same
+BREAKTHROUGH_TRIANGLES = 4096, 8, 20_000  # Limits, as above, of the triangles with edges tested for reaching out.
 MAX_STEPS_PER_EDGE = 16
 
 
@@ -54,7 +54,7 @@ class ComponentRelations:
     breakthrough: NDArray[np.float64] = field(default_factory=NO_LENGTHS.view)
 
     def containers(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """The inner and the outer component of each pair that is decided as if one contained the other."""
+        """Return the inner and the outer component of each pair that is decided as if one contained the other."""
         inner, outer = np.concatenate([self.contained_in, self.mostly_in]).T
         return inner, outer
 

@@ -209,7 +209,8 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume that counts as zero: the rounding noise of a closed sheet, or a flat sheet's after capping."""
+    """Return the volume below which a component counts as flat: a closed sheet's rounding, or a capped flat sheet's
+    error."""
     return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
 
 

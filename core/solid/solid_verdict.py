@@ -297,7 +297,8 @@ def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[n
 def cap_finding(
     edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
 ) -> Finding:
-    """About capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the surface's."""
+    """Return findings about capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the
+    surface's."""
     flat, curved = map(int, caps[:2])
     if caps[2] * size < NEGLIGIBLE * volume:  # all their moments together
         return finding(HOLES_CAPPED_SLIGHTLY, edges, count=flat + curved, share=share)
@@ -307,7 +308,7 @@ def cap_finding(
 def _component_findings(
     mesh: RepairedMesh, comparison: ComponentComparison, size: float, volume: float
 ) -> list[Finding]:
-    """About components that are in others, go through others, or have no volume."""
+    """Return findings about components that are in others, go through others, or have no volume."""
     solid = comparison.solid
     breakthrough = {"share": float(comparison.breakthrough / size)}
     flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
@@ -339,7 +340,7 @@ def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np
 
 
 def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:
-    """About a component that goes through itself, or that was not looked at."""
+    """Return findings about a component that goes through itself, or that was not tested."""
     if intersection.state is Intersection.FOUND:
         code = SELF_INTERSECTION_SLIGHTLY if intersection.effect < NEGLIGIBLE else SELF_INTERSECTION
         return [finding(code, share=intersection.volume / volume)]
