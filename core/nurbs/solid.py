@@ -181,22 +181,8 @@ def assess(
 ) -> PatchIntegrals:
     """Judge the moments of parts, as they face.
 
-    Parameters
-    ----------
-    patches : sequence of Patch
-    topology : PatchTopology
-    parts : sequence of lists of Patch
-        As `oriented_parts` gives them.
-    measured : sequence of (Moments, bool)
-        Of each part, as `volume_moments` gives them.
-    area : Moments
-        Of all patches.
-    slope : float
-        As `area_slope` gives it.
-    stored : float
-        As for `measure_patches`.
-    findings : sequence of Finding
-        Further ones.
+    parts: from `oriented_parts`. measured: of each part, from `volume_moments`. area: of all patches. slope: from
+    `area_slope`. stored: as for `measure_patches`. findings: further ones.
     """
     size = patches_size(patches)
     verdict = _judge_parts(parts, topology, measured, area.total, size, stored)

@@ -133,19 +133,8 @@ def diagnose(
 ) -> Diagnosis | None:
     """Return the one change that corrects an inertial, or a note about the place of the mass.
 
-    Parameters
-    ----------
-    stated : StatedInertial
-        Of positive mass and finite.
-    references : sequence of Reference
-        Candidates for the geometry, such as visual and collision shapes.
-    otherwise : sequence of (Finding, Reference)
-        The geometry with a shape corrected.
-
-    Returns
-    -------
-    Diagnosis or None
-        None if it agrees.
+    stated: of positive mass and finite. references: candidates for the geometry, such as visual and collision shapes.
+    otherwise: geometries with a shape corrected. Returns None if the inertial agrees.
     """
     if not references:
         return None

@@ -52,21 +52,9 @@ def join_sides(
     If an even number of sides meet (as many arriving as leaving) all are joined in pairs, the sharpest
     turns first.
 
-    Parameters
-    ----------
-    begin, end : (r, 3) float64
-        Begin and end of each side.
-    start, stop : (r,) int
-        Numbers of these places, equal if sides may be joined.
-    directed : bool
-        True to join only head to tail.
-
-    Returns
-    -------
-    first, second : (k,) int
-        Sides that are joined.
-    follows : (k,) bool
-        True for sides that run head to tail.
+    begin, end: (r, 3) ends of each side. start, stop: (r,) numbers of these places, equal if sides may be joined.
+    directed: True to join only head to tail. Returns (k,) and (k,) the joined sides, and (k,) True for sides that run
+    head to tail.
     """
     count = len(start)
     vertex = np.concatenate([start, stop])
@@ -187,15 +175,8 @@ class BoundaryLoops:
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
 ) -> BoundaryLoops:
-    """Group boundary sides into the loops that the links of `join_sides` make, and measure those.
-
-    Parameters
-    ----------
-    begin, end : (r, 3) float64
-        Begin and end of each side.
-    links : three arrays
-        Result of `join_sides` for the sides.
-    """
+    """Group boundary sides into the loops that the links of `join_sides` make, and measure those. begin, end: (r, 3)
+    ends of each side. links: from `join_sides`."""
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0

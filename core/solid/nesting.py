@@ -62,18 +62,8 @@ class ComponentRelations:
 def classify_pairs(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> ComponentRelations:
-    """Find how closed components lie relative to each other.
-
-    Parameters
-    ----------
-    points : (n, 3)
-    components : SortedComponents
-        Over these points.
-    candidates : (c,) bool
-        Components to compare: closed and not flat.
-    tolerance : float
-        Distance below which points touch (unit).
-    """
+    """Find how closed components lie relative to each other. points: (n, 3). components: over these points. candidates:
+    (c,) components to compare: closed and not flat. tolerance: distance below which points touch (unit)."""
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
@@ -185,17 +175,8 @@ def orient_nested_components(
     consistent contents (a hollow body turned inside out as a whole). A cavity that breaks through its wall is one
     still.
 
-    Parameters
-    ----------
-    components : SortedComponents
-        With their signed volumes.
-    relations : ComponentRelations
-    candidates : (c,) bool
-        Components with a volume.
-
-    Returns
-    -------
-    flipped, nested, cavities : (c,) bool
+    components: with signed volumes. candidates: (c,) components with a volume. Returns `flipped`, `nested` and
+    `cavities`, (c,) each.
     """
     number = len(candidates)
     given = np.where(candidates, np.sign(components.volume), 0.0)

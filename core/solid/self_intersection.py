@@ -52,15 +52,7 @@ class SelfIntersection:
 
 
 def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid) -> SelfIntersection:
-    """Search the surface of a solid for self-intersections.
-
-    Parameters
-    ----------
-    checked : CheckedSurface
-    given : GivenIntegrals
-    oriented : OrientedSolid
-        All three of the same surface.
-    """
+    """Search the surface of a solid for self-intersections. All three arguments are of the same surface."""
     mesh, surface, volume = oriented.mesh, oriented.surface, oriented.volume
     if not oriented.is_solid or mesh.open.any():
         return SelfIntersection(Intersection.NOT_CHECKED)
@@ -151,15 +143,8 @@ def measure_excess(
 ) -> Excess:
     """Measure along lines the volume in a closed part more than once, or less than not at all.
 
-    Parameters
-    ----------
-    crossings : Crossings
-    grids : LineGrids
-        Through the bodies.
-    tolerance : (b,) float
-        Lengths up to which nothing counts (unit).
-    part : (t,) int, optional
-        The part that each triangle bounds, of all bodies; by default each body is one.
+    grids: through the bodies. tolerance: (b,) lengths up to which nothing counts (unit). part: (t,) the part that each
+    triangle bounds, of all bodies; by default each body is one.
     """
     bodies = len(grids.cell)
     if not len(crossings.row):

@@ -28,21 +28,8 @@ NO_LINKS = NO_INDICES, NO_INDICES
 def wall_links(
     points: NDArray[np.floating], edges: Edges, triangles: NDArray[np.integer], face: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Find the sides that belong together at the walls between bodies.
-
-    Parameters
-    ----------
-    points : (n, 3)
-    edges : Edges
-    triangles : (t, 3) int
-    face : (t,) int
-        The mesh face of each.
-
-    Returns
-    -------
-    first, second : (k,) int
-        Sides that are joined.
-    """
+    """Find the sides that belong together at the walls between bodies. points: (n, 3). triangles: (t, 3). face: (t,)
+    the mesh face of each. Returns (k,) and (k,) the joined sides."""
     if not (edges.count == 4).any():
         return NO_LINKS
     pairs = edges.manifold_side_pairs()

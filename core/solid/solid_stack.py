@@ -133,16 +133,7 @@ def can_be_stacked(surface: Surface) -> bool:
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     """Measure the bodies that many small surfaces bound, as far as they are closed as they are, or by caps alone.
-
-    Parameters
-    ----------
-    surfaces : sequence of Surface
-        At least one; all of them as `can_be_stacked` asks, with finite coordinates.
-
-    Returns
-    -------
-    SolidStack
-    """
+    surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates."""
     stack = SurfaceStack.of(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)

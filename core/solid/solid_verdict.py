@@ -156,16 +156,8 @@ class SolidIntegrals:
 def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
-    """Give a verdict on the measured body, and report all decisions.
-
-    Parameters
-    ----------
-    checked : CheckedSurface
-    given : GivenIntegrals
-    oriented : OrientedSolid
-    intersection : SelfIntersection, optional
-        All of the same surface; None if not searched.
-    """
+    """Give a verdict on the measured body, and report all decisions. All arguments are of the same surface.
+    intersection: None if not searched."""
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.

@@ -38,10 +38,7 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up, if it
     says that another axis is up, which readers obey or not.
 
-    Raises
-    ------
-    FileError
-        If it cannot be read.
+    Raises FileError if it cannot be read.
     """
     reader = READERS.get(path.suffix.lower())
     if reader is None:

@@ -145,20 +145,8 @@ def quoted(text: str) -> str:
 
 
 def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)) -> list[str]:
-    """Return the lines that give a prim its mass, in the units of its stage.
-
-    Parameters
-    ----------
-    inertial : Inertial
-    meters_per_unit : float
-        Of the stage.
-    scale : (3,) array_like
-        Scale of the prim; the center is in its local space.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return the lines that give a prim its mass, in the units of its stage. meters_per_unit: of the stage. scale: (3,)
+    scale of the prim; the center is in its local space."""
     center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
     inertia = inertial.inertia / meters_per_unit**2
     entries = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
@@ -172,17 +160,8 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
 
 
 def round_down(moments: NDArray) -> NDArray[np.float32]:
-    """Return ascending principal moments in single precision, the largest one not above the sum of the others.
-
-    Parameters
-    ----------
-    moments : (3,) array
-        Ascending, in float64.
-
-    Returns
-    -------
-    (3,) float32 array
-    """
+    """Return (3,) ascending principal moments in single precision, the largest one not above the sum of the others.
+    moments: (3,) ascending, in float64."""
     rounded = np.asarray(moments, np.float64).astype(np.float32)
     while float(rounded[2]) > float(rounded[0]) + float(rounded[1]):
         rounded[2] = np.nextafter(rounded[2], np.float32(0.0))
