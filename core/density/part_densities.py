@@ -32,8 +32,8 @@ class PartDensities:
 
 
 def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
-    """One density for each part. faces: (f,) that of every mesh face. linear: (3, 3) the map under which areas
-    count."""
+    """Return one density for each part. faces: (f,) the density of every mesh face. linear: (3, 3) the map under which
+    areas count."""
     of_mesh = parts.face >= 0
     part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]
     first = np.full(parts.number, np.iinfo(np.int64).max)

@@ -43,13 +43,13 @@ CORNERS_PER_BLOCK = 1 << 16  # triangles whose corners are compared at a time
 
 @lru_cache
 def _degrees(order: int) -> NDArray[np.intp]:
-    """(K,) p + q + r of each monomial."""
+    """Return (K,) p + q + r of each monomial."""
     return monomials(order).sum(axis=1)
 
 
 @lru_cache
 def _scales(order: int, more: int) -> NDArray[np.float64]:
-    """(K,) α! / (|α| + more)!"""
+    """Return (K,) α! / (|α| + more)!"""
     return np.array(
         [
             factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + more)
@@ -120,7 +120,7 @@ def solid_mass_moments(points: ArrayLike, triangles: ArrayLike, density: ArrayLi
 def sheet_mass_moments(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, stored: bool = False
 ) -> Moments:
-    """∫ ρ x^p y^q z^r dA, with a density for each triangle, (t,), or, linear between them, for each of
+    """Return ∫ ρ x^p y^q z^r dA, with a density for each triangle, (t,), or, linear between them, for each of
     its corners, (t, 3); none negative.
 
     like: the area moments, to the order that is wanted. stored: the densities were float32, which goes into
@@ -163,7 +163,7 @@ def _accumulate(
 
 
 def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
-    """(K, k) ρ h_α of each triangle. corners: (3 axes, 3 corners, k)."""
+    """Return (K, k) ρ h_α of each triangle. corners: (3 axes, 3 corners, k)."""
     table = np.zeros((monomial_count(order), corners.shape[2]))
     table[0] = density
     for corner in range(3):
@@ -172,7 +172,7 @@ def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDA
 
 
 def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
-    """(K, k) h_(α,1) of each triangle. density: (3 corners, k)."""
+    """Return (K, k) h_(α,1) of each triangle. density: (3 corners, k)."""
     table, linear = np.zeros((2, monomial_count(order), corners.shape[2]))
     table[0] = 1.0
     for corner in range(3):
@@ -184,7 +184,7 @@ def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDAr
 
 
 def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -> None:
-    """The series in `table`, (K, k), times 1 / (1 - v·t), in place; (3, k) vertices."""
+    """Multiply the series in `table`, (K, k), by 1 / (1 - v·t) in place; (3, k) vertices."""
     for at, (p, q, r) in enumerate(monomials(order).tolist()):
         for axis, lower in enumerate(((p - 1, q, r), (p, q - 1, r), (p, q, r - 1))):
             if lower[axis] >= 0:
@@ -192,7 +192,7 @@ def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -
 
 
 def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.float64]:
-    """(3,) how far any corner is from the reference point, along each axis."""
+    """Return (3,) how far any corner is from the reference point, along each axis."""
     reach = np.zeros(3)
     for start in range(0, len(triangles), CORNERS_PER_BLOCK):
         for axis in range(3):
@@ -207,7 +207,7 @@ def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
 
 
 def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
-    """(K,) the largest value of each monomial within reach."""
+    """Return (K,) the largest value of each monomial within reach."""
     return np.multiply.reduce(reach ** monomials(order), axis=1)
 
 

@@ -105,7 +105,7 @@ class Polynomial:
         return max((sum(powers) for powers in self.terms), default=0)
 
     def coefficients(self) -> NDArray[np.float64]:
-        """(K,) in the order of `monomials`, each rounded once."""
+        """Return (K,) coefficients in the order of `monomials`, each rounded once."""
         values = np.zeros(monomial_count(self.degree))
         for powers, value in self.float_terms().items():
             values[monomial_index(*powers)] = value
@@ -127,7 +127,7 @@ class Polynomial:
         return Polynomial(terms)
 
     def __call__(self, points: NDArray) -> NDArray[np.float64]:
-        """(n,) the values at (n, 3) points."""
+        """Return (n,) the values at (n, 3) points."""
         points = np.asarray(points, np.float64)
         coefficients, result = self.coefficients(), np.zeros(len(points))
         for start in range(0, len(points), POINTS_PER_BLOCK):
@@ -226,7 +226,7 @@ def _from_list(values: list[Fraction]) -> dict[Exponents, Fraction]:
 
 
 def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:
-    """The terms of a part of an expression."""
+    """Return the terms of a part of an expression."""
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         if isinstance(node.value, float) and not math.isfinite(node.value):
             raise MeasureError(POLYNOMIAL_NUMBER_TOO_LARGE, part=_source_text(node, text))
@@ -297,7 +297,7 @@ def _multiply(
 
 
 def _nonzero(terms: dict[Exponents, Fraction]) -> dict[Exponents, Fraction]:
-    """The terms that are not zero."""
+    """Return the terms that are not zero."""
     return {powers: value for powers, value in terms.items() if value}
 
 
@@ -321,7 +321,7 @@ def _source_text(node: ast.expr, text: str) -> str:
 
 
 def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dict[Exponents, Fraction]:
-    """The terms with (t + by)^n for t^n along one axis."""
+    """Return the terms with (t + by)^n for t^n along one axis."""
     result: dict[Exponents, Fraction] = {}
     for powers, value in terms.items():
         for k in range(powers[axis] + 1):
@@ -337,12 +337,12 @@ def _to_bernstein(degree: int) -> NDArray[np.float64]:
 
 
 def _most_curved_axis(net: NDArray) -> int:
-    """The axis along which the second differences are largest: it is they by which the net is off the polynomial."""
+    """Return the axis of the largest second differences, which bound the net's distance from the polynomial."""
     return int(np.argmax([np.abs(np.diff(net, 2, axis)).max() for axis in range(3)]))
 
 
 def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:
-    """The Bernstein coefficients on both halves of a box, by de Casteljau's scheme."""
+    """Return the Bernstein coefficients on both halves of a box, by de Casteljau's scheme."""
     coefficients = np.moveaxis(net, axis, 0).copy()
     last = len(coefficients) - 1
     left, right = np.empty_like(coefficients), np.empty_like(coefficients)

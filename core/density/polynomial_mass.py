@@ -109,7 +109,7 @@ def _mass_functional(
 
 
 def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]) -> NDArray[np.float64]:
-    """(K, k) the functional with (K',) values times Σ c l0^p l1^q l2^r, l the linear forms of the k columns."""
+    """Return (K, k) the functional with (K',) values times Σ c l0^p l1^q l2^r, l the linear forms of the k columns."""
     linear, offset = forms
     count = monomial_count(order)
     top = order_from_count(len(values))

@@ -116,14 +116,14 @@ def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.f
 
 
 def _cardinal(order: int, x: float) -> float:
-    """The B-spline of this order over integer knots, centered."""
+    """Return the B-spline of this order over integer knots, centered."""
     return sum(
         (-1.0) ** j * math.comb(order, j) * max(x + order / 2.0 - j, 0.0) ** (order - 1) for j in range(order + 1)
     ) / math.factorial(order - 1)
 
 
 def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> ThresholdBody:
-    """With a share of the difference to another one added to the moments, or with share None to their bounds."""
+    """Add a share of the difference to another body to the moments, or with share None to their bounds."""
 
     def combined(fine: Moments, coarse: Moments) -> Moments:
         difference = fine.raw - coarse.about_point(fine.about).raw

@@ -280,7 +280,7 @@ class TrivariateSpline:
 
 
 def _absolute_moments(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
-    """(order + 1, n) ∫ B_i times the powers of the largest |t - center| in its support."""
+    """Return (order + 1, n) ∫ B_i times the powers of the largest |t - center| in its support."""
     knots = np.abs(axis.knots - center)
     far = np.maximum(knots[: -axis.order], knots[axis.order :])
     return axis.table(0, center)[0] * far ** np.arange(order + 1)[:, None]
@@ -289,7 +289,7 @@ def _absolute_moments(axis: SplineAxis, order: int, center: float) -> NDArray[np
 def _moments_about(
     coefficients: NDArray | Blocks, axes: tuple[SplineAxis, ...], order: int, value: Callable | None, about: NDArray
 ) -> Moments:
-    """The moments about a point, with their bounds."""
+    """Return the moments about a point, with their bounds."""
     axis_order = np.arange(3)
     if not callable(coefficients):  # the first contraction runs along what is contiguous
         axis_order = np.argsort([-abs(stride) for stride in coefficients.strides], kind="stable")
@@ -332,7 +332,7 @@ def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, in
 
 
 def contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
-    """(n, n, n) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
+    """Return (n, n, n) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
     partial = np.stack([np.einsum("ijk,k->ij", block, row) for row in factors[2]])
     return np.einsum("rqi,pi->pqr", np.einsum("rij,qj->rqi", partial, factors[1]), factors[0])
 

@@ -70,7 +70,7 @@ class SplineAxis:
 
     @classmethod
     def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> SplineAxis:
-        """`count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
+        """Return `count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
         return cls(origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order)
 
     @classmethod
@@ -108,11 +108,11 @@ class SplineAxis:
         return float((self.knots[self.order :] - self.knots[: -self.order]).max())
 
     def reach(self, center: float) -> float:
-        """The largest |t - center| in any support."""
+        """Return the largest |t - center| in any support."""
         return float(np.abs(self.knots[[0, -1]] - center).max())
 
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
-        """(degree + 1, count) ∫ (t - center)^l B_i(t) dt.
+        """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt.
 
         Each entry is off by at most `rounding_counts` units of ∫ B_i times the l-th power of the largest |t - center|
         in the support.
@@ -128,7 +128,7 @@ class SplineAxis:
 
 
 def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
-    """(degree + 1, n) ∫ t^l B_i over full supports, by the closed form. Repeated knots are fine."""
+    """Return (degree + 1, n) ∫ t^l B_i over full supports, by the closed form. Repeated knots are fine."""
     knots = np.asarray(knots, np.float64)
     count = len(knots) - order
     h = np.zeros((degree + 1, count))
@@ -143,7 +143,7 @@ def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray
 
 
 def clipped_integrals(knots: ArrayLike, order: int, degree: int, low: float, high: float) -> NDArray[np.float64]:
-    """(degree + 1, n) ∫ t^l B_i over [low, high], span by span."""
+    """Return (degree + 1, n) ∫ t^l B_i over [low, high], span by span."""
     knots = np.asarray(knots, np.float64)
     table = np.zeros((degree + 1, len(knots) - order))
     # With more knots on both sides as many functions act in each interval; those that they add are left out again.

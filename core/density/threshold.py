@@ -236,7 +236,7 @@ class _Sums:
             self.mass_size += self._contract(np.abs(block), sizes)
 
     def _contract(self, block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
-        """(K,) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
+        """Return (K,) Σ block_ijk X[p,i] Y[q,j] Z[r,k]."""
         return contract(block, factors)[tuple(self.powers.T)]
 
     def add_cut_cells(self, cells: Cells, threshold: float) -> None:
@@ -315,7 +315,7 @@ class _Sums:
         turn: tuple,
         threshold: float,
     ) -> None:
-        """The density is linear along the columns: Gauss's rule is exact there."""
+        """Add the masses of columns. The density is linear along them: Gauss's rule is exact."""
         first, size = column
         low, height = columns.low[kept], (columns.high - columns.low)[kept]
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
@@ -375,7 +375,7 @@ class _Sums:
 
 
 def _interval_moments(first: NDArray, order: int) -> NDArray[np.float64]:
-    """(order + 1, n) ∫ t^l from each of the points to one further, by a rule that is exact."""
+    """Return (order + 1, n) ∫ t^l from each of the points to one further, by a rule that is exact."""
     nodes, weights = gauss_legendre(order // 2 + 1)
     points = first[:, None] + nodes
     return np.stack([(points**power) @ weights for power in range(order + 1)])

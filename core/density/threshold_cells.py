@@ -148,7 +148,7 @@ def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], ND
 
 
 def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
-    """(2, n) the volume inside each cell, and the area of the surface in it."""
+    """Return (2, n) the volume inside each cell, and the area of the surface in it."""
     volumes, areas = (
         np.bincount(columns.cell, columns.weight * height, len(cells.size))
         for height in (columns.high - columns.low, columns.slope)

@@ -110,7 +110,7 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
 
 
 def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[np.float64]]:
-    """For each power r the integral of ρ (z - center)^r over all voxels below, in the column of each."""
+    """Return for each power r the integral of ρ (z - center)^r over all voxels below, in the column of each."""
     z = np.arange(densities.shape[2] + 1) - center
     sums = []
     for r in range(order + 1):
@@ -123,14 +123,14 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
 
 
 def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
-    """Slices of the triangles that are expected to give about PIECES_PER_BATCH pieces each."""
+    """Return slices of the triangles that are expected to give about PIECES_PER_BATCH pieces each."""
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
     expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
     return batches(expected, PIECES_PER_BATCH)
 
 
 def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
-    """(m, 3, 3) the triangles cut along every plane between voxels, and along the sides of the grid."""
+    """Return (m, 3, 3) the triangles cut along every plane between voxels, and along the sides of the grid."""
     for axis in range(3):
         done = [triangles[:0]]
         while len(triangles):

@@ -183,8 +183,8 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
 
 
 def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
-    """(m, 2) the directed edges of (k, 3) triangles over `count` points that no other triangle runs through the other
-    way: as often as one direction is more frequent."""
+    """Return (m, 2) the directed edges of (k, 3) triangles over `count` points that no other triangle runs through the
+    other way: as often as one direction is more frequent."""
     ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
     low, high = ahead.min(axis=1), ahead.max(axis=1)
     ahead, low, high = (values[low != high] for values in (ahead, low, high))
@@ -196,8 +196,8 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
-    """(k,) the signed area of each outline, of one or more: negative ones are holes. Outlines that share a point count
-    as one."""
+    """Return (k,) the signed area of each outline, of one or more: negative ones are holes. Outlines that share a point
+    count as one."""
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
     outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
@@ -241,7 +241,7 @@ def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> Out
 
 
 def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> NDArray[np.float64]:
-    """(k,) how often the edges go round each place; at a place on an edge the mean of both sides."""
+    """Return (k,) how often the edges go round each place; on an edge, the mean of both sides."""
     turns = [np.zeros(0)]
     block = max(1, PAIRS_PER_BLOCK // max(1, len(edges)))
     for start in range(0, len(query_points), block):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Area moments of a plane region to any order, as `Moments` whose third coordinate is zero.
+"""Area moments of a plane region to any order, as `Moments` with third coordinate zero.
 
 So they shift, turn, add and are normalized like any body's. Beside the rounding of the integration, which
 `n_dimensions` bounds, a region's points may be off: an edge that moves sweeps over at most its length times the

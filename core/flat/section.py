@@ -235,8 +235,8 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[NDArray[np.intp], int]:
-    """(m, 2) the directed edges of the region that triangles near the plane cover, points at one place taken as one,
-    and how many faces look against the plane and were turned.
+    """Return (m, 2) the directed edges of the region that triangles near the plane cover, with points at one place
+    merged, and the number of faces that look against the plane and were turned.
 
     faces: (k,) the face of each triangle; a face is turned as a whole.
     """

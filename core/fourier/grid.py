@@ -113,7 +113,7 @@ class GridTransform(Transform):
             self.spreading = Spreading(self.grid.half, self.width, 3 if self.measure == Measure.VOLUME else 1)
 
     def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
-        """(m,) Gauss points along a side of each triangle."""
+        """Return (m,) the number of Gauss points along a side of each triangle."""
         largest = np.sqrt(3.0) * self.grid.largest * self.faces.scale
         spans, regular = largest * self.faces.diameters, largest * self.faces.heights >= 2.0 * np.pi
         bound = _points_per_side(spans, self.each)
@@ -136,7 +136,7 @@ class GridTransform(Transform):
         return bound
 
     def _sum_over(self, triangle_rows: NDArray[np.intp], q: NDArray) -> Generator[float, None, NDArray[np.complex128]]:
-        """(k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
+        """Return (k,) Σ (q·N) D / |q|, or Σ |N| D, over some triangles at wave vectors (k, 3), in closed form."""
         faces, waves, total = self.faces.select(triangle_rows), ListWaves(q), np.zeros(len(q), np.complex128)
         every = slice(0, len(q))
         for run in faces.blocks(PAIRS_PER_BLOCK // len(q)):
@@ -163,13 +163,13 @@ class GridTransform(Transform):
         return total
 
     def _weights(self, vectors: NDArray, q: NDArray) -> NDArray[np.float64]:
-        """(k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
+        """Return (k, m) (q·N) / |q|, or (1, m) |N|, for normals (3, m) and wave vectors (3, k)."""
         if self.measure == Measure.AREA:
             return np.sqrt((vectors**2).sum(axis=0))[None]
         return sum(np.multiply.outer(a, b) for a, b in zip(q, vectors)) / np.sqrt((q**2).sum(axis=0))[:, None]
 
     def _nodes(self, triangles: NDArray, n: int) -> tuple[NDArray, NDArray, NDArray]:
-        """(3, m, k) points in triangles, (3, m) the normals and (k,) weights."""
+        """Return (3, m, k) points in triangles, (3, m) the normals and (k,) weights."""
         corners = [self.faces.points[corner].T for corner in triangles.T]
         shares, weights = triangle_rule(n)
         return (
@@ -226,7 +226,7 @@ class GridTransform(Transform):
             yield
 
     def result(self) -> Spectrum:
-        """The spectrum, when all steps are done, and how far it is from the closed form at some frequencies."""
+        """Return the spectrum, when all steps are done, and how far it is from the closed form at some frequencies."""
         spectrum = super().result()
         if not self.fine:
             return spectrum
@@ -237,7 +237,8 @@ class GridTransform(Transform):
 
 
 def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
-    """The least width of the kernel for an error of tolerance Σ |c|, divided by |k| at each wave vector k or not."""
+    """Return the least width of the kernel for an error of tolerance Σ |c|, divided by |k| at each wave vector k or
+    not."""
     k = np.arange(1, half + 1) if divided else np.ones(half)
     for width in WIDTHS:
         if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
@@ -257,7 +258,7 @@ def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
 
 
 def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
-    """(k, 3) wave vectors of all sizes in a grid, along its axes and diagonals and between them."""
+    """Return (k, 3) wave vectors of all sizes in a grid, along its axes and diagonals and between them."""
     along = np.concatenate([np.eye(3), [[1.0, 1.0, 1.0], [0.9, -0.7, 0.4]]])
     shells = [grid.largest * share for share in TRIAL_RADII if share * grid.half >= 1.0]
     return np.concatenate([size * along for size in shells])

@@ -29,7 +29,7 @@ from .wave_vectors import FrequencyGrid, wave_vectors
 
 # pairs of triangles and frequencies, about 20 s: a grid of more is transformed to the tolerance
 MAX_CLOSED_FORM_PAIRS = 2e8
-FOURIER_RTOL = 1e-7  # Relative to the volume or the area.
+FOURIER_RTOL = 1e-7  # Tolerance of that transform, relative to the volume or the area.
 
 
 class BodyTransform:

@@ -73,7 +73,7 @@ class Spreading:
             cells[run] += np.bincount(index, weights.reshape(-1), minlength=run.stop - run.start)
 
     def sums(self) -> Iterator[NDArray[np.complex128]]:
-        """(2 half + 1, 2 half + 1, half + 1) the sums of each strength, for k_z from 0 on. Uses the cells up."""
+        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z from 0 on. Uses the cells up."""
         n, along = self.side, np.arange(-self.half, self.half + 1)
         factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(along / n, self.width)
         while self.cells:
@@ -88,13 +88,13 @@ class Spreading:
 
 
 def _kernel(z: NDArray, width: int) -> NDArray[np.float64]:
-    """z: from -1 to 1, but for rounding."""
+    """Return the kernel at z, from -1 to 1 but for rounding."""
     inside = np.maximum(1.0 - z * z, 0.0)
     return np.exp(BETA * width * (np.sqrt(inside) - 1.0))
 
 
 def _kernel_transform(frequencies: NDArray, width: int) -> NDArray[np.float64]:
-    """∫ kernel(2 t / width) exp(-2πi f t) dt over its support, by Gauss's rule."""
+    """Return ∫ kernel(2 t / width) exp(-2πi f t) dt over its support, by Gauss's rule."""
     z, weights = _gauss(8 * width + 32)
     phases = np.pi * width * np.multiply.outer(frequencies, z)
     return (np.cos(phases) * (weights * _kernel(z, width))).sum(axis=-1) * (width / 2.0)
@@ -106,8 +106,8 @@ def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _grid_side(half: int, width: int) -> int:
-    """The cells along a side of the fine grid: an even number with small prime factors only, for which a fast Fourier
-    transform is fast."""
+    """Return the cells along a side of the fine grid: an even number with small prime factors only, for which a fast
+    Fourier transform is fast."""
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
     while _has_large_prime(n):

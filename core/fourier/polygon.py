@@ -159,7 +159,7 @@ def expand_half(grid: FrequencyGrid, values: NDArray[np.complex128]) -> NDArray[
 
 
 def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> NDArray[np.complex128]:
-    """(M,) the sum over edges, by columns (2, k)."""
+    """Return (M,) the sum over edges, by columns (2, k)."""
     block = q.T
     m, t, across = (
         sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))
@@ -172,7 +172,7 @@ def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> ND
 
 
 def _sinc_minus_one(t: NDArray) -> NDArray[np.float64]:
-    """sin(t) / t - 1, accurate to its last digits."""
+    """Return sin(t) / t - 1, accurate to its last digits."""
     square = np.minimum(t * t, 1.0)
     total = np.zeros_like(t)
     for k in range(SERIES_TERMS, 0, -1):

@@ -111,7 +111,7 @@ def surface_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: i
 
 
 def run_to_completion(transform: Transform) -> Spectrum:
-    """The outcome of a transform, once all its steps are done here."""
+    """Return the outcome of a transform, once all its steps are done here."""
     for _ in transform.steps():
         pass
     return transform.result()
@@ -149,7 +149,7 @@ class Transform:
         self.sums, self.rest = np.zeros((2, self.waves.rows * self.waves.columns), np.complex128)
 
     def _vector_sum(self) -> NDArray[np.complex128]:
-        """(3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed surface."""
+        """Return (3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed surface."""
         waves, total = ListWaves(GENERIC_WAVE_VECTOR), np.zeros(3, np.complex128)
         for run in self.faces.blocks(PAIRS_PER_BLOCK):
             block = self.faces.block(run)
@@ -187,7 +187,7 @@ class Transform:
         self.rest[part] += rest
 
     def _tasks(self) -> list[tuple[slice, slice]]:
-        """Runs of triangles and runs of rows of wave vectors: every pair of them once."""
+        """Return runs of triangles and runs of rows of wave vectors: every pair of them once."""
         runs = self.direct.blocks()
         size = max(
             1, PAIRS_PER_TASK // (min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1)) * self.waves.columns)

@@ -79,7 +79,8 @@ class SortedTriangles:
         self._sort(triangles)
 
     def _sort(self, triangles: NDArray) -> None:
-        """By diameter to a factor of two, then along a space-filling curve, so that a block's triangles share edges."""
+        """Sort by diameter to a factor of two, then along a space-filling curve, so that a block's triangles share
+        edges."""
         keys, diameters, heights, self.area = [], [], [], 0.0
         for start in range(0, len(triangles), TRIANGLES_PER_BATCH):
             a, b, c = (self.points[corner].T for corner in triangles[start : start + TRIANGLES_PER_BATCH].T)
@@ -97,7 +98,7 @@ class SortedTriangles:
         self.diameters, self.heights = np.concatenate(diameters)[order], np.concatenate(heights)[order]
 
     def blocks(self, size: int = TRIANGLES_PER_BLOCK) -> list[slice]:
-        """Runs of triangles."""
+        """Return runs of triangles."""
         return [slice(i, min(i + size, len(self.triangles))) for i in range(0, len(self.triangles), size)]
 
     def select(self, selection: NDArray[np.intp]) -> SortedTriangles:
@@ -153,7 +154,7 @@ class PhaseMeans:
             self.middle, self.along = waves.phase_factors(part, block.middles), waves.dot(part, block.halves)
 
     def __call__(self, wave_rows: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(m, k) its real part and its imaginary part for some rows of the part, a block's worth of them."""
+        """Return (m, k) real and imaginary parts for a block of rows of the part."""
         vectors = self.waves.vectors(wave_rows)
         a, b, c, spare = (np.empty((vectors.shape[1], len(self.block.lengths))) for _ in range(4))
         self.first(wave_rows, a, spare)
@@ -240,7 +241,7 @@ def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArr
 
 
 def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArray]:
-    """The sum over n ≥ 2 of (-i)^n h_n / (n+2)!, its real and its imaginary part, from -e2 and e3.
+    """Return the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, its real and its imaginary part, from -e2 and e3.
 
     (-i)^n h_n is real for even n and imaginary for odd n: even and odd hold three of them that follow each other.
     """

@@ -98,7 +98,7 @@ class FrequencyGrid:
 
 
 def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
-    """(M, dimension) wave vectors from a user. MeasureError if they are none."""
+    """Return (M, dimension) wave vectors from a user. MeasureError if they are none."""
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
         raise MeasureError(WAVE_VECTORS_SHAPE, dimension=dimension, shape=list(q.shape), type=str(q.dtype))
@@ -121,11 +121,11 @@ class ListWaves:
         self.rows = len(q)
 
     def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
-        """(3, m) the wave vectors of some rows."""
+        """Return (3, m) the wave vectors of some rows."""
         return self.q[:, wave_rows]
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """q·v for the rows of a part and vectors (3, k)."""
+        """Return q·v for the rows of a part and vectors (3, k)."""
 
         def fill(wave_rows: slice, out: NDArray, spare: NDArray) -> None:
             q = self.q[:, wave_rows]
@@ -137,7 +137,7 @@ class ListWaves:
         return fill
 
     def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """exp(-i q·x) for the rows of a part and points (3, k)."""
+        """Return exp(-i q·x) for the rows of a part and points (3, k)."""
         dot = self.dot(part, points)
 
         def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
@@ -160,13 +160,13 @@ class GridWaves:
         self.rows, self.columns = len(self.side) ** 2, len(self.depth)
 
     def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
-        """(3, m) the wave vectors of some rows."""
+        """Return (3, m) the wave vectors of some rows."""
         x, y = self.side[np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))]
         n = self.columns
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """q·v for the rows of a part and vectors (3, k)."""
+        """Return q·v for the rows of a part and vectors (3, k)."""
         first, x, y = self._tables(part, vectors)
         z = self.depth[:, None] * vectors[2]
 
@@ -177,7 +177,7 @@ class GridWaves:
         return fill
 
     def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """exp(-i q·x) for the rows of a part and points (3, k)."""
+        """Return exp(-i q·x) for the rows of a part and points (3, k)."""
         first, x, y = self._tables(part, points)
         z = self.depth[:, None] * points[2]
         x, y, z = ((np.cos(phase), np.sin(phase)) for phase in (x, y, z))
@@ -197,7 +197,7 @@ class GridWaves:
         return fill
 
     def _tables(self, part: slice, vectors: NDArray) -> tuple[int, NDArray, NDArray]:
-        """The first place along x that a part needs, and the products of x from there on and of y."""
+        """Return the first place along x that a part needs, and the products of x from there on and of y."""
         n = len(self.side)
         first = part.start // n
         return first, self.side[first : (part.stop - 1) // n + 1, None] * vectors[0], self.side[:, None] * vectors[1]

@@ -75,7 +75,7 @@ def failed_document(file: str, reason: str, status: str, *, blender: str | None,
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """One document as itself, several as an array, indented for a reader with each row of numbers on one line."""
+    """Yield one document as itself, several as an array, indented for a reader with each row of numbers on one line."""
     waiting, several = "", False
     for number, entry in enumerate(documents):
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
@@ -95,7 +95,7 @@ def _indented(text: str) -> str:
 
 
 def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """One document a line."""
+    """Yield one document a line."""
     for entry in documents:
         yield json.dumps(entry, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -148,7 +148,7 @@ _LAST_COLUMNS = ("warnings", "error")  # notes and findings stand before them
 
 
 def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
-    """The record of a flat shape as one flat row."""
+    """Return the record of a flat shape as one flat row."""
     row = {name: entry[name] for name in ("name", "type", "area")} | {"kind": "flat"}
     row |= _nested("error_bound", entry["error_bound"])
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"])}

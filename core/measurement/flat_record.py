@@ -36,7 +36,7 @@ def flat_record(
     about: str | Sequence[float] | None = None,
     frame: tuple[str, NDArray[np.float64], NDArray[np.float64]] = ("world", np.eye(3), np.zeros(3)),
 ) -> dict[str, Any]:
-    """One shape's record.
+    """Return one shape's record.
 
     kind: of the object. moments: about the centroid, along the plane's axes from its origin, to second order at least.
     order: adds `moments`, about the foot of the frame's origin or of the point `about`, as in `record`. frame: its
@@ -103,7 +103,7 @@ def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict
 def _point(
     about: str | Sequence[float] | None, centroid: NDArray, axes: NDArray, location: NDArray, own: NDArray
 ) -> NDArray[np.float64]:
-    """(3,) in the world the point that moments are about, before it is projected. own: the object's origin."""
+    """Return (3,) in the world the point that moments are about, before it is projected. own: the object's origin."""
     if about == "center":
         return centroid
     if about in ("origin", "world"):
@@ -112,6 +112,6 @@ def _point(
 
 
 def _by_powers(values: NDArray[np.float64], order: int) -> dict[str, float]:
-    """Numbers by the exponents of x and y, as "p,q"."""
+    """Return numbers by the exponents of x and y, as "p,q"."""
     powers, positions = multi_indices(2, order).tolist(), plane_positions(order)
     return {"{},{}".format(p, q): value for (p, q), value in zip(powers, values[positions].tolist())}

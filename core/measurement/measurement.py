@@ -80,5 +80,5 @@ class Measurement:
         return replace(extent.truncate(order), measure=Measure.MASS) * factor
 
     def in_object_frame(self) -> MassProperties:
-        """The mass properties in the object's own frame."""
+        """Return the mass properties in the object's own frame."""
         return self.mass_properties.in_frame(self.rotation, self.location)

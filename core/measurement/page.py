@@ -82,7 +82,7 @@ text.addEventListener("input",filter);status.addEventListener("change",filter);f
 
 
 def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """The page in pieces. documents: gone through twice."""
+    """Yield the page in pieces. documents: gone through twice."""
     statuses = Counter(document["status"] for document in documents)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
     policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(digest)
@@ -151,7 +151,7 @@ def _row(
 
 
 def _picture(entry: dict[str, Any]) -> str:
-    """The record's own picture, else the box of equal inertia with the principal axes."""
+    """Return the record's own picture, else the box of equal inertia with the principal axes."""
     thumbnail = entry.get("thumbnail")
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)

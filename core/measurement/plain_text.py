@@ -15,7 +15,7 @@ _DIRECTIONS = {*"\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2
 
 
 def visible(text: str) -> str:
-    r"""The text on one line, with \x1b, \n, \u202e and the like in the place of such characters."""
+    r"""Return the text on one line, with \x1b, \n, \u202e and the like in the place of such characters."""
     return "".join(
         character.encode("unicode_escape").decode()
         if character in _DIRECTIONS or unicodedata.category(character) in _ESCAPED

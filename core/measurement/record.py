@@ -129,7 +129,7 @@ def _finding_record(finding: Finding) -> dict[str, Any]:
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
-    """All objects as one body, in the world frame: masses add, and inertia by the parallel-axis
+    """Return the entry of all objects as one body, in the world frame: masses add, and inertia by the parallel-axis
     theorem. findings: about the total.
     """
     entry = {
@@ -145,7 +145,7 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
 
 
 def plain(value: Any) -> Any:
-    """The value as JSON can hold it: Python's own types, and None for every number that is not
+    """Return the value as JSON can hold it: Python's own types, and None for every number that is not
     finite.
     """
     if isinstance(value, dict):
@@ -187,7 +187,7 @@ def _point(
 
 
 def _inertia_about(point: NDArray[np.float64], properties: MassProperties) -> NDArray[np.float64]:
-    """The tensor about another point, by the parallel-axis theorem."""
+    """Return the tensor about another point, by the parallel-axis theorem."""
     arm = point - properties.center
     return properties.inertia + properties.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
 
@@ -200,6 +200,6 @@ def _about(point: NDArray[np.float64], moments: Moments, measurement: Measuremen
 
 
 def _by_powers(values: NDArray[np.float64]) -> dict[str, float]:
-    """Numbers by the exponents of their monomials, as "p,q,r"."""
+    """Return numbers by the exponents of their monomials, as "p,q,r"."""
     powers = monomials(order_from_count(len(values))).tolist()
     return {",".join(map(str, exponents)): value for exponents, value in zip(powers, values.tolist())}

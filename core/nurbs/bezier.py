@@ -58,7 +58,7 @@ class BezierCells:
         return BezierCells(self.net[:, :, selection], anchor, self.constant_weights, self.reach)
 
     def split(self) -> BezierCells:
-        """Each as four."""
+        """Split each patch into four."""
         net = self.net.swapaxes(1, 2)
         quarters = [
             np.matmul(np.matmul(s_half, net), t_half.T)
@@ -141,7 +141,7 @@ def _cells_of_group(
 
 
 def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
-    """(..., 4) points times their weights, and the weights."""
+    """Return (..., 4) points times their weights, and the weights."""
     net = np.empty((*weights.shape, 4))
     net[..., 3] = weights
     np.multiply(points, weights[..., None], out=net[..., :3])
@@ -184,8 +184,8 @@ def _join(parts: Sequence[BezierCells]) -> BezierCells:
 def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or of several
-    side by side, and the weights (n, rules); not to be written to."""
+    """Return Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or of
+    several side by side, and the weights (n, rules); not to be written to."""
     parts = [gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule]
     nodes = np.concatenate([nodes for nodes, _ in parts])
     weights, start = np.zeros((len(nodes), len(parts))), 0

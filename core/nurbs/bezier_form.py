@@ -100,7 +100,7 @@ def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[ND
 
 
 def _snapped(space: SplineSpace, part: tuple[float, float]) -> tuple[float, float]:
-    """The ends of a part of the domain, at the knots that they mean."""
+    """Return the ends of a part of the domain, at the knots that they mean."""
     low, high = space.domain
     knots = np.concatenate([space.intervals[:, 0], [high]])
     tolerance = SAME_KNOT_RTOL * (high - low)

@@ -36,14 +36,14 @@ def sharpest_crease(patches: Sequence[Patch], topology: PatchTopology) -> float:
 
 
 def _along_side(patch: Patch, axis: int, end: int) -> NDArray[np.float64]:
-    """(m, 3) its unit normals along a side, at the samples of the side's curve; zero at poles."""
+    """Return (m, 3) a patch's unit normals along a side, at the samples of the side's curve; zero at poles."""
     held, run = patch.spaces[axis], patch.spaces[1 - axis]
     tables = [(np.array([held.domain[end]]), None), (run.uniform_parameters(SAMPLES_PER_SIDE), None)]
     return _normals(patch, *(tables if axis == 0 else tables[::-1])).reshape(-1, 3)
 
 
 def _inner_crease_angle(patch: Patch) -> float:
-    """The largest angle at its inner knots."""
+    """Return the largest crease angle at a patch's inner knots."""
     worst = 0.0
     for axis, space in enumerate(patch.spaces):
         inner = space.intervals[1:, 0]

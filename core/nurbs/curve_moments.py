@@ -35,7 +35,7 @@ MAX_WEIGHT_RATIO = 1e8  # the largest weight of a piece by its smallest: beyond 
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
-    """(3,) the middle of the box around all control points: the reference point."""
+    """Return (3,) the middle of the box around all control points: the reference point."""
     for curve in curves:
         check_type("curves", curve, Curve)
     low = np.min([curve.points.min(axis=0) for curve in curves], axis=0)
@@ -78,7 +78,8 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
 
 
 def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
-    """The area moments of the region in a plane that closed curves bound, counter-clockwise seen from the normal's tip.
+    """Return the area moments of the region in a plane that closed curves bound, counter-clockwise seen from the
+    normal's tip.
 
     normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
     clockwise bounds a hole. Of polynomial curves the moments are exact and `rounding_error` is rounding.
@@ -183,7 +184,7 @@ def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
 
 
 def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
-    """(c,) the most that the lengths can be of pieces that heavy weights draw to a point but for their ends, 0 of
+    """Return (c,) upper bounds of the lengths of pieces that heavy weights draw to a point but for their ends, 0 for
     others."""
     if net.shape[2] == 3:
         return np.zeros(len(net))
@@ -195,7 +196,7 @@ def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
 def _piece_integrals(
     net: NDArray, anchor: NDArray, points: int, density: Callable, order: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(c, K) the contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
+    """Return (c, K) the contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
     tables, weights = bernstein(net.shape[1], (points,))
     place, velocity = np.einsum("jnk,ckd->jdcn", tables, net)
     if len(place) == 4:

@@ -51,7 +51,7 @@ class IncrementalPatchMoments:
         self.area = 0.0
 
     def moments(self, points: NDArray, weights: NDArray | None = None) -> Moments:
-        """All moments for these control points (count_s, count_t, 3): the flux through the patch, about `about`.
+        """Return all moments for these control points (count_s, count_t, 3): the flux through the patch, about `about`.
 
         weights: (count_s, count_t), of a rational patch; None leaves them.
         """
@@ -69,7 +69,7 @@ class IncrementalPatchMoments:
         return self._current_moments()
 
     def move_control_point(self, i: int, j: int, point: NDArray, weight: float | None = None) -> Moments:
-        """All moments after control point (i, j) has moved: only the spans on which it acts are evaluated.
+        """Return all moments after control point (i, j) has moved: only the spans on which it acts are evaluated.
 
         weight: of a rational patch; None leaves it. `moments` must have been called for the others.
         """

@@ -117,7 +117,7 @@ def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
 
 
 def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(3,) and (3,) the least and the largest coordinates of all control points."""
+    """Return (3,) and (3,) the least and the largest coordinates of all control points."""
     for patch in patches:
         check_type("patches", patch, Patch)
     return (
@@ -127,13 +127,13 @@ def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[
 
 
 def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """(3,) the middle of the box around all control points: the reference point."""
+    """Return (3,) the middle of the box around all control points: the reference point."""
     low, high = control_box(patches)
     return low + (high - low) / 2.0
 
 
 def patches_size(patches: Sequence[Patch]) -> float:
-    """The diagonal of the box around all control points."""
+    """Return the diagonal of the box around all control points."""
     low, high = control_box(patches)
     check_size(*(high - low).tolist())
     return float(np.linalg.norm(high - low))

@@ -148,7 +148,7 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
 
 
 def area_slope(patches: Sequence[Patch]) -> float:
-    """By how much the area changes at most, to first order, for each unit that every control point moves: the sum of
+    """Return the largest change of the area, to first order, for each unit that every control point moves: the sum of
     the lengths of its gradients by them. By a fixed rule: an estimate."""
     total = 0.0
     for patch in patches:
@@ -169,8 +169,8 @@ def area_slope(patches: Sequence[Patch]) -> float:
 
 @lru_cache(maxsize=64)
 def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
-    """Values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,); not to
-    be written to."""
+    """Return values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,);
+    not to be written to."""
     nodes, weights = gauss_legendre(SLOPE_POINTS)
     tiles = []
     for start in range(0, len(space.spans), SLOPE_SPANS):
@@ -192,7 +192,8 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> NDArray[np.float64]:
-    """(3, k, k') the area's gradient by control points, of homogeneous ones by the product of weight and place."""
+    """Return (3, k, k') the area's gradient by control points, of homogeneous ones by the product of weight and
+    place."""
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
@@ -262,8 +263,8 @@ def sheet_moments(
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """(3,) the integral of the unit normals: of a flat patch its area along its normal. Exact along directions in which
-    the weights are the same, by a fixed rule along others."""
+    """Return (3,) the integral of the unit normals: of a flat patch its area along its normal. Exact along directions
+    in which the weights are the same, by a fixed rule along others."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
         s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.constant_weights))
@@ -273,7 +274,8 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
 
 
 def exact_points(order: int, degree: int) -> int:
-    """The Gauss points in a span of a polynomial direction of this order that make moments of this degree exact."""
+    """Return the Gauss points in a span of a polynomial direction of this order that make moments of this degree
+    exact."""
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
@@ -376,7 +378,7 @@ def _rules(
 
 
 def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
-    """(rules, K, c) an integrand of many cells, some at a time."""
+    """Return (rules, K, c) an integrand of many cells, some at a time."""
     step = max(1, POINTS_PER_BLOCK // (sum(rule[0]) * sum(rule[1])))
     if len(cells) <= step:
         return integrand(cells, rule)
@@ -386,8 +388,8 @@ def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) ->
 
 
 def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
-    """(K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows of
-    zeros to be filled."""
+    """Return (K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows
+    of zeros to be filled."""
     terms = np.empty((monomial_count(order) + more, *density.shape))
     terms[monomial_count(order) :] = 0.0
     terms[0] = density
@@ -405,8 +407,8 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
 
 
 def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """(rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules), of
-    which one has one column."""
+    """Return (rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules),
+    of which one has one column."""
     count, m, c, n = terms.shape
     s_weights, t_weights = weights
     half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
@@ -416,7 +418,7 @@ def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
 
 @lru_cache
 def _degrees(order: int) -> NDArray[np.float64]:
-    """(K,) the degree of each monomial."""
+    """Return (K,) the degree of each monomial."""
     return monomials(order).sum(axis=1).astype(np.float64)
 
 
@@ -433,5 +435,6 @@ def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
 
 
 def _offset_jacobian(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
-    """The jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's derivatives."""
+    """Return the jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's
+    derivatives."""
     return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

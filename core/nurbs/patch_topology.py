@@ -72,7 +72,7 @@ class PatchTopology:
     component, or the first if as many face each way. loops: the holes. open_sides, non_manifold_sides,
     misoriented_sides: the numbers of sides that lie open, coincide with more than one other, or run the same way as the
     side that they coincide with, before anything was turned. seam_gap: the largest distance, times the length, of sides
-    that coincide. seams: (k, 2) sides that are joined, four to a patch in the order of `SIDES`. unclosable: (number,)
+    that coincide. seams: (k, 2) joined sides, four to a patch in the order of `SIDES`. unclosable: (number,)
     components with sides that cannot be joined to loops, or with one side only.
     """
 
@@ -246,8 +246,8 @@ def _pair_sides(
 
 
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a line that
-    is parallel to nothing are neighbors."""
+    """Return pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a
+    line that is parallel to nothing are neighbors."""
     keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
@@ -362,7 +362,7 @@ def _find_loops(
 
 
 def _cap_loop(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], tolerance: float) -> BoundaryLoop:
-    """The cone from a loop's centroid."""
+    """Return the cone from a loop's centroid."""
     run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
     steps = np.diff(np.concatenate([run, run[:1]]), axis=0)
     weigh = np.linalg.norm(steps, axis=1)

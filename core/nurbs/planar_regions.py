@@ -109,7 +109,7 @@ def self_intersects(loop: NDArray, tolerance: float) -> bool:
 
 
 def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
-    """A polygon without repeated points."""
+    """Return a polygon without repeated points."""
     return loop[np.linalg.norm(loop - np.roll(loop, 1, axis=0), axis=1) > tolerance]
 
 

@@ -160,7 +160,7 @@ def measure_patches(
 
 
 def oriented_parts(patches: Sequence[Patch], topology: PatchTopology) -> list[list[Patch]]:
-    """The patches of each component, facing the same way, with the caps of its holes."""
+    """Return the patches of each component, facing the same way, with the caps of its holes."""
     parts: list[list[Patch]] = [[] for _ in range(topology.number)]
     for patch, turn, part in zip(patches, topology.flipped, topology.component):
         parts[part].append(patch.reverse_orientation() if turn else patch)
@@ -181,22 +181,8 @@ def assess(
 ) -> PatchIntegrals:
     """Judge the moments of parts, as they face.
 
-    Parameters
-    ----------
-    patches : sequence of Patch
-    topology : PatchTopology
-    parts : sequence of lists of Patch
-        As `oriented_parts` gives them.
-    measured : sequence of (Moments, bool)
-        Of each part, as `volume_moments` gives them.
-    area : Moments
-        Of all patches.
-    slope : float
-        As `area_slope` gives it.
-    stored : float
-        As for `measure_patches`.
-    findings : sequence of Finding
-        Further ones.
+    parts: from `oriented_parts`. measured: of each part, from `volume_moments`. area: of all patches. slope: from
+    `area_slope`. stored: as for `measure_patches`. findings: further ones.
     """
     size = patches_size(patches)
     verdict = _judge_parts(parts, topology, measured, area.total, size, stored)
@@ -270,7 +256,7 @@ def _judge_parts(
 
 
 def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
-    """misoriented: patches that face against the rest of their part."""
+    """Return the verdict's method. misoriented: the number of patches that face against the rest of their part."""
     if is_open:
         return Verdict.OPEN
     if verdict.caps[verdict.solid].any():
@@ -368,7 +354,7 @@ def _compare_parts(
 
 
 def _component_findings(comparison: ComponentComparison | None, size: float) -> list[Finding]:
-    """About parts in others' material, and parts that go through others."""
+    """Return findings about parts in others' material, and parts that go through others."""
     findings: list[Finding] = []
     if comparison is None:
         return findings
@@ -420,7 +406,7 @@ def _sagitta(grid: NDArray, each: int) -> float:
 
 
 def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
-    """Return whether patches are too small to matter, as `_is_slight` of meshes; their area is that of the box around
+    """Return whether patches are too small to matter, as `_is_slight` of meshes; the area is taken from the box around
     the control points of each group, at most twice the square of its diagonal.
     """
     return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
@@ -429,7 +415,8 @@ def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -
 def _orientation_findings(
     closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
 ) -> list[Finding]:
-    """About patches, and whole parts, that were turned. mixed: patches that face against the rest of their part."""
+    """Return findings about patches, and whole parts, that were turned. mixed: patches that face against the rest of
+    their part."""
     findings = []
     if mixed:
         findings.append(finding(FLIPPED_PATCHES_SLIGHTLY if slight_patches else FLIPPED_PATCHES, count=mixed))

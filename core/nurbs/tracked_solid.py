@@ -165,7 +165,7 @@ class TrackedSolid:
 
 
 def _rule_error_at_random(patch: Patch) -> float:
-    """By how much the tables' rule is off for these weights, of the largest that a moment could be."""
+    """Return the error of the tables' rule for these weights, relative to the largest possible moment."""
     points = np.random.default_rng(0).uniform(-1.0, 1.0, patch.points.shape)
     perturbed, about = replace(patch, points=points), np.zeros(3)
     evaluator = IncrementalPatchMoments(perturbed, 3, about)

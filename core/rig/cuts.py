@@ -166,7 +166,7 @@ def _cut_edges(
 def _apexes(
     points: NDArray[np.float64], start: NDArray[np.intp], stop: NDArray[np.intp]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """The cut that each edge belongs to, and (c, 3) the centroids of the cuts' edges."""
+    """Return the cut that each edge belongs to, and (c, 3) the centroids of the cuts' edges."""
     if not len(start):
         return np.zeros(0, np.intp), np.zeros((0, 3))
     vertices, ends = np.unique(np.concatenate([start, stop]), return_inverse=True)

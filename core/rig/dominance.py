@@ -123,7 +123,7 @@ def dominant_bones(
 def _scores(
     faces: NDArray[np.integer], corners: NDArray[np.integer], weights: VertexWeights, number: int
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """The faces and bones with any weight together, by face and then by bone, and the sum of their weights."""
+    """Return the faces and bones with any weight together, by face and then by bone, and the sum of their weights."""
     per_vertex = np.bincount(weights.vertex, minlength=int(corners.max(initial=-1)) + 1)
     first = np.cumsum(per_vertex) - per_vertex
     repeats = per_vertex[corners]
@@ -138,7 +138,8 @@ def _scores(
 
 
 def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:
-    """(k,) for each row the bone of its face that is nearest, of equally near ones the first. Rows are by face."""
+    """Return (k,) for each row the bone of its face that is nearest, of equally near ones the first. Rows are by
+    face."""
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)
     near = away <= least * (1.0 + NEAR_RTOL)
@@ -147,7 +148,7 @@ def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray
 
 
 def _distances(points: NDArray[np.float64], segments: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(k,) how far each point is from its segment (k, 2, 3)."""
+    """Return (k,) how far each point is from its segment (k, 2, 3)."""
     start, way = segments[:, 0], segments[:, 1] - segments[:, 0]
     away = points - start
     length = (way * way).sum(axis=1)

@@ -128,7 +128,7 @@ class Auditor:
         return LinkAudit(link, (*findings, *found.findings), found.repaired, found.density)
 
     def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Finding]]:
-        """The shapes by their roles, and why others could not be measured."""
+        """Return the shapes by their roles, and findings about unmeasured ones."""
         pieces: Pieces = {}
         unread: list[Finding] = []
         for stated in shapes:
@@ -142,7 +142,7 @@ class Auditor:
         return pieces, unread
 
     def _piece(self, stated: StatedShape) -> _Piece:
-        """In the coordinates of the shape itself."""
+        """Return the piece in the coordinates of the shape itself."""
         shape = stated.shape
         if shape.kind != "mesh":
             return _primitive(shape)
@@ -238,7 +238,7 @@ def _matrix(pose: Pose) -> NDArray[np.float64]:
 
 
 def _primitive(shape: Shape) -> _Piece:
-    """A primitive in its own frame: volume, ∫x² dV along its axes, and points around it."""
+    """Return a primitive in its own frame: volume, ∫x² dV along its axes, and points around it."""
     if shape.kind == "box":
         sides = np.array(shape.size)
         corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * sides

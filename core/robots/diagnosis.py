@@ -133,19 +133,8 @@ def diagnose(
 ) -> Diagnosis | None:
     """Return the one change that corrects an inertial, or a note about the place of the mass.
 
-    Parameters
-    ----------
-    stated : StatedInertial
-        Of positive mass and finite.
-    references : sequence of Reference
-        Candidates for the geometry, such as visual and collision shapes.
-    otherwise : sequence of (Finding, Reference)
-        The geometry with a shape corrected.
-
-    Returns
-    -------
-    Diagnosis or None
-        None if it agrees.
+    stated: of positive mass and finite. references: candidates for the geometry, such as visual and collision shapes.
+    otherwise: geometries with a shape corrected. Returns None if the inertial agrees.
     """
     if not references:
         return None
@@ -233,7 +222,7 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """The inertia about another point than the center; the parallel-axis term with the wrong sign."""
+    """Yield the inertia about another point than the center; the parallel-axis term with the wrong sign."""
     term = stated.mass * _square(stated.center)
     yield AUDIT_INERTIA_ABOUT_ORIGIN, {}, stated.along_link(stated.inertia - term)
     yield AUDIT_INERTIA_SHIFTED_TWICE, {}, stated.along_link(stated.inertia + term)
@@ -248,7 +237,7 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 
 
 def _frames(stated: StatedInertial) -> Iterator[Change]:
-    """The inertial frame's rotation in other units, the other way round, or not meant."""
+    """Yield the inertial frame's rotation in other units, the other way round, or not meant."""
     if stated.angles is not None:
         for code, convert in ((AUDIT_ANGLES_IN_DEGREES, radians), (AUDIT_ANGLES_IN_RADIANS, degrees)):
             turned = rotation_of_angles(*map(convert, stated.angles))
@@ -283,7 +272,7 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
 
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
-    """Axes in another order: of the tensor, of the center, of both."""
+    """Yield axes in another order: of the tensor, of the center, of both."""
     for order in AXES:
         swapped = stated.inertia[np.ix_(order, order)]
         values = {"order": "".join("xyz"[axis] for axis in order)}

@@ -371,16 +371,7 @@ class Robot:
 
 
 def combine_inertials(inertials: list[Inertial]) -> Inertial:
-    """Return several inertials, given along the same axes, as one.
-
-    Parameters
-    ----------
-    inertials : list of Inertial
-
-    Returns
-    -------
-    Inertial
-    """
+    """Return several inertials, given along the same axes, as one."""
     bodies = []
     for inertial in inertials:
         raw = np.zeros(monomial_count(3))

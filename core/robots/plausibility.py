@@ -110,19 +110,8 @@ class Hull:
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return the reasons why no body, or none within the hull, has an inertial.
-
-    Parameters
-    ----------
-    stated : StatedInertial
-    hull : Hull or None
-        None if the link's geometry is unknown.
-
-    Returns
-    -------
-    list of Finding
-        Empty if no test excludes it.
-    """
+    """Return the reasons why no body, or none within the hull, has an inertial. hull: None if the link's geometry is
+    unknown. The list is empty if no test excludes it."""
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not np.isfinite(numbers).all():
         return [finding(INERTIAL_NOT_FINITE)]
@@ -176,7 +165,7 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
 
 
 def _sphere(count: int) -> NDArray[np.float64]:
-    """(count, 3) directions all around, evenly: a spiral."""
+    """Return (count, 3) directions all around, evenly: a spiral."""
     index = np.arange(count) + 0.5
     height, turn = 1.0 - 2.0 * index / count, index * np.pi * (1.0 + 5.0**0.5)
     across = np.sqrt(1.0 - height * height)

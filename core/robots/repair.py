@@ -22,18 +22,8 @@ _USD_ATTRIBUTE = re.compile(
 
 
 def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]) -> bytes:
-    """Return a description's file with other inertials.
-
-    Parameters
-    ----------
-    description : Description
-    repairs : sequence of (StatedLink, StatedInertial)
-        Links with an inertial in the file, and its replacement.
-
-    Returns
-    -------
-    bytes
-    """
+    """Return a description's file with other inertials. repairs: links with an inertial in the file, and its
+    replacement."""
     data = description.source
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]
     for (start, end), link, inertial in sorted(places, key=lambda place: place[0], reverse=True):
@@ -83,7 +73,7 @@ def _mjcf(_link: StatedLink, inertial: StatedInertial, _description: Description
 
 
 def _usd(link: StatedLink, inertial: StatedInertial, description: Description, old: str) -> str:
-    """The attributes in the place of the old ones, before anything below."""
+    """Return the text with new attributes in the place of the old ones, before anything below."""
     unit, mass = description.scales["length"], description.scales["mass"]
     local = np.eye(4) if link.local is None else link.local
     principal = with_principal_axes(inertial)

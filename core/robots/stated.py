@@ -149,17 +149,7 @@ class Description:
 
 
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
-    """Return Rz(yaw) Ry(pitch) Rx(roll), the convention of URDF and SDF.
-
-    Parameters
-    ----------
-    roll, pitch, yaw : float
-        Radians.
-
-    Returns
-    -------
-    (3, 3) array
-    """
+    """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF. roll, pitch, yaw: radians."""
     (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
     return np.array(
         [

@@ -24,18 +24,19 @@ MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in t
 
 
 def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-    """The vertices from which and to which sides run. Side 3t + i runs from corner i of triangle t to the next one."""
+    """Return the vertices from which and to which sides run. Side 3t + i runs from corner i of triangle t to the next
+    one."""
     triangle, corner = sides // 3, sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
 
 def vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(k, 2) sides as pairs of vertices, the lower first."""
+    """Return (k, 2) sides as pairs of vertices, the lower first."""
     return np.sort(np.stack(side_ends(triangles, sides), axis=1))
 
 
 def distinct_vertex_pairs(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> NDArray[np.intp]:
-    """(k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
+    """Return (k, 2) sides as pairs of vertices, the lower first, sorted, each once."""
     return unique_pairs(vertex_pairs(triangles, sides))
 
 
@@ -51,21 +52,9 @@ def join_sides(
     If an even number of sides meet (as many arriving as leaving) all are joined in pairs, the sharpest
     turns first.
 
-    Parameters
-    ----------
-    begin, end : (r, 3) float64
-        Begin and end of each side.
-    start, stop : (r,) int
-        Numbers of these places, equal if sides may be joined.
-    directed : bool
-        True to join only head to tail.
-
-    Returns
-    -------
-    first, second : (k,) int
-        Sides that are joined.
-    follows : (k,) bool
-        True for sides that run head to tail.
+    begin, end: (r, 3) ends of each side. start, stop: (r,) numbers of these places, equal if sides may be joined.
+    directed: True to join only head to tail. Returns (k,) and (k,) the joined sides, and (k,) True for sides that run
+    head to tail.
     """
     count = len(start)
     vertex = np.concatenate([start, stop])
@@ -161,12 +150,12 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """(l,) which loops are holes; the others are narrower than `tolerance` (length, of all or of each) and much
-        longer than wide."""
+        """Return a (l,) mask of loops that are holes; the others are narrower than `tolerance` (length, of all or of
+        each) and much longer than wide."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:
-        """(l,) the value of the first side of each loop. side_values: (r,)."""
+        """Return (l,) the value of the first side of each loop. side_values: (r,)."""
         values = np.empty(len(self.perimeter), side_values.dtype)
         values[self.of_side[::-1]] = side_values[::-1]  # The last of equal indices wins.
         return values
@@ -186,15 +175,8 @@ class BoundaryLoops:
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
 ) -> BoundaryLoops:
-    """Group boundary sides into the loops that the links of `join_sides` make, and measure those.
-
-    Parameters
-    ----------
-    begin, end : (r, 3) float64
-        Begin and end of each side.
-    links : three arrays
-        Result of `join_sides` for the sides.
-    """
+    """Group boundary sides into the loops that the links of `join_sides` make, and measure those. begin, end: (r, 3)
+    ends of each side. links: from `join_sides`."""
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0

@@ -90,22 +90,8 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap the surfaces of a stack that need nothing but caps.
-
-    Parameters
-    ----------
-    stack : SurfaceStack
-    links : Connections
-        Of its faces.
-    usable : (n,) bool
-        Which surfaces may be capped at all.
-    tolerance : (n,) float
-        Distance below which points touch (unit).
-
-    Returns
-    -------
-    StackCaps, or None if nothing can be capped
-    """
+    """Cap the surfaces of a stack that need nothing but caps. links: of its faces. usable: (n,) mask of surfaces that
+    may be capped at all. tolerance: (n,) distance below which points touch (unit)."""
     can = usable & links.is_open
     start, stop = links.open_sides
     owner, total = stack.point_owners, len(stack.points)
@@ -140,7 +126,7 @@ def cap_stack(
 
 
 def _numbered_by_triangles(part: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Labels from 0 on, in the order of the first triangles that have them."""
+    """Return labels from 0 on, in the order of the first triangles that have them."""
     _, first, number = np.unique(part, return_index=True, return_inverse=True)
     return first.argsort().argsort()[number.ravel()]
 

@@ -14,7 +14,7 @@ from ..mesh.surface import normals
 
 @dataclass(frozen=True, eq=False)
 class ClosedParts:
-    """The triangles whose signed sum is the body, and the closed part that each bounds.
+    """Triangles with the body as signed sum, and the closed part that each bounds.
 
     points: (n, 3); triangles: (t, 3), as measured: turned if needed, caps included. face: (t,) the mesh face of each,
     -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part that a part's volume counts with: itself,
@@ -29,7 +29,7 @@ class ClosedParts:
     host_part: NDArray[np.integer]
 
     def areas(self, linear: NDArray | None = None) -> NDArray[np.float64]:
-        """(t,) of the triangles under a (3, 3) map, by default as they are."""
+        """Return (t,) areas of the triangles under a (3, 3) map, by default as they are."""
         points = self.points.astype(np.float64)
         if linear is not None:
             points = points @ np.asarray(linear).T

@@ -84,11 +84,8 @@ class GivenIntegrals:
 def check_surface(surface: Surface) -> CheckedSurface:
     """Check that a surface can be measured, and leave out vertices that no face uses.
 
-    Raises
-    ------
-    MeasureError
-        If there are no faces, faces name vertices that do not exist, or positions are not finite, or too large or
-        too small for their powers to be numbers.
+    Raises MeasureError if there are no faces, faces name vertices that do not exist, or positions are not finite, or
+    too large or too small for their powers to be numbers.
     """
     check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
@@ -135,12 +132,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
     Sums and proof run in parallel if that is worth a thread.
 
-    Parameters
-    ----------
-    checked : CheckedSurface
-    shell : bool
-        True for area moments to order 3; else order 0.
-    threads : int
+    shell: True for area moments to order 3; else order 0.
     """
     surface = checked.surface
     accumulator = PlanarityAccumulator(surface, checked.error)
@@ -165,7 +157,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
 
 def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
-    """Return whether numbers of one sign, rounding aside, give the sums `total` (of absolute values) and `signed`."""
+    """Return whether numbers that add up to `signed`, and without signs to `total`, have one sign but for rounding."""
     return total - abs(signed) <= SUM_ROUNDING * total
 
 

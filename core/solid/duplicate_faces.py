@@ -63,7 +63,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
-    """(k,) the mesh faces on the same vertices as an earlier one, sorted.
+    """Return (k,) the mesh faces on the same vertices as an earlier one, sorted.
 
     Two faces on the same vertices are closed by their edges, so neither proof nor repair has to look for them; of a
     solid they bound nothing, but a sheet has their area twice.
@@ -102,7 +102,7 @@ def _regions_of_one_layer(
 def _copies_findings(
     ignored: NDArray[np.integer], counted: NDArray[np.integer], area: NDArray[np.float64]
 ) -> list[Finding]:
-    """About copies that were left out, and copies that count twice. area: of each face, doubled."""
+    """Return findings about copies that were left out, and copies that count twice. area: of each face, doubled."""
     findings = []
     if len(ignored):
         slight = area[ignored].sum() < NEGLIGIBLE * area.sum()
@@ -122,8 +122,8 @@ def _copies_findings(
 
 
 def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
-    """The sides on edges with more than two triangles. A polygon's own diagonal, which it has on both sides, is none
-    of its edges. face: (m,) the mesh face of each triangle."""
+    """Return the sides on edges with more than two triangles. A polygon's own diagonal, which it has on both sides, is
+    none of its edges. face: (m,) the mesh face of each triangle."""
     sides = np.flatnonzero((edges.count > 2)[edges.of_side])
     first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))
     return sides[np.bincount(first)[first] == 1]

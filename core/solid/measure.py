@@ -76,7 +76,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
 
 
 def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:
-    """The verdict. A sheet may go through itself, and every copy of a face has its area."""
+    """Judge the body. A sheet may go through itself, and every copy of a face has its area."""
     if not shell:
         return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
     solid = judge(checked, given, oriented, None)

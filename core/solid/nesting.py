@@ -21,10 +21,10 @@ from ..numerics.arrays import segment_ranges
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)
 MAX_COMPONENT_PAIRS = 100_000
-# points under the skin of a component of few faces that are asked whether it surrounds them twice
+# Points under the skin of a component of few faces, tested for being surrounded twice.
 MAX_OVERLAP_SAMPLES = 4096
 SAMPLES_PER_PAIR = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
-BREAKTHROUGH_TRIANGLES = 4096, 8, 20_000  # along whose edges it is asked how far they reach out: the same
+BREAKTHROUGH_TRIANGLES = 4096, 8, 20_000  # Limits, as above, of the triangles with edges tested for reaching out.
 MAX_STEPS_PER_EDGE = 16
 
 
@@ -54,7 +54,7 @@ class ComponentRelations:
     breakthrough: NDArray[np.float64] = field(default_factory=NO_LENGTHS.view)
 
     def containers(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """The inner and the outer component of each pair that is decided as if one contained the other."""
+        """Return the inner and the outer component of each pair that is decided as if one contained the other."""
         inner, outer = np.concatenate([self.contained_in, self.mostly_in]).T
         return inner, outer
 
@@ -62,18 +62,8 @@ class ComponentRelations:
 def classify_pairs(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> ComponentRelations:
-    """Find how closed components lie relative to each other.
-
-    Parameters
-    ----------
-    points : (n, 3)
-    components : SortedComponents
-        Over these points.
-    candidates : (c,) bool
-        Components to compare: closed and not flat.
-    tolerance : float
-        Distance below which points touch (unit).
-    """
+    """Find how closed components lie relative to each other. points: (n, 3). components: over these points. candidates:
+    (c,) components to compare: closed and not flat. tolerance: distance below which points touch (unit)."""
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
@@ -113,9 +103,9 @@ def classify_pairs(
 def _breakthrough(
     components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
 ) -> NDArray[np.float64]:
-    """(k,) how far the two components of each pair (inner, outer) reach out of each other: the largest distance of
-    places on edges of the inner one outside the outer one from its surface, and of places on edges of the outer one in
-    the inner one. At least the tolerance, by which they are known to pass through each other."""
+    """Return (k,) how far the two components of each pair (inner, outer) reach out of each other: the largest distance
+    of places on edges of the inner one outside the outer one from its surface, and of places on edges of the outer one
+    in the inner one. At least the tolerance, by which they are known to pass through each other."""
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
         return depth
@@ -185,17 +175,8 @@ def orient_nested_components(
     consistent contents (a hollow body turned inside out as a whole). A cavity that breaks through its wall is one
     still.
 
-    Parameters
-    ----------
-    components : SortedComponents
-        With their signed volumes.
-    relations : ComponentRelations
-    candidates : (c,) bool
-        Components with a volume.
-
-    Returns
-    -------
-    flipped, nested, cavities : (c,) bool
+    components: with signed volumes. candidates: (c,) components with a volume. Returns `flipped`, `nested` and
+    `cavities`, (c,) each.
     """
     number = len(candidates)
     given = np.where(candidates, np.sign(components.volume), 0.0)
@@ -234,7 +215,7 @@ def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDA
 
 
 def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[np.intp]:
-    """(number,) the innermost component around each, -1 for none."""
+    """Return (number,) the innermost component around each, -1 for none."""
     inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
@@ -272,7 +253,7 @@ def _interior_samples(
     number: int | NDArray[np.integer],
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """(n, 3) the k-th of so many points under the skins of components, about the tree's origin."""
+    """Return (n, 3) the k-th of so many points under the skins of components, about the tree's origin."""
     triangle = (
         components.start[component] + k * (components.start[component + 1] - components.start[component]) // number
     )

@@ -125,7 +125,7 @@ class OrientedSolid:
     comparison: ComponentComparison | None
 
     def closed_parts(self) -> ClosedParts:
-        """The triangles of ``surface`` by closed part."""
+        """Return the triangles of ``surface`` by closed part."""
         mesh = self.mesh
         host = np.arange(mesh.number) if self.comparison is None else self.comparison.host
         if self.is_proven:
@@ -149,17 +149,8 @@ class OrientedSolid:
 def orient_components(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, threads: int
 ) -> OrientedSolid:
-    """Compare the components of a body, turn components that are inside out, and integrate the result.
-
-    Parameters
-    ----------
-    checked : CheckedSurface
-    given : GivenIntegrals
-        Of the same surface; reused if only caps were added.
-    mesh : RepairedMesh
-        ``given.proven``, or the surface repaired.
-    threads : int
-    """
+    """Compare the components of a body, turn components that are inside out, and integrate the result. given: of the
+    same surface; reused if only caps were added. mesh: ``given.proven``, or the surface repaired."""
     is_proven, comparison, flipped = mesh is given.proven, None, np.zeros(mesh.number, bool)
     surface, volume = checked.surface, given.volume
     if mesh.number > 1:
@@ -188,17 +179,8 @@ def orient_components(
 
 
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
-    """Find the components with a volume, and their relations.
-
-    Parameters
-    ----------
-    mesh : RepairedMesh
-        With its triangles.
-    tolerance : float
-        Distance below which points touch (unit).
-    error : float
-        How far storing the points may have moved them (unit).
-    """
+    """Find the components with a volume, and their relations. tolerance: distance below which points touch (unit).
+    error: displacement of the points by storing them (unit)."""
     components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
     size = np.linalg.norm(components.high - components.low, axis=1)
     threshold = zero_volume(size, components.area, mesh.caps.any(axis=1), error)
@@ -209,7 +191,8 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume that counts as zero: the rounding noise of a closed sheet, or a flat sheet's after capping."""
+    """Return the volume below which a component counts as flat: a closed sheet's rounding, or a capped flat sheet's
+    error."""
     return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
 
 

@@ -43,19 +43,9 @@ STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
 def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -> RepairedMesh:
     """Repair a surface on a copy.
 
-    Parameters
-    ----------
-    surface : Surface
-        With at least one face; every vertex belongs to one.
-    tolerance : float
-        Positions nearer than this (unit) count as equal at open edges, and loops narrower than this have no area.
-    weld_near : bool
-        True to weld positions that differ.
-
-    Returns
-    -------
-    RepairedMesh
-        Without triangles and components if nothing but edges is left of all faces.
+    surface: with at least one face; every vertex belongs to one. tolerance: positions nearer than this (unit) count as
+    equal at open edges, and loops narrower than this have no area. weld_near: True to weld positions that differ.
+    The result has no triangles and components if nothing but edges is left of all faces.
     """
     mesh = split_into_triangles(surface)
     for step in STEPS:

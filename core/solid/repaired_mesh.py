@@ -180,7 +180,7 @@ class RepairedMesh:
         return replace(self, findings=(*self.findings, *findings))
 
     def with_rows(self, rows: NDArray[np.integer]) -> RepairedMesh:
-        """The mesh of some of the triangles alone. Their edges are not known."""
+        """Return the mesh of some of the triangles alone. Their edges are not known."""
         return replace(
             self,
             triangles=self.triangles[rows],
@@ -204,17 +204,17 @@ class RepairedMesh:
         )
 
     def oriented_ends(self, sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-        """The vertices from which and to which sides run once the faces are turned."""
+        """Return the vertices from which and to which sides run once the faces are turned."""
         start, stop = side_ends(self.triangles, sides)
         flipped = self.flipped[sides // 3]
         return np.where(flipped, stop, start), np.where(flipped, start, stop)
 
     def faces_of(self, components: NDArray[np.bool_]) -> NDArray[np.integer]:
-        """The mesh faces of some components, sorted."""
+        """Return the mesh faces of some components, sorted."""
         return np.unique(self.face[components[self.component] & (self.face >= 0)])
 
 
 def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """(m,) which triangles have three different vertices; the others have no boundary and no area."""
+    """Return a (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
     a, b, c = triangles.T
     return (a != b) & (b != c) & (c != a)

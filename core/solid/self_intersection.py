@@ -52,15 +52,7 @@ class SelfIntersection:
 
 
 def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid) -> SelfIntersection:
-    """Search the surface of a solid for self-intersections.
-
-    Parameters
-    ----------
-    checked : CheckedSurface
-    given : GivenIntegrals
-    oriented : OrientedSolid
-        All three of the same surface.
-    """
+    """Search the surface of a solid for self-intersections. All three arguments are of the same surface."""
     mesh, surface, volume = oriented.mesh, oriented.surface, oriented.volume
     if not oriented.is_solid or mesh.open.any():
         return SelfIntersection(Intersection.NOT_CHECKED)
@@ -89,7 +81,7 @@ def find_self_intersection(checked: CheckedSurface, given: GivenIntegrals, orien
 
 
 def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> Surface:
-    """The surface of some triangles without the points of others."""
+    """Return the surface of some triangles without the points of others."""
     used = np.zeros(len(points), bool)
     used[triangles.ravel()] = True
     return Surface(points[used], (np.cumsum(used) - 1)[triangles])
@@ -109,7 +101,7 @@ def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
 
 
 def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
-    """The corners of the triangles, three times (3, k), the first block short."""
+    """Yield the corners of the triangles, three times (3, k), the first block short."""
     for faces in (surface.quads, surface.triangles):
         starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
         for start, stop in zip(starts[:-1], starts[1:]):
@@ -151,15 +143,8 @@ def measure_excess(
 ) -> Excess:
     """Measure along lines the volume in a closed part more than once, or less than not at all.
 
-    Parameters
-    ----------
-    crossings : Crossings
-    grids : LineGrids
-        Through the bodies.
-    tolerance : (b,) float
-        Lengths up to which nothing counts (unit).
-    part : (t,) int, optional
-        The part that each triangle bounds, of all bodies; by default each body is one.
+    grids: through the bodies. tolerance: (b,) lengths up to which nothing counts (unit). part: (t,) the part that each
+    triangle bounds, of all bodies; by default each body is one.
     """
     bodies = len(grids.cell)
     if not len(crossings.row):

@@ -28,21 +28,8 @@ NO_LINKS = NO_INDICES, NO_INDICES
 def wall_links(
     points: NDArray[np.floating], edges: Edges, triangles: NDArray[np.integer], face: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Find the sides that belong together at the walls between bodies.
-
-    Parameters
-    ----------
-    points : (n, 3)
-    edges : Edges
-    triangles : (t, 3) int
-    face : (t,) int
-        The mesh face of each.
-
-    Returns
-    -------
-    first, second : (k,) int
-        Sides that are joined.
-    """
+    """Find the sides that belong together at the walls between bodies. points: (n, 3). triangles: (t, 3). face: (t,)
+    the mesh face of each. Returns (k,) and (k,) the joined sides."""
     if not (edges.count == 4).any():
         return NO_LINKS
     pairs = edges.manifold_side_pairs()
@@ -86,8 +73,8 @@ def wall_links(
 
 
 def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
-    """(k, 2) the sides that are joined within walls. within: (e, 4) sides on edges between two faces of a wall, of the
-    first layer and then of the other one; wall: (t,) as of `_layers`.
+    """Return (k, 2) the sides that are joined within walls. within: (e, 4) sides on edges between two faces of a wall,
+    of the first layer and then of the other one; wall: (t,) as of `_layers`.
 
     Which copy of a face is the first one is an accident: a copy goes with the one of its neighbors that it agrees with.
     """

@@ -94,7 +94,7 @@ class SolidStack:
         return float(self.caps.counts[i, 2] / self.area.raw[i, 0])
 
     def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
-        """The volumes of some, in ascending order, to a higher order than third."""
+        """Return the volume moments of the bodies `rows`, ascending, to a higher order than third."""
         stack, volume = self.caps.triangles.some(rows), self.volume.at(rows)
         low, high = stack.box
         reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + stack.coordinate_error
@@ -133,16 +133,7 @@ def can_be_stacked(surface: Surface) -> bool:
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     """Measure the bodies that many small surfaces bound, as far as they are closed as they are, or by caps alone.
-
-    Parameters
-    ----------
-    surfaces : sequence of Surface
-        At least one; all of them as `can_be_stacked` asks, with finite coordinates.
-
-    Returns
-    -------
-    SolidStack
-    """
+    surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates."""
     stack = SurfaceStack.of(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
@@ -193,7 +184,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
 
 
 def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Labels from 0 on, without gaps, in the same order."""
+    """Return labels from 0 on, without gaps, in the same order."""
     return np.unique(labels, return_inverse=True)[1].ravel()
 
 

@@ -156,16 +156,8 @@ class SolidIntegrals:
 def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
-    """Give a verdict on the measured body, and report all decisions.
-
-    Parameters
-    ----------
-    checked : CheckedSurface
-    given : GivenIntegrals
-    oriented : OrientedSolid
-    intersection : SelfIntersection, optional
-        All of the same surface; None if not searched.
-    """
+    """Give a verdict on the measured body, and report all decisions. All arguments are of the same surface.
+    intersection: None if not searched."""
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
@@ -214,7 +206,8 @@ def judge(
 
 
 def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
-    """The mesh faces that were turned within their components, and the components that were turned as a whole."""
+    """Return the mesh faces that were turned within their components, and the components that were turned as a
+    whole."""
     of_mesh = mesh.face >= 0
     flipped, component = (mesh.flipped ^ turned[mesh.component])[of_mesh], mesh.component[of_mesh]
     whole = np.bincount(component, ~flipped) == 0
@@ -229,7 +222,7 @@ def _health(
     inverted_count: int,
     cap_share: float,
 ) -> MeshHealth:
-    """The report of the repair, completed, with edges in the input's vertices."""
+    """Return the report of the repair, completed, with edges in the input's vertices."""
     report, vertices = oriented.mesh.report, checked.vertices
     defects = report.defective_elements
     edges = defects.boundary_edges, defects.non_manifold_edges, defects.inconsistent_edges
@@ -287,7 +280,7 @@ def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: floa
 
 
 def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[np.intp]:
-    """The edges of the capped holes of components that have a volume."""
+    """Return the edges of the capped holes of components that have a volume."""
     mesh, vertices = oriented.mesh, checked.vertices
     edges = mesh.capped_edges[oriented.solid[mesh.capped_component]]
     return unique_pairs(edges if vertices is None else vertices[edges])
@@ -296,7 +289,8 @@ def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[n
 def cap_finding(
     edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
 ) -> Finding:
-    """About capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the surface's."""
+    """Return findings about capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the
+    surface's."""
     flat, curved = map(int, caps[:2])
     if caps[2] * size < NEGLIGIBLE * volume:  # all their moments together
         return finding(HOLES_CAPPED_SLIGHTLY, edges, count=flat + curved, share=share)
@@ -306,7 +300,7 @@ def cap_finding(
 def _component_findings(
     mesh: RepairedMesh, comparison: ComponentComparison, size: float, volume: float
 ) -> list[Finding]:
-    """About components that are in others, go through others, or have no volume."""
+    """Return findings about components that are in others, go through others, or have no volume."""
     solid = comparison.solid
     breakthrough = {"share": float(comparison.breakthrough / size)}
     flat = ~solid & ~mesh.open if solid.any() else np.zeros(mesh.number, bool)
@@ -338,7 +332,7 @@ def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np
 
 
 def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:
-    """About a component that goes through itself, or that was not looked at."""
+    """Return findings about a component that goes through itself, or that was not tested."""
     if intersection.state is Intersection.FOUND:
         code = SELF_INTERSECTION_SLIGHTLY if intersection.effect < NEGLIGIBLE else SELF_INTERSECTION
         return [finding(code, share=intersection.volume / volume)]

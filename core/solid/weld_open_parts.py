@@ -23,18 +23,8 @@ from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_di
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:
-    """Cut a surface into triangles, and find the parts that welding may touch.
-
-    Parameters
-    ----------
-    surface : Surface
-        With at least one face; every vertex belongs to one.
-
-    Returns
-    -------
-    RepairedMesh
-        In no components yet.
-    """
+    """Cut a surface into triangles, and find the parts that welding may touch. surface: with at least one face; every
+    vertex belongs to one. The result has no components yet."""
     triangles, face = surface.all_triangles()
     triangles, count = triangles.astype(np.intp), len(triangles)
     edges, open_parts = _find_open_parts(surface, triangles, np.asarray(face, np.intp))
@@ -139,7 +129,7 @@ def _weld(
 
 
 def _unique_sorted(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:
-    """The distinct values, sorted."""
+    """Return the distinct values, sorted."""
     present = np.zeros(width, bool)
     present[values] = True
     return np.flatnonzero(present)

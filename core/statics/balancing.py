@@ -183,7 +183,7 @@ def _is_solvable(system: NDArray) -> bool:
 
 
 def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
-    """(k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
+    """Return (k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
     moves = np.einsum("rnk,r->nk", step_directions, multiplier)
     length = np.linalg.norm(moves, axis=1)
     if not (length > limit).any():  # also for no limit
@@ -194,7 +194,7 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """(r, r) the derivative of the center by the multiplier. A move that is cut can still turn, not grow."""
+    """Return (r, r) the derivative of the center by the multiplier. A move that is cut can still turn, not grow."""
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -297,7 +297,7 @@ class _Fans:
         self.fan = fan
 
     def center_gradient(self, center: NDArray) -> NDArray[np.float64]:
-        """(n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
+        """Return (n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
         if self.shell:  # signed as the faces' own areas are
             parts = [
                 area_gradient(Surface(self.points, triangles), center, order=1).by_vertex[:, 1:4]
@@ -316,8 +316,8 @@ class _Fans:
 
 
 def _face_boundaries(triangles: NDArray, faces: NDArray) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """(k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,) the face
-    of each."""
+    """Return (k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,)
+    the face of each."""
     start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     owner = np.repeat(faces, 3).astype(np.int64)
     first = first_occurrence(np.minimum(start, stop), np.maximum(start, stop), owner)

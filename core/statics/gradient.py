@@ -176,7 +176,7 @@ def _gradient(surface: Surface, about: ArrayLike, order: int, shares: Callable) 
 
 
 def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int) -> Iterator[NDArray]:
-    """For each corner the (K, 3, m) that its triangles add. local: (3, 3, m) corners from the reference point."""
+    """Yield for each corner the (K, 3, m) that its triangles add. local: (3, 3, m) corners from the reference point."""
     total = local[0] + local[1] + local[2]
     pairs = PAIRS if kinds > 4 else []
     square = {(i, j): np.einsum("km,km->m", local[:, i], local[:, j]) + total[i] * total[j] for i, j in pairs}

@@ -74,33 +74,13 @@ class Mixes:
 
 
 def sample_count(shapes: int) -> int:
-    """Return how many mixes have to be measured for a number of shapes.
-
-    Parameters
-    ----------
-    shapes : int
-
-    Returns
-    -------
-    int
-    """
+    """Return how many mixes have to be measured for a number of shapes."""
     return comb(shapes + DEGREE, DEGREE)
 
 
 def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
-    """Find the polynomials of a surface and the offsets that are mixed into it.
-
-    Parameters
-    ----------
-    surface : Surface
-        Closed and outward. Its quads are cut as they are without any offset.
-    offsets : (k, n, 3) array_like
-        Of its points.
-
-    Returns
-    -------
-    Mixes
-    """
+    """Find the polynomials of a surface and the offsets that are mixed into it. surface: closed and outward; its quads
+    are cut as they are without any offset. offsets: (k, n, 3) of its points."""
     triangles, _ = surface.all_triangles()
     points, offsets = surface.points.astype(np.float64), np.asarray(offsets, np.float64)
     about = np.mean(surface.box, axis=0)
@@ -118,5 +98,5 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
 
 
 def _powers(values: NDArray, exponents: NDArray) -> NDArray[np.float64]:
-    """(f, c) the products of powers."""
+    """Return (f, c) the products of powers."""
     return np.prod(values[:, None, :] ** exponents, axis=2)

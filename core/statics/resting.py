@@ -136,7 +136,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
 
 
 def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
-    """(m,) of triangles seen from the origin, by van Oosterom and Strackee (1983), eq. 8."""
+    """Return (m,) solid angles of triangles seen from the origin, by van Oosterom and Strackee (1983), eq. 8."""
     a, b, c = (points[triangles[:, k]] for k in range(3))
     la, lb, lc = (np.linalg.norm(corner, axis=1) for corner in (a, b, c))
     volume = np.einsum("ij,ij->i", a, np.cross(b, c))
@@ -145,7 +145,7 @@ def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
 
 
 def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """points: from the center."""
+    """Find the faces of a hull. points: from the center."""
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
     face, count = _coplanar(points, triangles, neighbors, double, least)

@@ -159,7 +159,7 @@ def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike 
 
 
 def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray) -> Support:
-    """contacts: (n, 2) on the ground, from the foot."""
+    """Return the support of (n, 2) contacts on the ground, from the foot."""
     corners = contacts[convex_polygon(contacts)]
     margin, direction = polygon_margin(corners)
     polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
@@ -169,17 +169,8 @@ def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray) -
 def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
     """Return how far the origin is inside a convex polygon, and the unit vector over the nearest edge.
 
-    Parameters
-    ----------
-    corners : (k, 2) array
-        Counter-clockwise.
-
-    Returns
-    -------
-    margin : float
-        Distance from the nearest edge; outside, minus the distance from the polygon.
-    direction : (2,) array
-        From inside straight over that edge; from outside away from the polygon.
+    corners: (k, 2) counter-clockwise. Returns the distance from the nearest edge; outside, minus the distance from the
+    polygon; and the direction, (2,), from inside straight over that edge, from outside away from the polygon.
     """
     along = np.roll(corners, -1, axis=0) - corners
     lengths = np.linalg.norm(along, axis=1)

@@ -44,11 +44,10 @@ SMOOTHING_STEPS, SMOOTHING_RTOL = 400, 1e-12  # steps, and what is left of the u
 class OffsetDirections:
     """Offset directions: the displacement of each vertex per unit of thickness.
 
-    vectors: (n, 3), unit of the points per unit of thickness. tangential_error, normal_error: (2, n) bounds of their
-    changes by rounding, and by storing the points as float32, in all, and along the
-        normals of their faces: to first order, as long as the same planes are distinguished, and not for
-        directions found as most in front.
-    has_normal: (m,) True for triangles with a known normal; others were ignored.
+    vectors: (n, 3), unit of the points per unit of thickness. tangential_error, normal_error: (2, n) bounds of the
+    vectors' changes by rounding, and by storing the points as float32, in all and along their faces' normals: to first
+    order, as long as the same planes are distinguished, and not for directions found as most in front. has_normal: (m,)
+    True for triangles with a known normal; others were ignored.
     """
 
     vectors: NDArray[np.float64]
@@ -128,8 +127,8 @@ def offset_directions(
 
 
 def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
-    """The vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3), leave.
-    Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
+    """Return the vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3),
+    leave. Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
     thickness."""
     edges = find_edges(triangles)
     free[triangles.ravel()[edges.boundary_sides()]] = 0.0  # closed loops: each end of a side is a start

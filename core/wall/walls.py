@@ -309,7 +309,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
 
 
 def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
-    """Points and triangles with one vertex for each place."""
+    """Return points and triangles with one vertex for each place."""
     triangles, _ = surface.all_triangles()
     first = first_at_equal_position(surface.points)
     triangles = first[triangles.astype(np.intp)]
@@ -357,11 +357,11 @@ class _Prisms:
         return self.own_size, JACOBIAN_ROUNDINGS * U * self._sizes(), self.double
 
     def _sizes(self) -> NDArray[np.float64]:
-        """(3, m) bounds of the coefficients of J."""
+        """Return (3, m) bounds of the coefficients of J."""
         return np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2]) * self.far
 
     def sums(self) -> NDArray[np.float64]:
-        """(20, 6) the coefficients of the moments."""
+        """Return (20, 6) the coefficients of the moments."""
         sums, count = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT)), self.points.shape[2]
         place, step = (
             np.einsum("nk,kim->inm", NODES, corners).reshape(3, 6 * count) for corners in (self.points, self.vectors)
@@ -434,8 +434,8 @@ def _swept_by_strips(
 def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`, with every point within
-    reach[0] of the middle and every direction within reach[1], by axis."""
+    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`, with every point
+    within reach[0] of the middle and every direction within reach[1], by axis."""
     place, step = reach[0] + stored, reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:

@@ -34,23 +34,8 @@ SUFFIXES = (".urdf", ".sdf", ".xml", ".usda", ".usd", ".world")
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return the description of a robot in a file.
-
-    Parameters
-    ----------
-    path : Path
-    roots : Roots, optional
-        Places of files that it includes, by default the allowed places of its meshes.
-
-    Returns
-    -------
-    Description
-
-    Raises
-    ------
-    FileError
-        If it is none, or is refused.
-    """
+    """Return the description of a robot in a file. roots: places of files that it includes, by default the allowed
+    places of its meshes. Raises FileError if it is none, or is refused."""
     data = _bytes(path)
     description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.of(path))
     if len(description.links) > MAX_LINKS:

@@ -38,10 +38,7 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up, if it
     says that another axis is up, which readers obey or not.
 
-    Raises
-    ------
-    FileError
-        If it cannot be read.
+    Raises FileError if it cannot be read.
     """
     reader = READERS.get(path.suffix.lower())
     if reader is None:
@@ -69,7 +66,7 @@ def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
 
 
 def read_stl(data: bytes) -> Arrays:
-    """Triangles of binary or text STL."""
+    """Return triangles of binary or text STL."""
     if len(data) >= 84:
         count = struct.unpack_from("<I", data, 80)[0]
         if len(data) == 84 + 50 * count:
@@ -90,7 +87,7 @@ def _joined(corners: NDArray) -> Arrays:
 
 
 def read_obj(data: bytes) -> Arrays:
-    """Triangles of all objects of an OBJ; faces of more corners are cut into fans."""
+    """Return triangles of all objects of an OBJ; faces of more corners are cut into fans."""
     check_obj_text(data)
     points: list[bytes] = []
     sizes: list[int] = []
@@ -109,7 +106,8 @@ def read_obj(data: bytes) -> Arrays:
 
 
 def read_glb(data: bytes) -> Arrays:
-    """Triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers take them."""
+    """Return triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers take
+    them."""
     if data[:4] != b"glTF":
         raise ValueError("glb")
     start, document, binary = 12, None, b""

@@ -108,7 +108,7 @@ Rotation = tuple[NDArray[np.float64], tuple[float, float, float] | None, tuple[f
 
 
 def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
-    """From a quaternion, Euler angles, an axis and an angle, two axes or the z axis."""
+    """Return the rotation from a quaternion, Euler angles, an axis and an angle, two axes or the z axis."""
     unit = radians(1.0) if model.degrees else 1.0
     if "quat" in attributes:
         values = numbers(attributes["quat"], 4, (1.0, 0.0, 0.0, 0.0))

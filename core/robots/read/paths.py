@@ -59,7 +59,7 @@ class Roots:
         raise FileError(MESH_OUTSIDE if outside else MESH_MISSING, name=name)
 
     def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
-        """A package's name may be that of a root, of a folder in it, or of none."""
+        """Yield possible paths. A package's name may name a root, a folder in it, or neither."""
         if scheme in ("package", "model"):
             package, _, inside = rest.partition("/")
             for folder in self.folders:

@@ -127,7 +127,7 @@ class _Parser:
         return prim
 
     def attribute(self, prim: Prim) -> None:
-        """A statement: words, and after an equals sign a value."""
+        """Read a statement: words, and after an equals sign a value."""
         words: list[str] = []
         while self.peek() not in ("=", "}", ";", "(") and self.peek() not in _SPECIFIERS:
             words.append(self.take()[0])
@@ -221,7 +221,7 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
 
 
 def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str) -> StatedLink:
-    """A body in the axes of its prim, in meters; its own scale is a part of its shapes and its center."""
+    """Return a body in the axes of its prim, in meters; its own scale is a part of its shapes and its center."""
     findings: list[Finding] = []
     turn = polar_rotation(matrix[None])[0][0]
     if np.linalg.det(turn) < 0.0:
@@ -319,7 +319,7 @@ def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | 
 
 
 def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
-    """(m, 3) faces of given sizes, cut into fans about their first corners."""
+    """Return (m, 3) faces of given sizes, cut into fans about their first corners."""
     starts = np.cumsum(sizes) - sizes
     cut = np.maximum(sizes - 2, 0)
     face = np.repeat(np.arange(len(sizes)), cut)

@@ -74,7 +74,7 @@ def _inertial(inertial: StatedInertial | None) -> dict[str, Any]:
 
 
 def to_json(documents: Sequence[dict[str, Any]]) -> str:
-    """The documents as JSON: of one file its own, else a list."""
+    """Return the documents as JSON: a single one by itself, else a list."""
     shown = documents[0] if len(documents) == 1 else list(documents)
     return json.dumps(shown, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
@@ -93,12 +93,12 @@ def _rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
 
 
 def to_csv(documents: Sequence[dict[str, Any]]) -> str:
-    """One row for each finding, and one for each link without any."""
+    """Return CSV with one row for each finding, and one for each link without any."""
     return "".join(table(COLUMNS, (dict(zip(COLUMNS, row)) for row in _rows(documents))))
 
 
 def to_html(documents: Sequence[dict[str, Any]]) -> str:
-    """A page by itself, without scripts and without anything from elsewhere."""
+    """Return a page by itself, without scripts and without anything from elsewhere."""
     lines = [AUDIT_PAGE, '<html lang="en">', '<meta charset="utf-8">', "<title>Audit</title>"]
     lines += ["<style>{}</style>".format(_STYLE), "<h1>Audit of robot descriptions</h1>"]
     for one in documents:
@@ -123,7 +123,7 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
 
 
 def to_text(document: dict[str, Any]) -> str:
-    """One file's findings, link by link, to be read by a person."""
+    """Return one file's findings, link by link, to be read by a person."""
     lines = ["{} ({})".format(document["file"], document["format"]), ""]
     for link in document["links"]:
         lines.append(link["name"])

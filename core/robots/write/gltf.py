@@ -30,19 +30,8 @@ _GLB, _JSON = 0x46546C67, 0x4E4F534A
 
 
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
-    """Return the entry `motion` of both extensions, in the axes of the file.
-
-    Parameters
-    ----------
-    inertial : Inertial
-        Along the axes of Blender's object.
-    scale : float or (3,) array_like
-        Meters per unit of the node's own space along Blender's axes, for the center.
-
-    Returns
-    -------
-    dict
-    """
+    """Return the entry `motion` of both extensions, in the axes of the file. inertial: along the axes of Blender's
+    object. scale: meters per unit of the node's own space along Blender's axes, for the center."""
     values: dict[str, Any] = {
         "mass": inertial.mass,
         "centerOfMass": (Y_UP @ (inertial.center / np.asarray(scale)) + 0.0).tolist(),
@@ -57,19 +46,8 @@ def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
 def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
     """Give the nodes of a glTF document their motions, and the document its unit, in place.
 
-    Parameters
-    ----------
-    document : dict
-        The JSON of a file.
-    robot : Robot
-        Its links are named like nodes.
-    meters_per_unit : float
-        Of the Blender scene.
-
-    Returns
-    -------
-    list of Finding
-        Which links have no node of their own, and which scales readers may take in different ways.
+    document: the JSON of a file. robot: with links named like nodes. meters_per_unit: of the Blender scene. Returns
+    findings about links without a node of their own, and scales that readers may take in different ways.
     """
     nodes, bones = document.get("nodes", []), {joint for skin in document.get("skins", []) for joint in skin["joints"]}
     by_name: dict[str, list[dict]] = {}

@@ -48,7 +48,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
 
 
 def _name(text: str) -> str:
-    """Colons in pairs separate names of models and links, and two kinds of names are the format's own."""
+    """Return a valid name: pairs of colons separate models and links, and two kinds of names are the format's own."""
     text = xml_text(text).replace("::", "_")
     return text + "_" if _RESERVED.fullmatch(text) or not text else text
 

@@ -25,17 +25,8 @@ _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def to_stl(surface: Surface) -> bytes:
-    """Return a surface as binary STL, with zero normals, which readers find from the corners.
-
-    Parameters
-    ----------
-    surface : Surface
-        In meters, along the link's axes.
-
-    Returns
-    -------
-    bytes
-    """
+    """Return a surface as binary STL, with zero normals, which readers find from the corners. surface: in meters, along
+    the link's axes."""
     triangles = surface.all_triangles()[0]
     rows = np.zeros(len(triangles), _TRIANGLE)
     rows["corners"] = surface.points[triangles]
@@ -45,24 +36,9 @@ def to_stl(surface: Surface) -> bytes:
 def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bool = False) -> Robot:
     """Write the surfaces of a robot's meshes, and return the robot that names their files.
 
-    Parameters
-    ----------
-    robot : Robot
-    output : Path
-        The robot's own file. The meshes are in a folder of its name, in the folder `meshes` beside it.
-    read : Path, optional
-        A file that is read, and never replaced.
-    force : bool
-        True to replace even files that are no meshes of ours.
-
-    Returns
-    -------
-    Robot
-
-    Raises
-    ------
-    OSError
-        If one of the files cannot be written or must not be replaced. In the latter case none is written.
+    output: the robot's own file; the meshes are in a folder of its name, in the folder `meshes` beside it. read: a file
+    that is read, and never replaced. force: True to replace even files that are no meshes of ours. Raises OSError if
+    one of the files cannot be written or must not be replaced. In the latter case none is written.
     """
     files = mesh_files([link.name for link in robot.links], output.stem)
     surfaces = {

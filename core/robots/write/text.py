@@ -21,17 +21,17 @@ _SPACES = re.compile(r"[\t\n\r]")
 
 
 def number(value: float) -> str:
-    """The shortest text that is read as this float64; no negative zero."""
+    """Return the shortest text that is read as this float64; no negative zero."""
     return repr(float(value) + 0.0)
 
 
 def numbers(values: Iterable[float]) -> str:
-    """Numbers with spaces between."""
+    """Return numbers with spaces between."""
     return " ".join(map(number, values))
 
 
 def xml_text(text: str) -> str:
-    """The text with an underscore for each character that no XML can hold, or that a reader would change."""
+    """Return the text with an underscore for each character that no XML can hold, or that a reader would change."""
     return _SPACES.sub("_", _NOT_XML.sub("_", text))
 
 
@@ -50,8 +50,8 @@ def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iter
 
 
 def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
-    """Angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn. The roll is found after the yaw,
-    so that they give the rotation back even if both turn about nearly the same axis."""
+    """Return angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn. The roll is found after
+    the yaw, so that they give the rotation back even if both turn about nearly the same axis."""
     yaw = atan2(rotation[1, 0], rotation[0, 0])
     pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
     roll = atan2(
@@ -73,7 +73,7 @@ def add_text(parent: Element, tag: str, text: str, **attributes: str) -> Element
 
 
 def document(root: Element, kind: str, remarks: Iterable[str]) -> str:
-    """The text of an XML file: our marker and the remarks as comments, then the elements, indented."""
+    """Return the text of an XML file: our marker and the remarks as comments, then the elements, indented."""
     ElementTree.indent(root)
     lines = [MARKER.format(kind), *(xml_text(remark) for remark in remarks)]
     comments = ["<!-- {} -->\n".format(re.sub("-(?=-|$)", "- ", line)) for line in lines]

@@ -36,20 +36,8 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as URDF.
-
-    Parameters
-    ----------
-    robot : Robot
-    remarks : sequence of str
-        Comments at the beginning.
-    inertial_only : bool
-        Only the links with their inertials, which is no complete file.
-
-    Returns
-    -------
-    str
-    """
+    """Return a robot as URDF. remarks: comments at the beginning. inertial_only: only the links with their inertials,
+    which is no complete file."""
     names = unique_names([link.name for link in robot.links], xml_text)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_text)
     root = Element("robot", name=xml_text(robot.name))
@@ -119,7 +107,8 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
 
 
 def _pieces(shape: Shape) -> list[Shape]:
-    """A shape as URDF has them: a capsule is a cylinder and two spheres, an ellipsoid the box of its inertia."""
+    """Return the URDF shapes of a shape: a capsule is a cylinder and two spheres, an ellipsoid the box of its
+    inertia."""
     if shape.kind != "capsule":
         return [box_of_ellipsoid(shape)]
     radius, length = shape.size
@@ -130,7 +119,7 @@ def _pieces(shape: Shape) -> list[Shape]:
 def _add_joint(
     root: Element, taken: set[str], name: str, parent: str, child: str, pose: Pose, free: Sequence[FreeAxis]
 ) -> None:
-    """One joint for each degree of freedom, with frames without mass between them."""
+    """Add one joint for each degree of freedom, with frames without mass between them."""
     for number_, axis in enumerate(free or (None,)):
         last = number_ + 1 >= len(free)
         frame = child if last else _free_name("{}_axis_{}".format(child, number_ + 1), taken)

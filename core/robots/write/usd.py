@@ -140,25 +140,13 @@ def identifier(name: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """A string of a layer."""
+    """Return a string of a layer."""
     return '"{}"'.format(text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n"))
 
 
 def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)) -> list[str]:
-    """Return the lines that give a prim its mass, in the units of its stage.
-
-    Parameters
-    ----------
-    inertial : Inertial
-    meters_per_unit : float
-        Of the stage.
-    scale : (3,) array_like
-        Scale of the prim; the center is in its local space.
-
-    Returns
-    -------
-    list of str
-    """
+    """Return the lines that give a prim its mass, in the units of its stage. meters_per_unit: of the stage. scale: (3,)
+    scale of the prim; the center is in its local space."""
     center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
     inertia = inertial.inertia / meters_per_unit**2
     entries = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
@@ -172,17 +160,8 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
 
 
 def round_down(moments: NDArray) -> NDArray[np.float32]:
-    """Return ascending principal moments in single precision, the largest one not above the sum of the others.
-
-    Parameters
-    ----------
-    moments : (3,) array
-        Ascending, in float64.
-
-    Returns
-    -------
-    (3,) float32 array
-    """
+    """Return (3,) ascending principal moments in single precision, the largest one not above the sum of the others.
+    moments: (3,) ascending, in float64."""
     rounded = np.asarray(moments, np.float64).astype(np.float32)
     while float(rounded[2]) > float(rounded[0]) + float(rounded[1]):
         rounded[2] = np.nextafter(rounded[2], np.float32(0.0))
@@ -190,14 +169,14 @@ def round_down(moments: NDArray) -> NDArray[np.float32]:
 
 
 def single(value: float) -> str:
-    """The shortest text that is read as this float32; no negative zero."""
+    """Return the shortest text that is read as this float32; no negative zero."""
     if abs(value) == inf:
         return "inf" if value > 0.0 else "-inf"
     return repr(float(str(np.float32(value) + np.float32(0.0))))
 
 
 def singles(values: Iterable[float]) -> str:
-    """A tuple of them."""
+    """Return a tuple of single-precision numbers."""
     return "({})".format(", ".join(map(single, values)))
 
 
@@ -229,7 +208,7 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 def _shape(shape: Shape, name: str) -> list[str]:
-    """A primitive to collide as."""
+    """Return a primitive to collide as."""
     kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
     lines = [*_prim("def " + kinds[shape.kind], name, ("PhysicsCollisionAPI",)), "{"]
     scale = None
@@ -246,7 +225,8 @@ def _shape(shape: Shape, name: str) -> list[str]:
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """A mesh that collides as its convex hull. USD knows no files of other formats, so it stands in the layer."""
+    """Return a mesh that collides as its convex hull. USD knows no files of other formats, so it stands in the
+    layer."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)
