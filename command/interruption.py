@@ -21,7 +21,8 @@ _requested = False
 @contextmanager
 def interruptible() -> Iterator[None]:
     """Raise KeyboardInterrupt on Ctrl+C within the block, also in `blender -b`, which would only note it. An ignored
-    signal, as in the background of a shell, stays ignored."""
+    signal, as in the background of a shell, stays ignored.
+    """
     global _requested
     _requested = False
     try:
@@ -39,7 +40,8 @@ def interruptible() -> Iterator[None]:
 
 def check_interruption() -> None:
     """Raise KeyboardInterrupt if it was requested: importers written in Python turn the exception into their own
-    error."""
+    error.
+    """
     if _requested:
         raise KeyboardInterrupt
 
@@ -47,7 +49,8 @@ def check_interruption() -> None:
 @contextmanager
 def stopped_by_signals() -> Iterator[None]:
     """Raise KeyboardInterrupt within the block on every signal that asks a process to end. Only the first counts:
-    nothing disturbs the cleanup after it."""
+    nothing disturbs the cleanup after it.
+    """
     names = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
     numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
     before = {}
@@ -76,7 +79,8 @@ def _interrupt(_number: int, _frame: object) -> None:
 
 class Progress:
     """A counter of samples or faces read from a file, which reports their number every `PERIOD` seconds by the message
-    of that code."""
+    of that code.
+    """
 
     def __init__(self, file: str, code: str = PROGRESS_SAMPLES) -> None:
         self._file, self._code, self._count, self._due = file, code, 0, time.monotonic() + PERIOD

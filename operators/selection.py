@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Common parts of all operators on the selection: choice of objects, polls with reasons, progress, and one report a
-run."""
+run.
+"""
 
 from __future__ import annotations
 
@@ -89,7 +90,8 @@ def apply_to_all(
     objects: Sequence[Object], action: Callable[[Object], bool | None]
 ) -> tuple[list[Object], list[Finding]]:
     """Run `action` on each object. Return the objects for which it returned True or None, and the reasons for refusals
-    and failures."""
+    and failures.
+    """
     changed: list[Object] = []
     failures: list[Finding] = []
 

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sub-panel of stability: the standing state of the object, margin and tipping angle, the poses in which it
-rests."""
+rests.
+"""
 
 from __future__ import annotations
 

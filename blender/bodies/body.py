@@ -106,7 +106,8 @@ class Body:
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
         """Return the moments of the volume, or the area, that axes are found by; of one surface in one place, mapped
-        evenly, in its own coordinates: wherever it stands, its axes are the same."""
+        evenly, in its own coordinates: wherever it stands, its axes are the same.
+        """
         volume, areas = self.moments(order, area)
         return volume if areas is None else areas
 

@@ -101,7 +101,8 @@ def metaball_families(view_layer) -> list[list]:
     """Return the metaball objects by family, in each the one first that holds the polygons of all.
 
     A family shares the name before its number, and the lowest number holds
-    (BKE_mball_basis_find)."""
+    (BKE_mball_basis_find).
+    """
     families: dict[str, list] = {}
     for obj in view_layer.objects:
         if obj.type == "META":

@@ -155,7 +155,8 @@ def _reframe_alike(
 
 def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> list[int]:
     """Copy meshes for objects that share them and want different changes, (n, 4, 4), of points as far out as `reach`
-    says; for each mesh that then has to be changed, the first of the plans that want it."""
+    says; for each mesh that then has to be changed, the first of the plans that want it.
+    """
     sharing: dict[Mesh, list[int]] = {}
     for i, plan in enumerate(plans):
         sharing.setdefault(plan.obj.data, []).append(i)

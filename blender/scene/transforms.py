@@ -131,7 +131,8 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
     """Return rotations (..., 3, 3) and scales (..., 3) of linear maps, with the signs of the present scales as
-    far as their hand allows, and a (...,) mask of such maps: not sheared, and with no zero scale."""
+    far as their hand allows, and a (...,) mask of such maps: not sheared, and with no zero scale.
+    """
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)

@@ -30,7 +30,8 @@ _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_M
 @dataclass(frozen=True, eq=False)
 class DensityField:
     """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the
-    world's axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices."""
+    world's axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices.
+    """
 
     kind: str
     polynomial: Polynomial | None = None

@@ -41,7 +41,8 @@ _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 @dataclass
 class BareFile:
     """A file measured without Blender. options: of the command line. measured: name and measurement, if any. refusal:
-    the reason if there is none."""
+    the reason if there is none.
+    """
 
     path: str
     options: Namespace

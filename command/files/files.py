@@ -127,7 +127,8 @@ def _open_blend(path: str) -> None:
 
 def _saved_by(path: str) -> tuple[int, int] | None:
     """Return the version of Blender in the header of a .blend file not compressed with zstd: (0, 0) for big-endian
-    numbers, (99, 0) for a file format of the future; None if there is no such header."""
+    numbers, (99, 0) for a file format of the future; None if there is no such header.
+    """
     with open(path, "rb") as file:
         head = file.read(20)
     if head.startswith(b"\x1f\x8b"):
@@ -193,7 +194,8 @@ def _check_usdz(path: Path, size: int) -> None:
 
 def _check_stl(head: bytes, tail: bytes, size: int) -> None:
     """Raise FileError if an STL file is cut short. Blender reads a file of exactly the promised size as binary, any
-    other as text, and does not report lost data."""
+    other as text, and does not report lost data.
+    """
     if len(head) == 84 and size == 84 + 50 * struct.unpack_from("<I", head, 80)[0]:
         return
     if not head.lstrip().lower().startswith(b"solid"):
@@ -204,7 +206,8 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
 
 def reason(error: Exception) -> str:
     """Return an error of the system or of Blender as one line: the first line of a report, or the exception of a
-    traceback, which Blender may follow with its location."""
+    traceback, which Blender may follow with its location.
+    """
     if isinstance(error, OSError):
         return system_reason(error)
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
@@ -220,7 +223,8 @@ def reason(error: Exception) -> str:
 
 def requested_file() -> str | None:
     """Return the .blend file that Blender was started with. Blender runs a command on its start-up scene if it cannot
-    open the file."""
+    open the file.
+    """
     for word in sys.argv[1:]:
         if word in ("-c", "--command", "--"):
             return None

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of B-spline surfaces as objects of the open scene: IGES, for which Blender has no importer, and .obj files with
-``surf``, which its own importer leaves out without a word."""
+``surf``, which its own importer leaves out without a word.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ def import_iges(path: str) -> Opened:
 
 def import_obj(path: str) -> Opened:
     """Add the objects of a file to the scene: faces by Blender's importer, surfaces by ours. Raises FileError and
-    OSError."""
+    OSError.
+    """
     if not has_surfaces(path):
         bpy.ops.wm.obj_import(filepath=path)
         return Opened()

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files read together with the named ones: the samples of a detached NRRD, buffers and textures of a glTF, the
-libraries of a .blend, layers of USD. No result may replace one of them."""
+libraries of a .blend, layers of USD. No result may replace one of them.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ _CRATE = b"PXR-USDC"  # start of a binary USD layer
 
 def files_read(paths: Iterable[str]) -> Iterator[Path]:
     """Yield the existing files that the named files, or else the open scene, refer to directly or indirectly. Opens the
-    named files in Blender. Unreadable files refer to nothing."""
+    named files in Blender. Unreadable files refer to nothing.
+    """
     paths = list(paths)
     waiting = [Path(path) for path in paths] or _open_files()
     for path in paths:
@@ -40,7 +42,8 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
 
 def references(path: str, is_open: bool) -> Iterator[Path]:
     """Yield the files, existing or not, that a file refers to and that may change its measurements. is_open: whether it
-    is the open scene."""
+    is the open scene.
+    """
     first = Path(path)
     waiting = [first, *(_open_files(packed=False) if is_open else ())]
     with suppress(OSError, ValueError, RuntimeError):

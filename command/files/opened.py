@@ -13,7 +13,8 @@ from ...core.verdict.finding import Finding
 @dataclass(frozen=True)
 class Opened:
     """errors: parts of the file, or references, that are missing now. notes: about the whole file. by_object: about one
-    object, by its name."""
+    object, by its name.
+    """
 
     errors: tuple[Finding, ...] = ()
     notes: tuple[Finding, ...] = ()

@@ -26,7 +26,8 @@ _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may 
 
 def claim_stdout() -> int:
     """Return a descriptor of the standard output that nothing else in this process reaches any more, or -1 if it is
-    closed."""
+    closed.
+    """
     silent = not _is_open(2)
     try:
         channel = os.dup(1)

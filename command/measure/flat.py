@@ -35,7 +35,8 @@ def record_of(
     findings: tuple[Finding, ...],
 ) -> dict[str, Any]:
     """Return the record of an object as a flat shape. refusal: why it is no body. findings: about its file. Raises
-    MeasureError."""
+    MeasureError.
+    """
     try:
         return _record(label, obj, options, unit, findings)
     except MeasureError as error:

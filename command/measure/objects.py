@@ -57,7 +57,8 @@ def objects_to_measure(
 
 def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
     """Return the scene's measurable objects outside of its view layer, but for the members of instanced collections,
-    which the instancers' records hold."""
+    which the instancers' records hold.
+    """
     instanced = {obj.instance_collection for obj in scene.objects if shows_collection(obj)}
     members = {member for collection in instanced for member in collection.all_objects}
     return {obj for obj in {*scene.objects} - {*layer.objects} - members if measurable(obj)}

@@ -250,7 +250,8 @@ class _Supervised:
 
     def _recorded(self, outcome: TaskOutcome, blender: str) -> tuple[str, Finding | None, bytes]:
         """Return the status of a file, the reason for a missing answer or None, and the document, which always
-        exists."""
+        exists.
+        """
         if outcome.status == "answered":
             with suppress(ValueError, KeyError, TypeError):
                 return json.loads(outcome.data)["status"], None, outcome.data
@@ -268,7 +269,8 @@ class _Supervised:
 
     def _report(self, progress: Progress, outcome: TaskOutcome, reason: Finding | None) -> None:
         """Print the reason for a failed file, else the messages of its child; after an internal error all output of the
-        child."""
+        child.
+        """
         faults = outcome.head.get("faults", 0)
         self._faults += faults
         if reason is not None:

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks of output places before anything is measured: they must be writable, and no input and nobody else's file.
-Standard library only."""
+Standard library only.
+"""
 
 from __future__ import annotations
 
@@ -59,7 +60,8 @@ def files_to_replace(
 ) -> list[tuple[Path, str]]:
     """Return the existing targets that are no results of ours, each with its option. Ends with a message if a target is
     among the files that are `read`, or without --force if it is somebody else's and not empty. `options.forced`: the
-    targets that need --force."""
+    targets that need --force.
+    """
     options.forced = []
     read, replaced = list(read), []
     for option in TARGETS:

@@ -25,7 +25,8 @@ _BEYOND = {"timeout": "seconds", "memory": "memory"}  # statuses that a higher l
 @dataclass(frozen=True)
 class Entry:
     """One file's line without its document. refers: whether the file refers to others. offset, length: position of the
-    line."""
+    line.
+    """
 
     key: dict[str, Any]
     status: str
@@ -74,7 +75,8 @@ class Journal:
         reads: dict[str, Any] | None = None,
     ) -> None:
         """Append the line of a finished file. document: as JSON on one line. reads: the files that it refers to, each
-        with its `state`. Raises OSError."""
+        with its `state`. Raises OSError.
+        """
         head = {
             "schema": SCHEMA,
             "key": key,

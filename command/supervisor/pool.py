@@ -71,7 +71,8 @@ class TaskOutcome:
 class _Child:
     """A process. started: time of its start, or of its task. deadline: for being ready, or done. task: its current
     file. base: its memory when it was ready. measured: the number of files it was given. doomed: why it was ended by
-    us."""
+    us.
+    """
 
     process: subprocess.Popen[bytes]
     kept: int | None

@@ -98,7 +98,8 @@ class _Reader:
     @staticmethod
     def _members(fields: list[str]) -> list[int]:
         """Return the pointers to the members of a subfigure; its depth, its name, and their number stand before
-        them."""
+        them.
+        """
         (count,) = integers(fields[2:], 1)
         return integers(fields[3:], count)
 
@@ -187,7 +188,8 @@ class _Reader:
 
     def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
         """Return the curve as lines and splines in order; None if it is something else. depth: the number of curves
-        around it. left: yields an item for each further piece that is allowed."""
+        around it. left: yields an item for each further piece that is allowed.
+        """
         entry = self._entries.get(pointer)
         if entry is None or entry.matrix or depth >= MAX_DEPTH or next(left, None) is None:
             return None

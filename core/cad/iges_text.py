@@ -74,7 +74,8 @@ class IgesText:
 
     def fields(self, entry: Entry) -> list[str]:
         """Return the parameters of an entity, behind its type, texts without their length. ValueError if they end too
-        early, or are another entity's."""
+        early, or are another entity's.
+        """
         first, count = entry.parameters
         start, end = first - 1, first - 1 + count
         if not 0 <= start < end <= len(self._lines):
@@ -193,7 +194,8 @@ def padded(fields: list[str], count: int) -> list[str]:
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:
     """Return the real numbers of the fields, 0 if a field is blank, with Fortran's exponents. ValueError if one is
-    none."""
+    none.
+    """
     text = "\n".join(fields)
     if not _NUMBERS.fullmatch(text):
         raise ValueError("not a number")

@@ -17,5 +17,6 @@ SYSTEM_UNITS = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}  # The
 
 def density_unit(chosen: str, system: str) -> str:
     """Return the unit to show densities in. chosen: one of `DENSITY_UNITS`, or "AUTO". system: a scene's unit system,
-    one of `SYSTEM_UNITS`. Returns one of `DENSITY_UNITS`."""
+    one of `SYSTEM_UNITS`. Returns one of `DENSITY_UNITS`.
+    """
     return SYSTEM_UNITS[system] if chosen == "AUTO" else chosen

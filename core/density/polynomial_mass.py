@@ -135,7 +135,8 @@ def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[ND
 
 def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
     """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes from its own origin, as placed by
-    `matrices`."""
+    `matrices`.
+    """
     axes, _ = polar_rotation(matrices)
     fields = np.zeros((len(matrices), 4, 4))
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]

@@ -168,7 +168,8 @@ def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, NDArray[np.float64]]]:
     """Yield planes of samples as float64, each slab with the first plane of the next, and its first index; with a layer
-    of the background on every side, if there is one."""
+    of the background on every side, if there is one.
+    """
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
     step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))

@@ -47,7 +47,8 @@ def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Itera
 @contextmanager
 def partial_file(path: Path, alone: bool) -> Iterator[Path]:
     """Yield the name of a file beside `path` to write first, gone when the block ends. Files left by processes that
-    were killed go too, if nobody else can be writing."""
+    were killed go too, if nobody else can be writing.
+    """
     partial = beside(path, "{}.partial".format(os.getpid()))
     written = Path("{}@".format(partial))  # Blender's own, while it saves
     ours = re.compile(re.escape(beside(path, "").name) + r"\d+\.partial@?")

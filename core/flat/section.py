@@ -151,7 +151,8 @@ class Section:
 
 def principal_angle(second: NDArray, noise: float) -> float:
     """Return the angle of axis 1, in (-π/2, π/2]; a product of inertia below `noise` is none, so that it cannot turn
-    the axis over."""
+    the axis over.
+    """
     first, last, mixed = second.tolist()
     if abs(mixed) <= noise:
         return 0.0 if first >= last else pi / 2.0

@@ -238,7 +238,8 @@ class GridTransform(Transform):
 
 def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
     """Return the least width of the kernel for an error of tolerance Σ |c|, divided by |k| at each wave vector k or
-    not."""
+    not.
+    """
     k = np.arange(1, half + 1) if divided else np.ones(half)
     for width in WIDTHS:
         if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
@@ -248,7 +249,8 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
     """Return (m,) the number of points along a side that keeps each D within tolerance, for |q| times the diameters;
-    MAX_POINTS_PER_SIDE + 1 if none does."""
+    MAX_POINTS_PER_SIDE + 1 if none does.
+    """
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)
@@ -266,7 +268,8 @@ def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
 
 def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
     """Return indices of sample places on a grid: the ends and beginnings of its axes and diagonals, at which faces
-    across them show most, and random ones."""
+    across them show most, and random ones.
+    """
     h, n = grid.half, grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
     positions = np.concatenate(

@@ -107,7 +107,8 @@ def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 def _grid_side(half: int, width: int) -> int:
     """Return the cells along a side of the fine grid: an even number with small prime factors only, for which a fast
-    Fourier transform is fast."""
+    Fourier transform is fast.
+    """
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
     while _has_large_prime(n):

@@ -47,7 +47,8 @@ class SecondMomentAxes:
     """Axes from second moments. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
     (standard deviations) along them. undetermined_axes: the axes that equal moments leave free. step: shift of the
     points by float32, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
-    normalized third moments that differ by less are equal."""
+    normalized third moments that differ by less are equal.
+    """
 
     axes: NDArray[np.float64]
     size: NDArray[np.float64]
@@ -61,7 +62,8 @@ class SecondMomentAxes:
 class FrameRule:
     """Rule that fixes frames beside second moments. extreme: the degree of the moments that are extreme along their
     third axis; 0 if second moments fix an axis. axis, harmonic: the axis about which the harmonic of this degree, m and
-    k is real; None if none is clear. sign: the harmonic's."""
+    k is real; None if none is clear. sign: the harmonic's.
+    """
 
     extreme: int
     axis: int
@@ -75,7 +77,8 @@ class EquivalentFrames:
     normalized central moments of third to the highest order in each of them, and their noise. revolution_axes: the
     directions that no moment fixes: none (), all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an
     estimate of the angle by which noise may have turned them. rule: fixes them; None if second moments alone do, or if
-    they are the poles of a circle of extreme directions."""
+    they are the poles of a circle of extreme directions.
+    """
 
     frames: NDArray[np.float64]
     values: NDArray[np.float64]
@@ -88,7 +91,8 @@ class EquivalentFrames:
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
     """Return the frames that a body's moments choose. moments: to some order from 3 to MAX_ORDER, about any point.
     starts: (k, 3, 3) the frames along the spread's axes that third moments allow. MeasureError if their size is beyond
-    the range of numbers."""
+    the range of numbers.
+    """
     central = moments.about_center()
     total = central.raw[0]
     with np.errstate(over="ignore", under="ignore"):
@@ -163,7 +167,8 @@ def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
     """Return the first harmonic about that axis of the bases that is above noise, first among harmonics above
-    CLEAR_HARMONIC: its degree, m and k, (n,) its value in each basis, and its noise."""
+    CLEAR_HARMONIC: its degree, m and k, (n,) its value in each basis, and its noise.
+    """
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size, weaker = [first, second, axis], _extents(spread), None
     for degree in range(3, central.order + 1):
@@ -198,7 +203,8 @@ def _extreme_directions(
 ) -> tuple[NDArray, float, float, bool]:
     """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer; 1 or -1 for
     the two; the angle by which noise may have turned them; and whether they are isolated: of a circle of them the poles
-    are returned. None (0, 3) if the moment is the same in all directions."""
+    are returned. None (0, 3) if the moment is the same in all directions.
+    """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
     least = max(2.0 * _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1].max(), clear)
@@ -289,7 +295,8 @@ def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDAr
 
 def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
     """Return for each monomial of a degree the product of the extents along its axes, and the noise of its normalized
-    moment by float32 coordinates and by rounding."""
+    moment by float32 coordinates and by rounding.
+    """
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = _extents(spread)
     unit = np.prod(size**powers, axis=1)
@@ -303,7 +310,8 @@ def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> t
 
 def _extents(spread: SecondMomentAxes) -> NDArray[np.float64]:
     """Return (3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to
-    nothing."""
+    nothing.
+    """
     return np.where(spread.size > FLAT_EXTENT_RTOL * spread.size.max(), spread.size, np.inf)
 
 

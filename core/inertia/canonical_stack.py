@@ -89,7 +89,8 @@ def choose_about_axis(
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return (n, 4) mask of the allowed half turns with the largest normalized moments, (n, columns), column after
-    column; values that differ by no more than `least` are equal."""
+    column; values that differ by no more than `least` are equal.
+    """
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
     count = values.shape[1]
@@ -107,7 +108,8 @@ def _along_axes(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return (n, columns) the normalized central moments of third to the highest order along the axes, and their noise;
-    (n, K) the central moments along the axes by the total."""
+    (n, K) the central moments along the axes by the total.
+    """
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
     with np.errstate(over="ignore"):
@@ -134,7 +136,8 @@ def _extents(size: NDArray) -> NDArray[np.float64]:
 def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
     """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0, z along
     this axis and x and y along the next: (h,) the number of moments' noise that each holds, (h,) the column, from third
-    order on, of the moment of its size, and (h, columns) the moments that make it up."""
+    order on, of the moment of its size, and (h, columns) the moments that make it up.
+    """
     weights, columns, forms = [], [], []
     for degree in range(3, order + 1):
         for m in range(1, degree + 1):

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Choice among the frames in which bodies are the same: along the axes that second moments fix, and nearest to
-preferred axes."""
+preferred axes.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments,
 
 def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
     """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the axes of the
-    bodies."""
+    bodies.
+    """
     along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
     near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
     is_fixed = IS_FIXED[fixed.symmetry[bodies]]

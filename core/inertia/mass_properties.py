@@ -240,7 +240,8 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike |
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return (n,) whether bodies within these boxes, (n, 3) and (n, 3), can have these moments: their centers are
     inside, and their second central moments are those of a positive mass. A surface that intersects itself may violate
-    both."""
+    both.
+    """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
     second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
@@ -254,7 +255,8 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDA
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
     """Return bounds of the change by rounding, and of the change if the moments are off by their `input_error`: for the
-    worst signs of all errors, with the divisor at its smallest; infinite if nothing bounds a quotient."""
+    worst signs of all errors, with the divisor at its smallest; infinite if nothing bounds a quotient.
+    """
     delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off

@@ -123,7 +123,8 @@ def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
     """Return the frames of a body with these rounded moments, without values. ways: 1 if its fixed axis may point
-    ahead, 2 back, 3 both."""
+    ahead, 2 back, 3 both.
+    """
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -156,7 +157,8 @@ def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
     """Return (n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there; (n, degrees)
-    bounds of them for each degree; (n, 3) the extents."""
+    bounds of them for each degree; (n, 3) the extents.
+    """
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -184,7 +186,8 @@ def _refined(
     frames: NDArray[np.float64], rule: FrameRule, raw: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return (n, k, 3, 3) the frames (k, 3, 3) as the moments (n, K) of n bodies ask by the rule, and (n,) whether they
-    have hardly turned."""
+    have hardly turned.
+    """
     start, frames = frames, np.tile(frames, (len(raw), 1, 1, 1))
     third, first, second = rule.axis, (rule.axis + 1) % 3, (rule.axis + 2) % 3
     if rule.extreme:
@@ -218,7 +221,8 @@ def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
 
 def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -> NDArray:
     """Return (n, k, ...) the moments of a degree, by default as many as there are forms, of n bodies as tensors, with
-    the forms (n, k, 3) put into them."""
+    the forms (n, k, 3) put into them.
+    """
     out = np.einsum("n...i,nki->nk...", raw[:, tensor_index(degree or len(forms))], forms[0])
     for form in forms[1:]:
         out = np.einsum("nk...i,nki->nk...", out, form)

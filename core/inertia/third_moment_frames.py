@@ -167,7 +167,8 @@ def third_moment_frames(
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return (n,) whether better third moments could change neither the scores of fixed axes that count, nor their
-    signs, nor their order."""
+    signs, nor their order.
+    """
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
@@ -181,7 +182,8 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
     """Return (n, 3, 3) for each body and axis i its skewness and the two normalized third moments odd in i and even in
-    another axis, M_iii, M_ijj and M_ikk; and the bounds of their errors."""
+    another axis, M_iii, M_ijj and M_ikk; and the bounds of their errors.
+    """
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
     third = moments.raw[:, THIRD_MOMENT_INDEX] / total[:, None, None, None]

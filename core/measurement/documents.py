@@ -116,7 +116,8 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
     """Yield CSV with these columns: a row for each mapping; missing entries stay empty. Text is escaped as in
-    `to_csv`."""
+    `to_csv`.
+    """
     yield _line(header)
     for row in rows:
         yield _line(_cell(row.get(name, "")) for name in header)

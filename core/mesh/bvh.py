@@ -74,7 +74,8 @@ def sort_components(
 
 def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
     """Return the stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by
-    counting."""
+    counting.
+    """
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
         order = order[np.argsort((values >> 16).astype(np.uint16)[order], kind="stable")]
@@ -97,7 +98,8 @@ class Bvh:
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
         """Set `ids`, `bottom` and `top`: the triangles of the wanted components, one after the other, each in Morton
-        order. Return (m,) the component of each."""
+        order. Return (m,) the component of each.
+        """
         ids, component = components.triangles, components.component
         if not selected.all():
             triangle_rows = np.flatnonzero(selected[component])
@@ -171,7 +173,8 @@ class Bvh:
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
         """Return (k,) the winding number of a component around each place (about `origin`), and whether it is sure: not
-        if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out."""
+        if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
+        """
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
         query = np.ascontiguousarray(query_points.T)
@@ -324,7 +327,8 @@ def _edges_cross_triangles(
 ) -> NDArray[np.intp]:
     """Return the indices of the triangles `corner` with an edge that goes through their partner in `plane`, both (3, k,
     3): more than the tolerance away from its edges, and further than that to both sides while it is over the partner.
-    (The plane of a sliver is not known far from it.)"""
+    (The plane of a sliver is not known far from it.)
+    """
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)

@@ -56,7 +56,8 @@ def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
     """Return a function of the start of a block of corners. It returns the face of each corner, and whether its side
-    runs to a higher vertex. None if faces and corners do not fit."""
+    runs to a higher vertex. None if faces and corners do not fit.
+    """
     quads, triangles = len(surface.quads), len(surface.triangles)
     if not triangles and surface.quad_faces is None:
         size = 4
@@ -114,7 +115,8 @@ class Edges:
 
     def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
         """Return (e,) sides that run upward minus sides that run downward, once the `flipped` triangles are
-        reversed."""
+        reversed.
+        """
         return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
     def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

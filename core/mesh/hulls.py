@@ -158,7 +158,8 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
     """Return the index of the largest distance. Among distances as large to `least`, take the largest reach: it is at a
-    corner of the hull."""
+    corner of the hull.
+    """
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
 
@@ -189,7 +190,8 @@ class _GrowingHull:
 
     def _heights(self, points: NDArray[np.intp], faces: NDArray[np.intp]) -> NDArray[np.float64]:
         """Return (k,) normal · (point - corner): rounded, but of the right sign, and zero only if the point is in the
-        plane. The product needs 90 bits: the normal's upper and lower bits are multiplied apart."""
+        plane. The product needs 90 bits: the normal's upper and lower bits are multiplied apart.
+        """
         offset = self.grid[points] - self.grid[self.corners[faces, 0]]
         normal = self.normals[faces]
         high = np.einsum("ij,ij->i", normal >> GRID_BITS, offset)
@@ -201,7 +203,8 @@ class _GrowingHull:
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
         """Return for each point, of one or more, the face that it is highest above, of the `counts` faces from the face
-        `firsts` on; without the points that are above none."""
+        `firsts` on; without the points that are above none.
+        """
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -239,7 +242,8 @@ class _GrowingHull:
         self, apexes: NDArray[np.intp], faces: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """Return (k, 2) pairs of an apex and a face that it sees, and (l, 3) apex, visible face and side beyond which
-        it sees none."""
+        it sees none.
+        """
         size = len(self.corners)
         front = np.stack([np.arange(len(apexes)), faces], axis=1)
         known = np.sort(front[:, 0] * size + front[:, 1])

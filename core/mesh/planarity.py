@@ -39,7 +39,8 @@ QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) wh
 class Planarity:
     """non_planar_count: how many faces are not; volume_spread: the volume that the choice of their diagonals can
     change;
-    degenerate_faces: (k,) the faces that have none."""
+    degenerate_faces: (k,) the faces that have none.
+    """
 
     non_planar_count: int
     volume_spread: float
@@ -49,7 +50,8 @@ class Planarity:
 @dataclass(frozen=True, eq=False)
 class _PlanarityPartial:
     """Results of some quads or triangles: their count; the count of faces surely not flat, and 6 times their spread;
-    and the rows of the undecided faces."""
+    and the rows of the undecided faces.
+    """
 
     count: int
     non_planar_count: int
@@ -251,7 +253,8 @@ def _tetrahedra(
     ring: NDArray[np.integer], begin: NDArray[np.integer], sizes: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
     """Return the tetrahedra of polygons with corners that stand in `ring`, from `begin` on: (m,) the polygon of each,
-    and (m, 4) corners."""
+    and (m, 4) corners.
+    """
     steps = sizes - 3
     row = np.repeat(np.arange(len(sizes)), steps)
     at = begin[row] + 2 + segment_ranges(steps)
@@ -265,7 +268,8 @@ def _sum_in_order(volumes: NDArray[np.float64]) -> float:
 
 def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:
     """Merge the partial results of `count` rows in the order of the rows; if some rows are missing, all are
-    undecided."""
+    undecided.
+    """
     partials = [blocks[start] for start in sorted(blocks)]
     if sum([block.count for block in partials]) != count:
         return _PlanarityPartial(count, 0, 0.0, np.arange(count))
@@ -279,5 +283,6 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
 
 def _degenerate_limit(longest: NDArray | float, error: float | NDArray) -> NDArray | float:
     """Return the largest square of the normal of a face without area, from the square of its longest edge or
-    diagonal."""
+    diagonal.
+    """
     return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

@@ -82,7 +82,8 @@ class LineGrids:
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
         """Return (3, n) places of points: in rows, in columns, and along the lines from the center (unit). body: (n,)
-        the body of each point, None for a single one."""
+        the body of each point, None for a single one.
+        """
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
@@ -221,7 +222,8 @@ def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return (3, k) corners of the triangles that span several rows and columns, and their indices; both halves of such
-    a quad are included."""
+    a quad are included.
+    """
     triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):
@@ -260,7 +262,8 @@ def _cross_row(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
     """Return (2, k) and (2, k) the points at which a row enters and leaves each triangle: in columns, and along the
     lines; and the sign of the lines' crossings in between. places, corners: (3, 3t) and (3t,) of all first corners, all
-    second and all third ones; which: (k,) the triangles; higher: (3, k) mask of their corners above the row."""
+    second and all third ones; which: (k,) the triangles; higher: (3, k) mask of their corners above the row.
+    """
     first, second, third = higher
     single = (first ^ second ^ third) & ~(first & second & third)
     lone = np.where(first == second, 2, first == third)  # the corner on a side of its own

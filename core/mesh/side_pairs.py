@@ -80,7 +80,8 @@ class _Table:
 
     def factors_by_distinct_places(self, faces: NDArray[np.integer]) -> list[int]:
         """Return the hash factors, ordered by the number of distinct places of the sides around some vertices, most
-        first: in a grid the differences of neighbors are the same few everywhere."""
+        first: in a grid the differences of neighbors are the same few everywhere.
+        """
         flat = faces.ravel()
         first = len(self.sides) >> self.bits + 1
         number = np.flatnonzero((flat >= first) & (flat < first + SAMPLED_VERTICES))

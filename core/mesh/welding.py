@@ -32,7 +32,8 @@ def may_have_neighbor(
     points: NDArray[np.floating], reach: float | NDArray[np.float64], owner: NDArray[np.integer] | None = None
 ) -> NDArray[np.bool_]:
     """Return (n,) whether a point may have another one of the same owner within reach; surely true for all that have.
-    reach: for all points, or for each, equal for all points of an owner."""
+    reach: for all points, or for each, equal for all points of an owner.
+    """
     x, y, z = points.T.astype(np.float64)
     along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
     order = along.argsort() if owner is None else np.lexsort((along, owner))

@@ -48,7 +48,8 @@ def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
 
 def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
     """Return (K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the
-    linear forms of the k maps, linear (3, 3, k) and offset (3, k)."""
+    linear forms of the k maps, linear (3, 3, k) and offset (3, k).
+    """
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
     by_p = np.broadcast_to(values, out.shape)
@@ -107,7 +108,8 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
     """Return the images of the monomials of a degree as polynomials of the old ones, (..., rows, rows). table: the same
-    for one degree less. forms: (..., 3, 3) the images of x, y, z."""
+    for one degree less. forms: (..., 3, 3) the images of x, y, z.
+    """
     count, below = count_of_degree(degree), count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
@@ -128,7 +130,8 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 @lru_cache
 def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
     """Return the terms of all monomials, one after the other, once one of x, y, z is moved by t: (k,) the old monomial
-    of each term, the power of t, and the binomial; and (K,) the first term of each monomial."""
+    of each term, the power of t, and the binomial; and (K,) the first term of each monomial.
+    """
     powers, tables = monomials(order), []
     for axis in range(3):
         count = powers[:, axis] + 1
@@ -143,7 +146,8 @@ def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
     """Return (..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the
-    other."""
+    other.
+    """
     moved = offsets.any(axis=-1)
     if not moved.all():  # most images are about the image of their point
         values = values.copy()
@@ -206,13 +210,15 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
     """Return (k,) whether (k, 3, 3) maps are rotations, reflections and uniform scales, as far as float32 matrices can
-    be."""
+    be.
+    """
     return anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
     """Return (k,) the relative excess of the stretch of each of the (3, 3, k) maps in one direction over another;
-    infinite for a flat map."""
+    infinite for a flat map.
+    """
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
     ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]

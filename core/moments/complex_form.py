@@ -53,7 +53,8 @@ class ComplexBound:
 @dataclass(frozen=True)
 class Invariant:
     """A number that does not change when a shape is turned: `name`, the largest `degree` of its moments, `value`,
-    `is_complex`, and bounds of the changes by rounding, and by storing coordinates as float32."""
+    `is_complex`, and bounds of the changes by rounding, and by storing coordinates as float32.
+    """
 
     name: str
     degree: int

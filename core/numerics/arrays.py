@@ -41,7 +41,8 @@ def segment_starts(counts: NDArray) -> NDArray[np.intp]:
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
     """Return (count or more,) the sum of the weights of each index. numpy's types allow `bincount` only without
-    weights."""
+    weights.
+    """
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
 

@@ -185,7 +185,8 @@ class SplineSpace:
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
         """Return (n, count) the weights of the control points at each of n parameters, or in a derivative there. spans:
-        (n,) the span of each parameter, needed if a knot may end one or begin the next."""
+        (n,) the span of each parameter, needed if a knot may end one or begin the next.
+        """
         parameters = float_array("parameters", parameters, "n")
         spans = self.find_spans(parameters) if spans is None else spans
         values = self.derivatives(spans, parameters, derivative)[derivative]

@@ -33,7 +33,8 @@ def _split(a: NDArray) -> tuple[NDArray, NDArray]:
 
 def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
     """Return (3, k) (b-a) x (c-a) for corners (3, k), each component to a relative accuracy of about u, however thin
-    the triangle."""
+    the triangle.
+    """
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
     coordinates = []
     for y, z in ((1, 2), (2, 0), (0, 1)):

@@ -47,7 +47,7 @@ class BezierCells:
 
     @property
     def orders(self) -> tuple[int, int]:
-        """k and k'."""
+        """K and k'."""
         return self.net.shape[1], self.net.shape[3]
 
     def __len__(self) -> int:
@@ -72,7 +72,8 @@ class BezierCells:
 
     def about_anchor(self) -> BezierCells:
         """Return the cells about their own first control points: the summed numbers, and their rounding, are as small
-        as the cell then."""
+        as the cell then.
+        """
         net, first = np.empty_like(self.net), self.net[:3, 0, :, 0]
         if len(net) == 4:
             net[3] = self.net[3]
@@ -157,7 +158,8 @@ def cells_of_nets(
     reach: float,
 ) -> BezierCells:
     """Return the Bézier patches of g control nets (g, count_s, count_t, 3 or 4), about points near them, (g, 3), for
-    some spans of s and t, in the order of nets, spans of s, spans of t."""
+    some spans of s and t, in the order of nets, spans of s, spans of t.
+    """
     s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
     t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
     (u, k), (v, kk), (g, _, count, d) = active_rows.shape, columns.shape, nets.shape
@@ -185,7 +187,8 @@ def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or of
-    several side by side, and the weights (n, rules); not to be written to."""
+    several side by side, and the weights (n, rules); not to be written to.
+    """
     parts = [gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule]
     nodes = np.concatenate([nodes for nodes, _ in parts])
     weights, start = np.zeros((len(nodes), len(parts))), 0

@@ -159,7 +159,8 @@ def _integrate(
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the Bézier curves of a curve: control points (c, order, 3), or (c, order, 4) points times weights, and the
-    weights, about an anchor (c, 3), itself about the point."""
+    weights, about an anchor (c, 3), itself about the point.
+    """
     space, origin = curve.space, curve.points[0]
     net = curve.points - origin
     if curve.weights is not None:
@@ -185,7 +186,8 @@ def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
 
 def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
     """Return (c,) upper bounds of the lengths of pieces that heavy weights draw to a point but for their ends, 0 for
-    others."""
+    others.
+    """
     if net.shape[2] == 3:
         return np.zeros(len(net))
     weights, points = net[..., 3], net[..., :3] / net[..., 3:]

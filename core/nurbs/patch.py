@@ -87,7 +87,8 @@ class Patch:
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
         """Return the (m, n, 3) points given by two tables, (m, count_s) and (n, count_t), of weights of its control
-        points."""
+        points.
+        """
         points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]

@@ -57,7 +57,8 @@ Integrand = Callable[[BezierCells, Rule], NDArray]
 @dataclass(frozen=True, eq=False)
 class Integral:
     """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment. converged:
-    True if the estimate is below the tolerance."""
+    True if the estimate is below the tolerance.
+    """
 
     values: NDArray[np.float64]
     estimate: float
@@ -98,7 +99,8 @@ def volume_moments(
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
     """Return (rules, K + 1, c) the flux of monomials times the place, and a size: the area, or its bound ∫ |S_s|
-    |S_t|."""
+    |S_t|.
+    """
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
     terms = weighted_monomials(s, dot(s, normal), order, 1)
@@ -134,7 +136,8 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
     """Return (c,) the areas between neighboring points of cells between which the patch turns over: its area has a kink
     there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
-    directions."""
+    directions.
+    """
     total = np.zeros(normal.shape[2])
     for (points,), other_weights in zip(rule, weights[::-1]):
         nodes, _ = gauss_legendre_with_ends(points)
@@ -149,7 +152,8 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
 
 def area_slope(patches: Sequence[Patch]) -> float:
     """Return the largest change of the area, to first order, for each unit that every control point moves: the sum of
-    the lengths of its gradients by them. By a fixed rule: an estimate."""
+    the lengths of its gradients by them. By a fixed rule: an estimate.
+    """
     total = 0.0
     for patch in patches:
         net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
@@ -170,7 +174,8 @@ def area_slope(patches: Sequence[Patch]) -> float:
 @lru_cache(maxsize=64)
 def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
     """Return values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,);
-    not to be written to."""
+    not to be written to.
+    """
     nodes, weights = gauss_legendre(SLOPE_POINTS)
     tiles = []
     for start in range(0, len(space.spans), SLOPE_SPANS):
@@ -193,7 +198,8 @@ def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> NDArray[np.float64]:
     """Return (3, k, k') the area's gradient by control points, of homogeneous ones by the product of weight and
-    place."""
+    place.
+    """
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
@@ -264,7 +270,8 @@ def sheet_moments(
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
     """Return (3,) the integral of the unit normals: of a flat patch its area along its normal. Exact along directions
-    in which the weights are the same, by a fixed rule along others."""
+    in which the weights are the same, by a fixed rule along others.
+    """
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
         s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.constant_weights))
@@ -275,7 +282,8 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
 
 def exact_points(order: int, degree: int) -> int:
     """Return the Gauss points in a span of a polynomial direction of this order that make moments of this degree
-    exact."""
+    exact.
+    """
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
@@ -346,7 +354,8 @@ def integrate_adaptively(
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
     """Return (c,) the area that may lie between the points of all rules: for cells with weights that differ by more
     than the factor `steep`, so that all but their margin is drawn to a point, the squared diagonal of their control
-    points' box."""
+    points' box.
+    """
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
         weights = cells.net[3]
@@ -362,7 +371,8 @@ def _rules(
     orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
 ) -> tuple[Rule, ...]:
     """Return two rules to compare, of so many points along each direction, or fewer if exact; joined into one if they
-    differ along one direction only, which takes no more points."""
+    differ along one direction only, which takes no more points.
+    """
     coarse, fine = (
         tuple(
             min(number, exact_points(order, degree)) if same and degree is not None else number
@@ -389,7 +399,8 @@ def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) ->
 
 def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
     """Return (K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows
-    of zeros to be filled."""
+    of zeros to be filled.
+    """
     terms = np.empty((monomial_count(order) + more, *density.shape))
     terms[monomial_count(order) :] = 0.0
     terms[0] = density
@@ -408,7 +419,8 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
 
 def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
     """Return (rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules),
-    of which one has one column."""
+    of which one has one column.
+    """
     count, m, c, n = terms.shape
     s_weights, t_weights = weights
     half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
@@ -436,5 +448,6 @@ def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
 
 def _offset_jacobian(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
     """Return the jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's
-    derivatives."""
+    derivatives.
+    """
     return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

@@ -55,7 +55,8 @@ class BoundaryLoop:
     """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
     is_planar: True if it lies in a plane; out_of_plane: its distance from one. zero_area: True if it has no area, so
     that it is closed already. area: of the cap, an estimate. self_intersecting: True if it is flat and crosses
-    itself."""
+    itself.
+    """
 
     caps: tuple[Patch, ...]
     patch: int
@@ -152,7 +153,8 @@ def _coincident_sides(
     sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
     """Return pairs of sides that coincide, the nearest first: distance, the two indices, and True if their curves run
-    the same way."""
+    the same way.
+    """
     middle = points.shape[1] // 2
     side_points = points[wide]
     first, last = side_points[:, 0], side_points[:, -1]
@@ -247,7 +249,8 @@ def _pair_sides(
 
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a
-    line that is parallel to nothing are neighbors."""
+    line that is parallel to nothing are neighbors.
+    """
     keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
@@ -266,7 +269,8 @@ def _distance_between(
     points: NDArray, left: NDArray, right: NDArray, tolerance: float
 ) -> Iterator[tuple[float, int, int, bool]]:
     """Yield pairs of sides that agree parameter by parameter: distance, the two indices, True if they run the same
-    way."""
+    way.
+    """
     for start in range(0, len(left), PAIRS_PER_BLOCK):
         i, j = left[start : start + PAIRS_PER_BLOCK], right[start : start + PAIRS_PER_BLOCK]
         reversed_distance, forward_distance = (

@@ -96,7 +96,8 @@ class PatchIntegrals:
 @dataclass(frozen=True, eq=False)
 class _PatchVerdict:
     """Decisions about parts. solid, flipped, counted: (c,) masks of parts with a volume, to turn, and in the sum. caps:
-    (c, 3) numbers of capped flat and curved holes of each, and the caps' area. comparison: for several parts."""
+    (c, 3) numbers of capped flat and curved holes of each, and the caps' area. comparison: for several parts.
+    """
 
     solid: NDArray[np.bool_]
     flipped: NDArray[np.bool_]
@@ -377,7 +378,8 @@ def _classify_parts(
     parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
     """Compare parts with each other by samples of their patches: `each` to a span. Unless `each` is the coarsest, parts
-    nearer than the gap between samples and patches do not cross."""
+    nearer than the gap between samples and patches do not cross.
+    """
     points, triangles, component = [], [], []
     count, off = 0, 0.0
     for number, part in enumerate(parts):
@@ -416,7 +418,8 @@ def _orientation_findings(
     closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
 ) -> list[Finding]:
     """Return findings about patches, and whole parts, that were turned. mixed: patches that face against the rest of
-    their part."""
+    their part.
+    """
     findings = []
     if mixed:
         findings.append(finding(FLIPPED_PATCHES_SLIGHTLY if slight_patches else FLIPPED_PATCHES, count=mixed))

@@ -201,7 +201,8 @@ def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]])
 
 def _plane(corners: Sequence[Vector]) -> tuple[Vector, Vector]:
     """Return Newell's normal, twice the area long, and the foot of the perpendicular from the origin. A face that is
-    not flat has its mean plane."""
+    not flat has its mean plane.
+    """
     normal = (0, 0, 0)
     for a, b in zip(corners, [*corners[1:], corners[0]]):
         normal = tuple(n + c for n, c in zip(normal, cross(a, b)))

@@ -76,7 +76,8 @@ class _FaceBatch:
 
 class _CompensatedSum:
     """A running sum of arrays, with the rounding errors of the additions (Neumaier), and with the sums that make its
-    bounds. faces: number of faces added."""
+    bounds. faces: number of faces added.
+    """
 
     def __init__(self, order: int, weights: int):
         self.order, self.weights = order, weights
@@ -155,7 +156,8 @@ class _StreamIntegrator:
 
     def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
         """Yield the results of `_run` in the order of the tasks, irrespective of which finishes first; a few run at a
-        time."""
+        time.
+        """
         first = list(islice(tasks, min(self.threads, 2)))
         alone, tasks = len(first) < 2, chain(first, tasks)
         del first  # it holds pieces of a stream
@@ -192,7 +194,8 @@ class _StreamIntegrator:
 
     def _size(self, faces: NDArray) -> int:
         """Return the number of faces in a block: blocks are of even length, and as many for each of 2 or 4 threads. The
-        blocks, and so their sum, do not depend on the number of threads."""
+        blocks, and so their sum, do not depend on the number of threads.
+        """
         corners = faces.shape[1]
         # 2 if two triangles make one face here
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
@@ -232,7 +235,8 @@ class _StreamIntegrator:
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
         """Yield the corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles;
         and the number of faces in a full block. Each block is judged by itself, so that it does not depend on its
-        neighbors."""
+        neighbors.
+        """
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
@@ -266,7 +270,8 @@ class _StreamIntegrator:
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
         """Return the change if the vertices move by their half ulps: over the volume that they sweep; of areas, over
-        the added area, and by the change of the integrand."""
+        the added area, and by the change of the integrand.
+        """
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept

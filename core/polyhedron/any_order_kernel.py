@@ -70,7 +70,8 @@ class Sums:
 @lru_cache
 def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
     """Return the row shapes of the arrays of `_Block` for faces of `count` corners: the lasting ones, the ones for
-    weighing, and the ones for summing, which share memory with the second."""
+    weighing, and the ones for summing, which share memory with the second.
+    """
     ends, fans, lower = count - 1, count - 2, count_of_degree(order - 1)
     return (
         {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)},
@@ -204,7 +205,8 @@ class _Block:
 
     def _append_last_degree(self) -> None:
         """Append the calls for the sums of the last degree: of products of the rows one degree lower and weighted
-        coordinates."""
+        coordinates.
+        """
         degree, weighted_products, powers = self.order, self.weighted_products, self.powers
         count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
         # in place of the corners at last
@@ -286,7 +288,8 @@ class AnyOrderKernel:
 def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
     """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
     rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
-    area with its rounding, that alone, and the area that moving the vertices adds."""
+    area with its rounding, that alone, and the area that moving the vertices adds.
+    """
     chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
     high, low, weight_sums, squares = np.split(chunks, (3, 6, 6 + weights))
     reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
@@ -312,7 +315,8 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
     """Compute row by row x^α of one degree from the degree below, perhaps in its place: powers without x from the last
-    ones. do: calls a function with these arguments, or notes the call for later."""
+    ones. do: calls a function with these arguments, or notes the call for later.
+    """
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])
     do(np.multiply, old[count - 1], vector[2], powers[count + degree])

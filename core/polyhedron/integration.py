@@ -214,7 +214,8 @@ def _sum_to_third_order(
     **options: Any,
 ) -> tuple[Moments, Moments]:
     """Return volume and area of all pieces, about the first one's point if no other is given. Not finite beyond the
-    range of numbers. options: of `third_order.integrate`."""
+    range of numbers. options: of `third_order.integrate`.
+    """
     total: tuple[Moments, Moments] | None = None
     done = 0
     for surface in stream:

@@ -109,7 +109,8 @@ def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
     """Return all facets that have an extent, the places of their corners, sorted, and 1 or -1, their orientations.
-    Points at the same place are one."""
+    Points at the same place are one.
+    """
     simplices = np.asarray(simplices)
     _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
     corners = place.reshape(-1)[simplices]

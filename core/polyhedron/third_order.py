@@ -151,7 +151,8 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
     """Return the center of a bounding box of points of this type, for float32 rounded so that subtracting it is
-    exact."""
+    exact.
+    """
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
@@ -182,7 +183,8 @@ def _measure_rescaled(
 @dataclass(frozen=True, eq=False)
 class _Integration:
     """One surface to be measured. points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count:
-    triangles; size: triangles in a block."""
+    triangles; size: triangles in a block.
+    """
 
     points: NDArray
     center: NDArray[np.float64]

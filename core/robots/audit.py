@@ -60,7 +60,8 @@ class Audit:
 @dataclass(frozen=True, eq=False)
 class _Piece:
     """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain. upright: the
-    rotation that its file asks for, if another axis than z is up."""
+    rotation that its file asks for, if another axis than z is up.
+    """
 
     points: NDArray[np.float64]
     moments: Moments | None

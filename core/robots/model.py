@@ -360,7 +360,8 @@ class Robot:
 
     def rigid_inertial(self, link: Link) -> Inertial | None:
         """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None if
-        none of it has mass."""
+        none of it has mass.
+        """
         to_link = link.pose.inverse()
         parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
         if len(parts) == 1 and parts[0][0] is link:

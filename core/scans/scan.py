@@ -110,7 +110,8 @@ def damaged(path: Path, code: str, **values: object) -> FileError:
 
 def check_length(path: Path, held: int, wanted: int) -> None:
     """Check that a file holds just the bytes of samples that its sizes ask for. More of them mean that the sizes are
-    wrong, or that nobody knows the meaning of the rest; without a checksum nothing else can show damage."""
+    wrong, or that nobody knows the meaning of the rest; without a checksum nothing else can show damage.
+    """
     if held < wanted:
         raise damaged(path, DAMAGE_TOO_SHORT, bytes=held, total=wanted)
     if held > wanted:
@@ -121,7 +122,8 @@ def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
     """Map uncompressed samples, x fastest, from byte `offset` to the end of the file. from_end: they are its last
-    bytes, after any other bytes at `offset`, so that only too few of them can be noticed."""
+    bytes, after any other bytes at `offset`, so that only too few of them can be noticed.
+    """
     size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
     if from_end:
         offset = max(offset, size - byte_count)
@@ -160,7 +162,8 @@ def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
 
     A stream of gzip is one or more members. zlib compares the CRC-32 and the length of each, once it has been read to
     its end. Zero bytes behind a member are padding, as for the gzip tool. Anything else there the tool ignores with a
-    warning; here it is damage, as for Python's gzip: it may have been a member of samples."""
+    warning; here it is damage, as for Python's gzip: it may have been a member of samples.
+    """
     with open(path, "rb") as file:
         file.seek(start)
         waiting, first = file.read(PACKED), True

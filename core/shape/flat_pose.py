@@ -115,7 +115,8 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
 
 def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
     """Return a test that the images of (n, 3) points, about the centroid in the plane's axes, are within the tolerance
-    of the outline. distance: of (k, 3) such points from it."""
+    of the outline. distance: of (k, 3) such points from it.
+    """
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
     def holds(operation: NDArray) -> bool:
@@ -149,7 +150,8 @@ def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
 
 def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
     """Return (k, 3, 3) the reflections that may take a shape to itself: the ones of its moments, and the ones that take
-    the outermost corner to another one, for prisms of many sides."""
+    the outermost corner to another one, for prisms of many sides.
+    """
     radius = np.hypot(*points.T)
     outer = points[radius > (1.0 - 1e-4) * radius.max()]
     corners = np.arctan2(*outer.T[::-1])

@@ -41,7 +41,8 @@ QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadr
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
     """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments
-    there, (K, …)."""
+    there, (K, …).
+    """
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
@@ -52,7 +53,8 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
 
 def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
     """Return (…) an estimate of the error of the descriptors from raw moments (K, …) accurate to a few roundings: their
-    change if each moment is moved by such an amount, at random but always the same."""
+    change if each moment is moved by such an amount, at random but always the same.
+    """
     moved = raw * along_first(1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw)
     before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
     return np.abs(after - before).max(axis=0)

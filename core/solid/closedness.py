@@ -188,7 +188,8 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
 
 def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
     """Return the component of each mesh face and their number; None if the surface is not proven closed and
-    oriented."""
+    oriented.
+    """
     if surface.corner_edges is not None:
         sides = closed_side_faces(surface)
         return None if sides is None else connected_components(int(sides.max()) + 1, *sides)

@@ -63,7 +63,8 @@ def classify_pairs(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> ComponentRelations:
     """Find how closed components lie relative to each other. points: (n, 3). components: over these points. candidates:
-    (c,) components to compare: closed and not flat. tolerance: distance below which points touch (unit)."""
+    (c,) components to compare: closed and not flat. tolerance: distance below which points touch (unit).
+    """
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
@@ -105,7 +106,8 @@ def _breakthrough(
 ) -> NDArray[np.float64]:
     """Return (k,) how far the two components of each pair (inner, outer) reach out of each other: the largest distance
     of places on edges of the inner one outside the outer one from its surface, and of places on edges of the outer one
-    in the inner one. At least the tolerance, by which they are known to pass through each other."""
+    in the inner one. At least the tolerance, by which they are known to pass through each other.
+    """
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
         return depth
@@ -151,7 +153,8 @@ def self_overlaps(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> bool:
     """Return whether a closed component among `candidates` surrounds a sampled point under its own skin more than once:
-    it has run into itself, though no edge need pierce a face."""
+    it has run into itself, though no edge need pierce a face.
+    """
     chosen = np.flatnonzero(candidates)
     if not len(chosen):
         return False
@@ -201,7 +204,8 @@ def orient_nested_components(
 
 def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Return (c,) the component that each cavity is cut from: the innermost around it that no other cavity is cut from
-    before; for others, themselves."""
+    before; for others, themselves.
+    """
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
@@ -228,7 +232,8 @@ def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Count, for each pair, the decidable points under the smaller component's skin inside and outside the larger
-    one."""
+    one.
+    """
     most, least, together = SAMPLES_PER_PAIR
     number = np.clip(together // len(small), least, most)
     pair = np.repeat(np.arange(len(small)), number)

@@ -192,7 +192,8 @@ class RepairedMesh:
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
         """Return the mesh with more triangles, without degenerate ones. owner: (k,) a triangle of each one's
-        component."""
+        component.
+        """
         useful = has_distinct_vertices(caps)
         caps, owner = caps[useful], owner[useful]
         return replace(

@@ -29,7 +29,8 @@ def wall_links(
     points: NDArray[np.floating], edges: Edges, triangles: NDArray[np.integer], face: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Find the sides that belong together at the walls between bodies. points: (n, 3). triangles: (t, 3). face: (t,)
-    the mesh face of each. Returns (k,) and (k,) the joined sides."""
+    the mesh face of each. Returns (k,) and (k,) the joined sides.
+    """
     if not (edges.count == 4).any():
         return NO_LINKS
     pairs = edges.manifold_side_pairs()
@@ -96,7 +97,8 @@ def _layers(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return (t,) 1 and 2 for triangles of the first and of the other layer of walls, else 0; and (t,) a number that
     both layers of a wall share. Layers are faces on the same vertices, or flat pieces with the same border that are cut
-    into triangles differently. piece: (t,) the piece of each triangle, connected across edges of two faces."""
+    into triangles differently. piece: (t,) the piece of each triangle, connected across edges of two faces.
+    """
     group = same_vertices_groups(triangles, face)
     layer = is_duplicated(group, face).astype(np.intp) + (group != face)
     vector = normals(points, triangles)

@@ -103,7 +103,8 @@ class SolidStack:
 
 def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
     """Return the volumes of solids that were measured by themselves, each of at most MAX_SMALL_TRIANGLES triangles, to
-    a higher order than third."""
+    a higher order than third.
+    """
     surfaces = [solid.repaired_surface for solid in solids]
     triangles = [surface.all_triangles()[0] for surface in surfaces]
     first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
@@ -133,7 +134,8 @@ def can_be_stacked(surface: Surface) -> bool:
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     """Measure the bodies that many small surfaces bound, as far as they are closed as they are, or by caps alone.
-    surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates."""
+    surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates.
+    """
     stack = SurfaceStack.of(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
@@ -198,7 +200,8 @@ def _stand_apart(
     error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
     """Return a (k,) mask of the bodies in `rows` with outward components of certain volume and boxes that do not touch.
-    part: the component of each triangle of all bodies; counts, tolerance, capped, error: of all bodies."""
+    part: the component of each triangle of all bodies; counts, tolerance, capped, error: of all bodies.
+    """
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
     body = np.repeat(np.arange(len(rows)), counts[rows])  # The body of each part; parts are numbered body by body.
@@ -222,7 +225,8 @@ def _stand_apart(
 
 def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     """Return a (n,) mask of surfaces with cones from their points, (n, 3), that agree and surround them once, by their
-    solid angles (van Oosterom and Strackee 1983)."""
+    solid angles (van Oosterom and Strackee 1983).
+    """
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
     after, before = corners.take(NEXT_AXIS, 0), corners.take(PREVIOUS_AXIS, 0)
@@ -237,7 +241,8 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 def _looked_for(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
     """Return (k,) results of the search for self-intersections along lines, as `find_self_intersection`. part: (t,) the
-    component of each triangle."""
+    component of each triangle.
+    """
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
     grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))

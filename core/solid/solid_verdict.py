@@ -157,7 +157,8 @@ def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
     """Give a verdict on the measured body, and report all decisions. All arguments are of the same surface.
-    intersection: None if not searched."""
+    intersection: None if not searched.
+    """
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
@@ -207,7 +208,8 @@ def judge(
 
 def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
     """Return the mesh faces that were turned within their components, and the components that were turned as a
-    whole."""
+    whole.
+    """
     of_mesh = mesh.face >= 0
     flipped, component = (mesh.flipped ^ turned[mesh.component])[of_mesh], mesh.component[of_mesh]
     whole = np.bincount(component, ~flipped) == 0
@@ -290,7 +292,8 @@ def cap_finding(
     edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
 ) -> Finding:
     """Return findings about capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the
-    surface's."""
+    surface's.
+    """
     flat, curved = map(int, caps[:2])
     if caps[2] * size < NEGLIGIBLE * volume:  # all their moments together
         return finding(HOLES_CAPPED_SLIGHTLY, edges, count=flat + curved, share=share)

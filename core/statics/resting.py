@@ -70,7 +70,8 @@ class RestingPoses:
 class _Faces:
     """Faces of a hull, several triangles each: (m,) the face of each triangle, (f, 3) outward unit normals, (f,)
     heights of the center, (f,) margins, and (f,) the face beyond the edge that the foot is nearest to or farthest
-    outside of."""
+    outside of.
+    """
 
     face: NDArray[np.intp]
     normals: NDArray[np.float64]

@@ -14,7 +14,8 @@ from .findings import AT_TRIANGLE, AT_VERTEX, NON_FINITE_COORDINATES
 
 class BoxOfBlocks:
     """The bounding box of blocks, which grows block by block. place: "triangle" or "vertex", the meaning of a row of a
-    block."""
+    block.
+    """
 
     def __init__(self, place: str) -> None:
         self._place = place
@@ -42,7 +43,8 @@ class BoxOfBlocks:
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the least and the largest coordinates, zero if there are none. Raises FileError if some are not
-        finite."""
+        finite.
+        """
         if self._bad:
             is_triangle = self._place == "triangle"
             place = finding(AT_TRIANGLE if is_triangle else AT_VERTEX, **{self._place: self._first})

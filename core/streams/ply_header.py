@@ -56,7 +56,8 @@ class Header:
 
 def parse_header(data: bytes) -> Header:
     """Return the header at the start of a file. Raises ValueError, KeyError or IndexError if there is none, or it makes
-    no sense."""
+    no sense.
+    """
     end = END.search(data)
     if end is None or not data.startswith(b"ply"):
         raise ValueError("no header")

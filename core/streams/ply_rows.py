@@ -34,7 +34,8 @@ class RowReader:
 
     def rows(self, element: Element) -> Iterator[list[NDArray]]:
         """Yield the rows of the next element, all of which must be taken, in blocks of one length: for each property
-        (n,) numbers, or (n, k) lists."""
+        (n,) numbers, or (n, k) lists.
+        """
         left = element.rows if element.properties else 0
         while left:
             lengths = self._lengths(element.properties)

@@ -100,7 +100,8 @@ def sentence(
     finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
 ) -> str:
     """Return the sentence of a finding. translate: applied to each template before it is filled. lengths: formats a
-    length in meters, by default in meters."""
+    length in meters, by default in meters.
+    """
     entry, values = declared(finding.code), finding.values
     template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
     elements = truncate_list(finding.elements, values.get("count"), translate)

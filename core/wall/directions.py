@@ -65,7 +65,8 @@ def offset_directions(
     points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0
 ) -> OffsetDirections:
     """Return the direction of every vertex. points: (n, 3) float64, triangles: (m, 3), stored: the bound of the points'
-    displacement by storing them."""
+    displacement by storing them.
+    """
     count = len(points)
     normals, angles, noise, solid = (
         np.concatenate(column)
@@ -96,7 +97,8 @@ def offset_directions(
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
         """Return (n, 3) directions across the planes that the eigenvalues above `least` span, (n,) the mean deviation
-        of n·d from 1, and (n,) the movement of d per movement of the normals (Wedin, to first order)."""
+        of n·d from 1, and (n,) the movement of d per movement of the normals (Wedin, to first order).
+        """
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
         vectors = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right) + np.einsum(
@@ -129,7 +131,8 @@ def offset_directions(
 def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
     """Return the vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3),
     leave. Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
-    thickness."""
+    thickness.
+    """
     edges = find_edges(triangles)
     free[triangles.ravel()[edges.boundary_sides()]] = 0.0  # closed loops: each end of a side is a start
     able = np.einsum("nii->n", free) > 0.5
@@ -186,7 +189,8 @@ def _maximin_direction(
     vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
 ) -> None:
     """Replace the vectors of the vertices `behind` by ones that are more in front of all their faces, if there are
-    such. low: (n,) the least n·d of each vertex now."""
+    such. low: (n,) the least n·d of each vertex now.
+    """
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
     corner_rows = np.flatnonzero(number[corner] >= 0)
@@ -212,7 +216,8 @@ def _maximin_direction(
 
 def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     """Return, from (m, 3, 3) corners, (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' turns by
-    rounding and storing, and (m,) a mask of existing normals."""
+    rounding and storing, and (m,) a mask of existing normals.
+    """
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])
     double = np.linalg.norm(normal, axis=1)

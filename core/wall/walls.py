@@ -157,7 +157,8 @@ class OffsetSolid:
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
         """Return whether the walls of parts reach into one another or themselves, even if no edge pierces a face: skins
         that have moved past each other, or that are flush. Each wall is a closed body: both its sides and the strip
-        along its boundary."""
+        along its boundary.
+        """
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
@@ -383,7 +384,8 @@ class _Prisms:
         """Return (3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are
         zero. Second row: the change of J if directions move by slide[0], (m,), and by lift[0] along the normals, three;
         and the sizes of J times the move of x, four. Third row: the same if directions move by slide[1] and lift[1],
-        and points by `stored`."""
+        and points by `stored`.
+        """
         sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
         long, turned, far = self.long, self.turned_length, self.far
@@ -400,7 +402,8 @@ class _Prisms:
 
     def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
         """Return (4,) coefficients in s of the volume swept by the triangles and their images at s, if points move by
-        `stored` and directions by `tangential_error` in all and `normal_error` along the normals."""
+        `stored` and directions by `tangential_error` in all and `normal_error` along the normals.
+        """
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
         rest = [normal - along * unit for normal, along in zip(self.normals, height)]
@@ -422,7 +425,8 @@ def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
 ) -> NDArray[np.float64]:
     """Return (4,) coefficients in s of the volume swept by the strips along the boundary if points move by `stored` and
-    directions by `slide`."""
+    directions by `slide`.
+    """
     boundary = find_edges(triangles).boundary_sides()
     start, stop = triangles.ravel()[boundary], np.roll(triangles, -1, axis=1).ravel()[boundary]
     ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
@@ -435,7 +439,8 @@ def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`, with every point
-    within reach[0] of the middle and every direction within reach[1], by axis."""
+    within reach[0] of the middle and every direction within reach[1], by axis.
+    """
     place, step = reach[0] + stored, reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:

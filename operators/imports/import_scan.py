@@ -191,7 +191,8 @@ def _read_positions(files: dict[str, str], scan: Scan) -> Positions:
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
     """Write the scan as a grid, whole or not at all, and return its least value. The background differs from every
-    sample's value, so that none is lost, but is zero if no sample is negative."""
+    sample's value, so that none is lost, but is zero if no sample is negative.
+    """
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
         if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):

@@ -181,7 +181,8 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
 
     def _grid(self, size: float) -> FrequencyGrid:
         """Return the grid for a body of this size in m. Without a given largest frequency, its step is π over the
-        size."""
+        size.
+        """
         largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
         return FrequencyGrid(self.count, largest, self._dimension)
 

@@ -83,7 +83,8 @@ def _compute(
     context: Context, obj: Object, order: int, key: tuple[str, str, int]
 ) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
     """Return the moments of a body, of a flat shape, or of both, or None for a wire that bounds nothing. MeasureError
-    if the object is neither."""
+    if the object is neither.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     region, flat, not_flat = None, None, None
     try:

@@ -88,7 +88,8 @@ class _SearchMixin:
 
     def measure_active(self, context: Context) -> Iterator[float]:
         """Measure the active object: `shape`, and `wanted`, its signature, which stays None with a report if there is
-        none."""
+        none.
+        """
         self.wanted: Signature | None = None
         try:
             self.shape = comparable_shape_of(context.object, context.evaluated_depsgraph_get())

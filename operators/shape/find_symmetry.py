@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Find Symmetry: the rotation axes and mirror planes of the selected objects, by their moments and confirmed on their
-surfaces. They are kept with each object, in its own axes, for the panel."""
+surfaces. They are kept with each object, in its own axes, for the panel.
+"""
 
 from __future__ import annotations
 

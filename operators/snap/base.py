@@ -77,7 +77,8 @@ class SnapTarget:
 
     def is_principal(self, frame: NDArray) -> bool:
         """Return whether the columns of `frame` are this body's principal axes, in this order and with these signs, as
-        far as its coordinates can show."""
+        far as its coordinates can show.
+        """
         tensor = frame.T @ self.inertia @ frame
         limit = DIAGONAL_RTOL * np.trace(tensor)
         diagonal = np.diag(tensor)
@@ -92,7 +93,8 @@ class SnapTarget:
 
     def _matches_shape_axes(self, frame: NDArray) -> bool:
         """Return whether the axes of equal moments lie as the shape requires: a cube's sides along any of its own
-        axes."""
+        axes.
+        """
         cosines = (frame.T @ self.axes)[:, self.shape_axes]
         expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
@@ -102,14 +104,16 @@ def targets_in_turn(
     context: Context, objects: Sequence[Object], strict: bool = False
 ) -> Callable[[Object], SnapTarget]:
     """Return a function that gives the `snap_target` of one object at a time, measured in batches. The scene must not
-    change meanwhile."""
+    change meanwhile.
+    """
     measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
     return lambda obj: target_of(context, obj, measured(obj), strict)
 
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
     """Measure an object; EditRefusedError if its numbers depend on a reference point. strict: use the axes of Zhang and
-    Chen's rule, or refuse the object if it has none."""
+    Chen's rule, or refuse the object if it has none.
+    """
     return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict)
 
 
@@ -145,7 +149,8 @@ def remeasure(
     context: Context, objects: Sequence[Object], known: Mapping[Object, Measured | Stacked] = NOTHING
 ) -> None:
     """Measure and store again the objects with stored results, after an operator has moved them. known: measurements of
-    objects that have not moved since."""
+    objects that have not moved since.
+    """
     stored = [obj for obj in objects if properties.is_stored(obj)]
     if not stored:
         return
@@ -219,7 +224,8 @@ def reframe_selected(
     strict: bool = False,
 ) -> set[str]:
     """Give each selected object the matrix that `target_matrix` returns for it, while nothing visible moves, and report
-    it. `target_matrix` returns None if the object is in place already. done: the report; it gets the value `count`."""
+    it. `target_matrix` returns None if the object is in place already. done: the report; it gets the value `count`.
+    """
     objects = selection.selected_measurable(context)
     changed, failures = reframe_objects(context, objects, target_matrix, move_only, strict)
     findings = [found.of_sources([plan.obj.name]) for plan in changed for found in plan.findings]

@@ -106,7 +106,8 @@ class OBJECT_OT_body_moments_add_empty(Operator):
         self, existing: Object | None, context: Context, body: snapping.SnapTarget
     ) -> Generator[None, Depsgraph, bool]:
         """Move the empty, or a new one, to the body's frame; return whether it was elsewhere. EditRefusedError if it
-        cannot be there: then nothing has changed."""
+        cannot be there: then nothing has changed.
+        """
         parent = body.obj if self.parent else None
         if existing is not None:
             return (yield from _moved(existing, body, parent, self.size))

@@ -56,7 +56,8 @@ class OBJECT_OT_body_moments_stability(Operator):
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[Finding]:
     """Remember the hull of an object, and measure it if its numbers are out of date; it is then added to `measured`.
-    Return the findings. MeasureError if it has no certain center or no surface."""
+    Return the findings. MeasureError if it has no certain center or no surface.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     if properties.numbers(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)

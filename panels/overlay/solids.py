@@ -38,7 +38,8 @@ def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArr
 
 def _spread(gyration: NDArray) -> NDArray[np.float64]:
     """Return (n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration: twice the mean square distance along axis
-    i."""
+    i.
+    """
     squares = gyration**2
     return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
 
@@ -52,7 +53,8 @@ def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.
 
 def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
     """Return the ellipsoid with the same mass and inertia, semi-axes a_i² = 5 (I_j + I_k - I_i) / (2 m): three
-    ellipses."""
+    ellipses.
+    """
     half = np.sqrt(2.5 * _spread(gyration))
     circles = np.zeros((3, len(CIRCLE), 3))
     for axis in range(3):

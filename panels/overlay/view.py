@@ -32,7 +32,8 @@ class View:
 
     def pixels(self, points: NDArray) -> NDArray[np.float64]:
         """Return (n, 2) screen positions of (n, 3) points, from the lower left corner. Meaningless for points behind
-        the eye."""
+        the eye.
+        """
         seen = points @ self.view[:3, :3].T + self.view[:3, 3]
         clip = seen @ self.projection[:, :3].T + self.projection[:, 3]
         scale = np.where(clip[:, 3] == 0.0, 1.0, clip[:, 3])

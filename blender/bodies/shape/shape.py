@@ -257,7 +257,8 @@ class Registered(Protocol):
 
 class SurfaceDistance:
     """A shape's surface, to hold points against, once it is grown. Lengths in meters, world axes; Blender's tree of
-    triangles keeps them as float32, so about the center and by its size."""
+    triangles keeps them as float32, so about the center and by its size.
+    """
 
     def __init__(self, shape: Registered):
         whole = join_surfaces(list(shape.pieces()))
@@ -278,7 +279,8 @@ class SurfaceDistance:
 
     def build(self) -> Iterator[float]:
         """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
-        done."""
+        done.
+        """
         points = _as_tuples(self._corners)
         yield 0.2
         triangles = _as_tuples(self._triangles)

@@ -28,7 +28,8 @@ Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
     """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up. Raises ValueError,
-    KeyError or FileError if there are none."""
+    KeyError or FileError if there are none.
+    """
     root = parse(data)
     for node in root.walk():
         node.tag = node.tag.rpartition("}")[2]

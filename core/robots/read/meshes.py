@@ -107,7 +107,8 @@ def read_obj(data: bytes) -> Arrays:
 
 def read_glb(data: bytes) -> Arrays:
     """Return triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers take
-    them."""
+    them.
+    """
     if data[:4] != b"glTF":
         raise ValueError("glb")
     start, document, binary = 12, None, b""

@@ -32,7 +32,8 @@ def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
     """Return a robot with surfaces in its meshes, and a finding about the links that have none. surface_of: returns a
-    link's surface by its name, in meters along the link's axes; None if it shows no faces."""
+    link's surface by its name, in meters along the link's axes; None if it shows no faces.
+    """
     links, bare = [], []
     for link in robot.links:
         surface = surface_of(link.name) if link.shapes else None
@@ -45,7 +46,8 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 
 def with_primitives(robot: Robot, kind: str) -> Robot:
     """Return a robot with one primitive in the place of each link's geometry. kind: "box", "ellipsoid", "capsule", or
-    "none" for no geometry."""
+    "none" for no geometry.
+    """
     links = [
         replace(
             link,

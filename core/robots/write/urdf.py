@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """URDF. The inertial frame has the link's axes (rpy 0) and the tensor is written along these, because readers exist
 that ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly; ixy and so on are entries of the
-tensor, -∫xy dm."""
+tensor, -∫xy dm.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ def check(robot: Robot) -> list[Finding]:
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as URDF. remarks: comments at the beginning. inertial_only: only the links with their inertials,
-    which is no complete file."""
+    which is no complete file.
+    """
     names = unique_names([link.name for link in robot.links], xml_text)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_text)
     root = Element("robot", name=xml_text(robot.name))
@@ -108,7 +110,8 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
 
 def _pieces(shape: Shape) -> list[Shape]:
     """Return the URDF shapes of a shape: a capsule is a cylinder and two spheres, an ellipsoid the box of its
-    inertia."""
+    inertia.
+    """
     if shape.kind != "capsule":
         return [box_of_ellipsoid(shape)]
     radius, length = shape.size
