@@ -180,3 +180,14 @@ def test_no_file_names_a_machine_or_a_registry():
             if (match := pattern.search(line))
         ]
     )
+
+
+RELATIVE = re.compile(r"(What|Which|Where|Whether|Of|How|Who|When|Those|That|The same|As|Some)\b", re.I)
+
+
+def test_docstrings_rarely_open_with_a_relative_word():
+    """A docstring names its subject first; two in a hundred may do otherwise."""
+    kinds = ast.FunctionDef | ast.ClassDef | ast.Module
+    texts = [ast.get_docstring(node) for tree in TREES.values() for node in ast.walk(tree) if isinstance(node, kinds)]
+    found = [text.partition("\n")[0] for text in texts if text and RELATIVE.match(text)]
+    assert len(found) <= 0.02 * sum(text is not None for text in texts), found
