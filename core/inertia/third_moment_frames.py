@@ -166,7 +166,7 @@ def third_moment_frames(
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n,) whether better third moments could change nothing that decides.
+    """Return (n,) whether better third moments could change no decision.
 
     They could change neither the scores of fixed axes that count, nor their signs, nor their order.
     """

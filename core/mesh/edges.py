@@ -25,11 +25,10 @@ from .surface import Surface
 
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """Return (2, e) the mesh faces on the two sides of each used edge, if the surface is proven closed.
+    """Return (2, e) the mesh faces on the two sides of each used edge, None if the surface is not proven closed.
 
-    The proof are the mesh's own corners: every edge with faces has two, which run along it in opposite directions.
-    Else, or if there are no faces, return None. Edges without faces do not count. The edge names at the corners are
-    trusted.
+    It is proven by the mesh's own corners if every edge with faces has two, which run along it in opposite directions;
+    None also if there are no faces. Edges without faces do not count. The edge names at the corners are trusted.
     """
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:

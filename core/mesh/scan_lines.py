@@ -262,7 +262,7 @@ def _cross_row(
     higher: NDArray[np.bool_],
     row: NDArray[np.intp],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
-    """Return the points at which a row enters and leaves each triangle, and the sign of the lines' crossings in between.
+    """Return the points at which a row enters and leaves each triangle, and the sign of the lines' crossings between.
 
     The points are (2, k) in columns and (2, k) along the lines. places, corners: (3, 3t) and (3t,) of all first
     corners, all second and all third ones; which: (k,) the triangles; higher: (3, k) mask of their corners above the

@@ -49,7 +49,7 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return (n,) for each point the first one of its cluster: of points nearer to each other than their tolerances (n,).
+    """Return (n,) the first point of each point's cluster: of points nearer to each other than their tolerances (n,).
 
     Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Some
     points of a row, each near to the next, may be left out: their order decides.

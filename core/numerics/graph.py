@@ -98,8 +98,9 @@ def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp
 
 
 def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """Return the tree of each node, numbered in the order of their roots, and the number of trees. parent: no higher
-    than the node; is overwritten.
+    """Return the tree of each node, numbered in the order of their roots, and the number of trees.
+
+    parent: no higher than the node; is overwritten.
 
     Paths are halved by pointer jumping, block by block: a path out of a block ends at a root at once.
     """

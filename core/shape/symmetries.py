@@ -170,6 +170,7 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
     """Return candidates for a body with the moments of a body of revolution, but with corners: a prism of many sides.
+
     Its mirrors and half turns take one of the points farthest from the axis to another one.
     """
     # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
