@@ -138,8 +138,8 @@ def _extents(size: NDArray) -> NDArray[np.float64]:
 def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
     """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0.
 
-    z is along this axis, x and y along the next: (h,) the number of moments' noise that each holds, (h,) the column,
-    from third order on, of the moment of its size, and (h, columns) the moments that make it up.
+    z is along this axis, x and y along the next. They are (h,) the number of moments' noise that each holds, (h,) the
+    column, from third order on, of the moment of its size, and (h, columns) the moments that make it up.
     """
     weights, columns, forms = [], [], []
     for degree in range(3, order + 1):

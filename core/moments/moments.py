@@ -412,7 +412,7 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (k,) the factors by which the (3, 3, k) maps change the measure, their rounding bounds, and the deviations.
+    """Return (k,) the factors by which (3, 3, k) maps change the measure, their rounding bounds, and the deviations.
 
     The deviation is that of the map from one factor.
     """

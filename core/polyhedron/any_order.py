@@ -272,7 +272,7 @@ class _StreamIntegrator:
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
         """Return the change if the vertices move by their half ulps.
 
-        For the volume it is over the volume that they sweep; for areas, over the added area, and by the change of the
+        It is integrated over the volume that they sweep; for areas, over the added area, and with the change of the
         integrand.
         """
         swept = total.sizes[2] * (1.0 + 1e-9)

@@ -323,7 +323,8 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
     """Compute row by row x^α of one degree from the degree below, perhaps in its place.
 
-    Powers without x come from the last ones. do: calls a function with these arguments, or notes the call for later.
+    Powers without x are computed from the last rows below. do: calls a function with these arguments, or notes the call
+    for later.
     """
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])

@@ -149,7 +149,10 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """Return the center of a bounding box of points of this type, for float32 rounded so that subtracting it is exact."""
+    """Return the center of a bounding box of points of this type.
+
+    For float32 it is rounded so that subtracting it is exact.
+    """
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 

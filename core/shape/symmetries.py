@@ -205,8 +205,9 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return the operations of a body of revolution that stand for all: the identity, and a reflection of the axis if
-    it can be turned over.
+    """Return the operations of a body of revolution that stand for all.
+
+    They are the identity, and a reflection of the axis if it can be turned over.
     """
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
