@@ -34,9 +34,9 @@ TRIANGLES_PER_BLOCK = 1 << 13
 
 @dataclass(frozen=True, eq=False)
 class AxialHarmonics:
-    """Harmonics about an axis, as shares.
+    """Harmonics about an axis, as shares of the largest possible ones.
 
-    Each is a share of the largest that a body of that radius and height can have, or of one that is not as flat.
+    The largest is that of a body of that radius and height, or of one that is not as flat.
 
     Attributes
     ----------

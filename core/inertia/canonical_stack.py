@@ -54,7 +54,9 @@ def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArra
 def choose_about_axis(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Choose half turns as `canonical_frames` does, for bodies with two axes of equal moments that no moment fixes.
+    """Choose the half turns that `canonical_frames` chooses for bodies with two axes of equal moments.
+
+    They hold if no moment fixes the directions of these axes.
 
     Parameters
     ----------

@@ -75,7 +75,7 @@ def sort_components(
 def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
     """Return the stable order of integers from 0 to 2^32 - 1, 16 bits at a time.
 
-    numpy sorts such short ones by counting.
+    numpy sorts 16-bit integers by counting.
     """
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
@@ -100,7 +100,7 @@ class Bvh:
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
         """Set `ids`, `bottom` and `top`, and return (m,) the component of each triangle.
 
-        They are the triangles of the wanted components, one after the other, each in Morton order.
+        The triangles are the ones of the wanted components, one component after the other, each in Morton order.
         """
         ids, component = components.triangles, components.component
         if not selected.all():
@@ -176,7 +176,7 @@ class Bvh:
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
         """Return (k,) the winding number of a component around each place (about `origin`), and whether it is sure.
 
-        It is not if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
+        It is unsure if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
         """
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)

@@ -206,7 +206,7 @@ class _GrowingHull:
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
         """Return for each point, of one or more, the face that it is highest above, without points above none.
 
-        The faces are the `counts` ones from the face `firsts` on.
+        The choice is among the `counts` faces of each point, from the face `firsts` on.
         """
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):

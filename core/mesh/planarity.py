@@ -52,8 +52,8 @@ class Planarity:
 class _PlanarityPartial:
     """Results of some quads or triangles.
 
-    They are their count; the count of faces surely not flat, and 6 times their spread; and the rows of the undecided
-    faces.
+    In order: the count of faces; the count of faces surely not flat, and 6 times their spread; and the rows of the
+    undecided faces.
     """
 
     count: int

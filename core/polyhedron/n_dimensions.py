@@ -322,7 +322,7 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
     """Return the start of each degree, and for each degree and axis the indices of products.
 
-    They are the indices, in the next degree, of its products with that coordinate.
+    The indices are, in the next degree, of the monomials' products with that coordinate.
     """
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""First stages of measuring a solid: is there something to measure, and do its own edges prove it closed."""
+"""First stages of measuring a solid: whether it can be measured, and whether its own edges prove it closed."""
 
 from __future__ import annotations
 

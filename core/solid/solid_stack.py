@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of many small solids at once, if closed as they are or by caps alone, outward, in separate pieces.
+"""Measurement of many small solids at once, if closed as they are or by caps alone, and outward.
 
-There may be one or several pieces. Results are exact or capped, with the same numbers as from `measure_solid`, which
-measures all other solids one by one.
+A solid may have one or several separate pieces. Results are exact or capped, with the same numbers as from
+`measure_solid`, which measures all other solids one by one.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ class SolidStack:
 
 
 def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
-    """Return the volumes of solids that were measured by themselves to a higher order than third.
+    """Return the volumes, to a higher order than third, of solids that were measured by themselves.
 
     Each solid has at most MAX_SMALL_TRIANGLES triangles.
     """
