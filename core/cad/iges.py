@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces of an IGES file: rational B-spline surfaces (type 128), alone, in trimmed surfaces (144) with curves
-that trim nothing, and in subfigures (308, 408); with their transformations (124) and the unit of the global section.
+"""Rational B-spline surfaces (type 128) of an IGES file, Initial Graphics Exchange Specification 5.3.
 
-Initial Graphics Exchange Specification 5.3. Other surfaces and solids are refused by name; curves, points and
-annotation bound nothing and are left out.
+They stand alone, in trimmed surfaces (144) with curves that trim nothing, or in subfigures (308, 408); with their
+transformations (124) and the unit of the global section. Other surfaces and solids are refused by name; curves, points
+and annotation bound nothing and are left out.
 """
 
 from __future__ import annotations
@@ -97,9 +97,7 @@ class _Reader:
 
     @staticmethod
     def _members(fields: list[str]) -> list[int]:
-        """Return the pointers to the members of a subfigure; its depth, its name, and their number stand before
-        them.
-        """
+        """Return the pointers to a subfigure's members, which stand behind its depth, its name and their number."""
         (count,) = integers(fields[2:], 1)
         return integers(fields[3:], count)
 
@@ -187,8 +185,9 @@ class _Reader:
         return pieces is not None and trims_nothing(pieces, spline.domain)
 
     def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
-        """Return the curve as lines and splines in order; None if it is something else. depth: the number of curves
-        around it. left: yields an item for each further piece that is allowed.
+        """Return the curve as lines and splines in order; None if it is something else.
+
+        depth: the number of curves around it. left: yields an item for each further piece that is allowed.
         """
         entry = self._entries.get(pointer)
         if entry is None or entry.matrix or depth >= MAX_DEPTH or next(left, None) is None:

@@ -73,8 +73,9 @@ class IgesText:
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
-        """Return the parameters of an entity, behind its type, texts without their length. ValueError if they end too
-        early, or are another entity's.
+        """Return the parameters of an entity, behind its type, texts without their length.
+
+        ValueError if they end too early, or are another entity's.
         """
         first, count = entry.parameters
         start, end = first - 1, first - 1 + count
@@ -193,8 +194,9 @@ def padded(fields: list[str], count: int) -> list[str]:
 
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:
-    """Return the real numbers of the fields, 0 if a field is blank, with Fortran's exponents. ValueError if one is
-    none.
+    """Return the real numbers of the fields, with Fortran's exponents, 0 if a field is blank.
+
+    ValueError if a field is no number.
     """
     text = "\n".join(fields)
     if not _NUMBERS.fullmatch(text):

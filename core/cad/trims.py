@@ -22,9 +22,7 @@ class Piece:
 
 
 def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tuple[float, float]]) -> bool:
-    """Return whether the pieces run once around the domain, in either sense, from end to end and always on its
-    sides.
-    """
+    """Return whether the pieces run once around the domain, in either sense, end to end and always on its sides."""
     low, high = np.array(domain).T
     if not (high > low).all():
         return False

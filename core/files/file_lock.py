@@ -47,10 +47,10 @@ def beside(path: Path, ending: str) -> Path:
 
 @contextmanager
 def locked(path: Path, wait: float | None = None) -> Iterator[bool]:
-    """Keep other processes of ours from writing `path` within the block. Yield False on a file system that has no
-    locks.
+    """Keep other processes of ours from writing `path` within the block.
 
-    path: without symbolic links. wait: seconds, by default WAIT. Raises Busy and OSError.
+    Yield False on a file system that has no locks. path: without symbolic links. wait: seconds, by default WAIT. Raises
+    Busy and OSError.
     """
     lock = beside(path, "body_moments.lock")
     descriptor = _acquired(lock, time.monotonic() + (WAIT if wait is None else wait))

@@ -46,8 +46,9 @@ def _take_signals() -> list[int]:
 
 
 def _end(number: int, _frame: object) -> None:
-    """Clean up, then die of the signal as if it had not been handled. Raising would not do: an exception within an
-    importer that is written in Python becomes an error of that importer.
+    """Clean up, then die of the signal as if it had not been handled.
+
+    Raising would not do: an exception within an importer that is written in Python becomes an error of that importer.
     """
     _remove(tuple(_present))
     signal.signal(number, signal.SIG_DFL)

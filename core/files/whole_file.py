@@ -18,8 +18,9 @@ from .leftovers import removed
 
 @contextmanager
 def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Iterator[BinaryIO]:
-    """Open a file to write to, which takes the place of `path` once it is on the disk, and is gone if that fails. A
-    pipe or a device is written to, and not replaced.
+    """Open a file to write to, which takes the place of `path` once it is on the disk, and is gone if that fails.
+
+    A pipe or a device is written to, and not replaced.
 
     check: raises FileExistsError if `path` must not be replaced. It is called last of all, because the file may have
     appeared meanwhile; the written data is kept beside it then. Raises OSError.
@@ -46,8 +47,9 @@ def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Itera
 
 @contextmanager
 def partial_file(path: Path, alone: bool) -> Iterator[Path]:
-    """Yield the name of a file beside `path` to write first, gone when the block ends. Files left by processes that
-    were killed go too, if nobody else can be writing.
+    """Yield the name of a file beside `path` to write first, gone when the block ends.
+
+    Files left by processes that were killed go too, if nobody else can be writing.
     """
     partial = beside(path, "{}.partial".format(os.getpid()))
     written = Path("{}@".format(partial))  # Blender's own, while it saves
@@ -63,8 +65,9 @@ def partial_file(path: Path, alone: bool) -> Iterator[Path]:
 
 
 def replace(partial: Path, path: Path) -> None:
-    """Put a file that is complete in the place of another, whose owner and mode it takes, and wait for the disk. Raises
-    OSError.
+    """Put a complete file in the place of another, whose owner and mode it takes, and wait for the disk.
+
+    Raises OSError.
     """
     with suppress(FileNotFoundError):
         _take_owner_and_mode(partial, os.stat(path))

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Harmonics that turn a body about its axis, if its moments to sixth order are those of a body of revolution: a prism
-of seven sides and more.
+"""Harmonics that turn a body about its axis.
+
+They are needed if its moments to sixth order are those of a body of revolution: a prism of seven sides and more.
 
 The harmonics ∫ (x+iy)^m and ∫ (x+iy)^m z about the axis are moments of order m and m + 1; no others are needed. They
 are powers of linear forms. The mean of one over a triangle is a complete homogeneous polynomial of the corners' values,
@@ -33,8 +34,9 @@ TRIANGLES_PER_BLOCK = 1 << 13
 
 @dataclass(frozen=True, eq=False)
 class AxialHarmonics:
-    """Harmonics about an axis, each as a share of the largest that a body of that radius and height can have, or of one
-    that is not as flat.
+    """Harmonics about an axis, as shares of the largest possible ones.
+
+    The largest is that of a body of that radius and height, or of one that is not as flat.
 
     Attributes
     ----------
@@ -108,8 +110,9 @@ def axial_harmonics(
 
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
-    """Return (2, order + 1, k) the means of w^m and w^m z over triangles. corners: (3, 3, k), x, y, z of each
-    corner.
+    """Return (2, order + 1, k) the means of w^m and w^m z over triangles.
+
+    corners: (3, 3, k), x, y, z of each corner.
     """
     w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
     power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3

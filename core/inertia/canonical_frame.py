@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The frames that a body's moments beyond second order choose: one if it has no symmetry, else one for each rotation
-that takes the body to itself, as far as these moments show.
+"""The frames that a body's moments beyond second order choose.
+
+If it has no symmetry that is one frame, else one for each rotation that takes the body to itself, as far as these
+moments show.
 
 First a finite set of frames is found that turns with the body. Axes of different second moments are fixed up to their
 signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive:
@@ -44,10 +46,12 @@ DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
 @dataclass(frozen=True, eq=False)
 class SecondMomentAxes:
-    """Axes from second moments. axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents
-    (standard deviations) along them. undetermined_axes: the axes that equal moments leave free. step: shift of the
-    points by float32, as a length. tilt: the angle by which that and rounding may have turned the other axes. noise:
-    normalized third moments that differ by less are equal.
+    """Axes from second moments.
+
+    axes: (3, 3) columns, det +1, largest second moment first. size: (3,) the extents (standard deviations) along them.
+    undetermined_axes: the axes that equal moments leave free. step: shift of the points by float32, as a length. tilt:
+    the angle by which that and rounding may have turned the other axes. noise: normalized third moments that differ by
+    less are equal.
     """
 
     axes: NDArray[np.float64]
@@ -60,9 +64,11 @@ class SecondMomentAxes:
 
 @dataclass(frozen=True)
 class FrameRule:
-    """Rule that fixes frames beside second moments. extreme: the degree of the moments that are extreme along their
-    third axis; 0 if second moments fix an axis. axis, harmonic: the axis about which the harmonic of this degree, m and
-    k is real; None if none is clear. sign: the harmonic's.
+    """Rule that fixes frames beside second moments.
+
+    extreme: the degree of the moments that are extreme along their third axis; 0 if second moments fix an axis. axis,
+    harmonic: the axis about which the harmonic of this degree, m and k is real; None if none is clear. sign: the
+    harmonic's.
     """
 
     extreme: int
@@ -73,11 +79,13 @@ class FrameRule:
 
 @dataclass(frozen=True, eq=False)
 class EquivalentFrames:
-    """Frames in which a body is the same. frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the
-    normalized central moments of third to the highest order in each of them, and their noise. revolution_axes: the
-    directions that no moment fixes: none (), all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an
-    estimate of the angle by which noise may have turned them. rule: fixes them; None if second moments alone do, or if
-    they are the poles of a circle of extreme directions.
+    """Frames in which a body is the same.
+
+    frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central moments of third to
+    the highest order in each of them, and their noise. revolution_axes: the directions that no moment fixes: none (),
+    all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an estimate of the angle by which noise may
+    have turned them. rule: fixes them; None if second moments alone do, or if they are the poles of a circle of extreme
+    directions.
     """
 
     frames: NDArray[np.float64]
@@ -89,9 +97,10 @@ class EquivalentFrames:
 
 
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
-    """Return the frames that a body's moments choose. moments: to some order from 3 to MAX_ORDER, about any point.
-    starts: (k, 3, 3) the frames along the spread's axes that third moments allow. MeasureError if their size is beyond
-    the range of numbers.
+    """Return the frames that a body's moments choose.
+
+    moments: to some order from 3 to MAX_ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
+    that third moments allow. MeasureError if their size is beyond the range of numbers.
     """
     central = moments.about_center()
     total = central.raw[0]
@@ -140,8 +149,9 @@ def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
-    """Turn the bases about that axis of theirs as the first clear harmonic asks. Return them, its degree, m and k if
-    there is one, and the angle by which noise may have turned it.
+    """Turn the bases about that axis of theirs as the first clear harmonic asks.
+
+    Return them, its degree, m and k if there is one, and the angle by which noise may have turned it.
 
     fourfold: the sign of a harmonic with m = 4; others get a positive one. E[cos 4φ] is negative for a square with
     sides along the axes.
@@ -166,8 +176,9 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
-    """Return the first harmonic about that axis of the bases that is above noise, first among harmonics above
-    CLEAR_HARMONIC: its degree, m and k, (n,) its value in each basis, and its noise.
+    """Return the first harmonic about that axis of the bases that is above noise, or above CLEAR_HARMONIC if one is.
+
+    It is its degree, m and k, (n,) its value in each basis, and its noise.
     """
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size, weaker = [first, second, axis], _extents(spread), None
@@ -201,9 +212,10 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
 ) -> tuple[NDArray, float, float, bool]:
-    """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer; 1 or -1 for
-    the two; the angle by which noise may have turned them; and whether they are isolated: of a circle of them the poles
-    are returned. None (0, 3) if the moment is the same in all directions.
+    """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
+
+    Return also 1 or -1 for the two; the angle by which noise may have turned them; and whether they are isolated: of a
+    circle of them the poles are returned. None (0, 3) if the moment is the same in all directions.
     """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
@@ -232,8 +244,9 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
-    """Return the maxima on the sphere, the best approached first, that are no more than `within` below the largest;
-    some of them several times. span: between the largest and the least value.
+    """Return the maxima on the sphere, the best approached first, no more than `within` below the largest.
+
+    Some of them are returned several times. span: between the largest and the least value.
 
     The search starts from the highest points of a grid over the sphere: along the sphere the function is a
     trigonometric polynomial, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the
@@ -294,8 +307,9 @@ def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDAr
 
 
 def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
-    """Return for each monomial of a degree the product of the extents along its axes, and the noise of its normalized
-    moment by float32 coordinates and by rounding.
+    """Return for each monomial of a degree its scale and the noise of its normalized moment.
+
+    The scale is the product of the extents along its axes; the noise comes from float32 coordinates and from rounding.
     """
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = _extents(spread)
@@ -309,9 +323,7 @@ def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> t
 
 
 def _extents(spread: SecondMomentAxes) -> NDArray[np.float64]:
-    """Return (3,) the extents; infinite along an axis that has hardly any, so that no noise is divided by next to
-    nothing.
-    """
+    """Return (3,) the extents, infinite along an axis with hardly any: no noise is divided by almost nothing."""
     return np.where(spread.size > FLAT_EXTENT_RTOL * spread.size.max(), spread.size, np.inf)
 
 

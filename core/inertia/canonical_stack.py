@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The choice of `canonical_frames` for many bodies at once: if only signs of axes are left, and for bodies that no
-moment fixes about an axis.
+"""The choice of `canonical_frames` for many bodies at once.
+
+It applies if only signs of axes are left, and to bodies that no moment fixes about an axis.
 
 A frame turned by half a turn about one of its axes has the same normalized moments, but for the signs of the moments
 that are odd in both other axes. So among frames that differ by half turns the ones with the largest moments are found
@@ -53,8 +54,9 @@ def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArra
 def choose_about_axis(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Choose, for bodies with two axes of equal moments, the half turns that `canonical_frames` chooses if no moment
-    fixes the directions of these axes.
+    """Choose the half turns that `canonical_frames` chooses for bodies with two axes of equal moments.
+
+    They hold if no moment fixes the directions of these axes.
 
     Parameters
     ----------
@@ -88,8 +90,9 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the allowed half turns with the largest normalized moments, (n, columns), column after
-    column; values that differ by no more than `least` are equal.
+    """Return (n, 4) mask of the allowed half turns with the largest normalized moments.
+
+    Moments: (n, columns), compared column after column; values that differ by no more than `least` are equal.
     """
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
@@ -107,8 +110,9 @@ def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDAr
 def _along_axes(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n, columns) the normalized central moments of third to the highest order along the axes, and their noise;
-    (n, K) the central moments along the axes by the total.
+    """Return (n, columns) the normalized central moments of third to the highest order along the axes, and their noise.
+
+    Return also (n, K) the central moments along the axes by the total.
     """
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
@@ -134,9 +138,10 @@ def _extents(size: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
-    """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0, z along
-    this axis and x and y along the next: (h,) the number of moments' noise that each holds, (h,) the column, from third
-    order on, of the moment of its size, and (h, columns) the moments that make it up.
+    """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0.
+
+    z is along this axis, x and y along the next. They are (h,) the number of moments' noise that each holds, (h,) the
+    column, from third order on, of the moment of its size, and (h, columns) the moments that make it up.
     """
     weights, columns, forms = [], [], []
     for degree in range(3, order + 1):

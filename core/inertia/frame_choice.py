@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Choice among the frames in which bodies are the same: along the axes that second moments fix, and nearest to
-preferred axes.
-"""
+"""Choice of a body's frame: along the axes that second moments fix, and nearest to preferred axes."""
 
 from __future__ import annotations
 
@@ -17,9 +15,7 @@ MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments,
 
 
 def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the axes of the
-    bodies.
-    """
+    """Return (m, k, 3, 3) frames, turned so that their axes fixed by second moments lie along the bodies' axes."""
     along = np.einsum("mai,mkai->mki", fixed.axes[bodies], frames)
     near = fixed.axes[bodies][:, None] * np.sign(along)[:, :, None]
     is_fixed = IS_FIXED[fixed.symmetry[bodies]]
@@ -69,9 +65,10 @@ def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
 
 
 def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike) -> NDArray[np.float64]:
-    """Return (m, 3, 3) the frame of each (m, k, 3, 3) with the smallest turn from the preferred ones, (m, 3, 3). If
-    several are as near, take the one with axes that, in order, point along rather than against their preferred axes, so
-    that noise cannot flip it.
+    """Return (m, 3, 3) the frame of each (m, k, 3, 3) with the smallest turn from the preferred ones, (m, 3, 3).
+
+    If several are as near, take the one with axes that, in order, point along rather than against their preferred axes,
+    so that noise cannot flip it.
 
     tilt: the angle by which noise may have turned the candidates, for all or for each.
     """

@@ -189,6 +189,7 @@ class MassProperties:
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
         """Return the same body in the frame with the columns of `rotation` as axes and with `origin` as origin.
+
         ValueError if that is no rotation.
         """
         rotation = rotation_array("rotation", rotation)
@@ -238,9 +239,10 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike |
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return (n,) whether bodies within these boxes, (n, 3) and (n, 3), can have these moments: their centers are
-    inside, and their second central moments are those of a positive mass. A surface that intersects itself may violate
-    both.
+    """Return (n,) whether bodies within these boxes, (n, 3) and (n, 3), can have these moments.
+
+    Their centers are inside, and their second central moments are those of a positive mass. A surface that intersects
+    itself may violate both.
     """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
@@ -254,8 +256,10 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDA
 
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
-    """Return bounds of the change by rounding, and of the change if the moments are off by their `input_error`: for the
-    worst signs of all errors, with the divisor at its smallest; infinite if nothing bounds a quotient.
+    """Return bounds of the change by rounding, and of the change if the moments are off by their `input_error`.
+
+    They hold for the worst signs of all errors, with the divisor at its smallest; infinite if nothing bounds a
+    quotient.
     """
     delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]

@@ -166,8 +166,9 @@ def third_moment_frames(
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n,) whether better third moments could change neither the scores of fixed axes that count, nor their
-    signs, nor their order.
+    """Return (n,) whether better third moments could change no decision.
+
+    They could change neither the scores of fixed axes that count, nor their signs, nor their order.
     """
     clear = size - error > noise
     below = size + error <= noise
@@ -181,8 +182,9 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
 
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
-    """Return (n, 3, 3) for each body and axis i its skewness and the two normalized third moments odd in i and even in
-    another axis, M_iii, M_ijj and M_ikk; and the bounds of their errors.
+    """Return (n, 3, 3) for each body and axis i its skewness and two normalized third moments, and their error bounds.
+
+    The three are M_iii, M_ijj and M_ikk: the two are odd in i and even in another axis.
     """
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]

@@ -14,8 +14,10 @@ ROUNDING = 1e-6  # relative to a box's sides
 
 
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) the boxes in the order of their beginnings along an axis, and (k,) the number of boxes behind each
-    one that begin before its end. The axis is the one with the fewest such pairs.
+    """Return (k,) the boxes in the order of their beginnings along an axis, and (k,) counts of overlaps along it.
+
+    A count is the number of boxes behind a box that begin before its end. The axis is the one with the fewest such
+    pairs.
     """
     sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
@@ -26,8 +28,9 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
 
 
 def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
-    """Return pairs of boxes that overlap by more than `margin` along every axis, at most about `most`, and the number
-    of candidates that were left out.
+    """Return pairs of boxes that overlap by more than `margin` along every axis, at most about `most`.
+
+    Return also the number of candidates that were left out.
     """
     order, count = _sweep(low, high, margin)
     left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0

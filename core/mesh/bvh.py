@@ -73,8 +73,9 @@ def sort_components(
 
 
 def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return the stable order of integers from 0 to 2^32 - 1, 16 bits at a time: numpy sorts such short ones by
-    counting.
+    """Return the stable order of integers from 0 to 2^32 - 1, 16 bits at a time.
+
+    numpy sorts 16-bit integers by counting.
     """
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
@@ -97,8 +98,9 @@ class Bvh:
         self._build_nodes(self._sort(components, selected), selected)
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """Set `ids`, `bottom` and `top`: the triangles of the wanted components, one after the other, each in Morton
-        order. Return (m,) the component of each.
+        """Set `ids`, `bottom` and `top`, and return (m,) the component of each triangle.
+
+        The triangles are the ones of the wanted components, one component after the other, each in Morton order.
         """
         ids, component = components.triangles, components.component
         if not selected.all():
@@ -172,8 +174,9 @@ class Bvh:
     def winding_numbers(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Return (k,) the winding number of a component around each place (about `origin`), and whether it is sure: not
-        if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
+        """Return (k,) the winding number of a component around each place (about `origin`), and whether it is sure.
+
+        It is unsure if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
         """
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
@@ -262,8 +265,9 @@ class Bvh:
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return for each pair of components whether an edge of one goes through a triangle of the other by more than the
-    tolerance, and whether the work ran out before that was known.
+    """Return for each pair of components whether they intersect, and whether the work ran out before that was known.
+
+    They do if an edge of one goes through a triangle of the other by more than the tolerance.
 
     first, second: (k,) components. vertex: (n,) the vertex of each point; triangles that share one are not compared.
     """
@@ -325,9 +329,10 @@ def _intersect_leaves(
 def _edges_cross_triangles(
     corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.intp]:
-    """Return the indices of the triangles `corner` with an edge that goes through their partner in `plane`, both (3, k,
-    3): more than the tolerance away from its edges, and further than that to both sides while it is over the partner.
-    (The plane of a sliver is not known far from it.)
+    """Return the indices of the triangles `corner` with an edge that goes through their partner in `plane`.
+
+    Both are (3, k, 3). The edge goes more than the tolerance away from the partner's edges, and further than that to
+    both sides while it is over the partner. (The plane of a sliver is not known far from it.)
     """
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]

@@ -25,10 +25,10 @@ from .surface import Surface
 
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """Return (2, e) the mesh faces on the two sides of each used edge, if the mesh's own corners prove that every edge
-    with faces has two, which run along it in opposite directions; else, or if there are no faces, None.
+    """Return (2, e) the mesh faces on the two sides of each used edge, None if the surface is not proven closed.
 
-    Edges without faces do not count. The edge names at the corners are trusted.
+    It is proven by the mesh's own corners if every edge with faces has two, which run along it in opposite directions;
+    None also if there are no faces. Edges without faces do not count. The edge names at the corners are trusted.
     """
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
@@ -55,8 +55,9 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
 def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
-    """Return a function of the start of a block of corners. It returns the face of each corner, and whether its side
-    runs to a higher vertex. None if faces and corners do not fit.
+    """Return a function of the start of a block of corners, or None if faces and corners do not fit.
+
+    It returns the face of each corner, and whether its side runs to a higher vertex.
     """
     quads, triangles = len(surface.quads), len(surface.triangles)
     if not triangles and surface.quad_faces is None:
@@ -114,9 +115,7 @@ class Edges:
     count: NDArray[np.intp]
 
     def signed_use_count(self, flipped: NDArray[np.bool_]) -> NDArray[np.float64]:
-        """Return (e,) sides that run upward minus sides that run downward, once the `flipped` triangles are
-        reversed.
-        """
+        """Return (e,) upward sides minus downward sides of each edge, once the `flipped` triangles are reversed."""
         return sums_by_index(self.of_side, np.where(self.upward ^ np.repeat(flipped, 3), 1.0, -1.0))
 
     def manifold_side_pairs(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -156,8 +155,10 @@ def _ends(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[
 
 
 def edges_from_mesh(surface: Surface, triangles: NDArray[np.integer]) -> Edges | None:
-    """Return the edges as `find_edges` does, without a search, from the mesh's own edges at its corners; each quad's
-    diagonal is one more. None if the mesh names none or not for all triangles, or they do not fit the vertices.
+    """Return the edges as `find_edges` does, without a search, from the mesh's own edges at its corners.
+
+    Each quad's diagonal is one more. None if the mesh names none or not for all triangles, or they do not fit the
+    vertices.
 
     triangles: all of the surface, as `all_triangles` cuts them, with three different vertices each.
     """
@@ -216,8 +217,7 @@ def consistent_orientation(
     misoriented: NDArray[np.bool_],
     weight: NDArray[np.float64],
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return masks (count,) of the faces to turn so that linked faces agree, and of the faces that cannot be made to
-    agree.
+    """Return masks (count,) of the faces to turn so that linked faces agree, and of faces that cannot be made to agree.
 
     a, b: the linked faces; misoriented: if the two disagree now; weight: (count,) the area of each face. In each part
     the orientation with less area is turned; a part that is not orientable (a Möbius strip, a Klein bottle) stays as it

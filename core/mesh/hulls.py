@@ -157,8 +157,9 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
-    """Return the index of the largest distance. Among distances as large to `least`, take the largest reach: it is at a
-    corner of the hull.
+    """Return the index of the largest distance.
+
+    Among distances as large to `least`, take the largest reach: it is at a corner of the hull.
     """
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
@@ -189,8 +190,9 @@ class _GrowingHull:
         self.lengths = np.linalg.norm(self.normals.astype(np.float64), axis=1)
 
     def _heights(self, points: NDArray[np.intp], faces: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return (k,) normal · (point - corner): rounded, but of the right sign, and zero only if the point is in the
-        plane. The product needs 90 bits: the normal's upper and lower bits are multiplied apart.
+        """Return (k,) normal · (point - corner), rounded but of the right sign; zero only in the plane.
+
+        The product needs 90 bits: the normal's upper and lower bits are multiplied apart.
         """
         offset = self.grid[points] - self.grid[self.corners[faces, 0]]
         normal = self.normals[faces]
@@ -202,8 +204,9 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return for each point, of one or more, the face that it is highest above, of the `counts` faces from the face
-        `firsts` on; without the points that are above none.
+        """Return for each point, of one or more, the face that it is highest above, without points above none.
+
+        The choice is among the `counts` faces of each point, from the face `firsts` on.
         """
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
@@ -241,8 +244,9 @@ class _GrowingHull:
     def _visible_faces(
         self, apexes: NDArray[np.intp], faces: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (k, 2) pairs of an apex and a face that it sees, and (l, 3) apex, visible face and side beyond which
-        it sees none.
+        """Return (k, 2) pairs of an apex and a face that it sees, and (l, 3) the border of the visible faces.
+
+        The border is apex, visible face and side beyond which it sees none.
         """
         size = len(self.corners)
         front = np.stack([np.arange(len(apexes)), faces], axis=1)

@@ -37,9 +37,10 @@ QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) wh
 
 @dataclass(frozen=True, eq=False)
 class Planarity:
-    """non_planar_count: how many faces are not; volume_spread: the volume that the choice of their diagonals can
-    change;
-    degenerate_faces: (k,) the faces that have none.
+    """Planarity of the faces of a surface.
+
+    non_planar_count: how many faces are not planar; volume_spread: the volume that the choice of their diagonals can
+    change; degenerate_faces: (k,) the faces without area.
     """
 
     non_planar_count: int
@@ -49,8 +50,10 @@ class Planarity:
 
 @dataclass(frozen=True, eq=False)
 class _PlanarityPartial:
-    """Results of some quads or triangles: their count; the count of faces surely not flat, and 6 times their spread;
-    and the rows of the undecided faces.
+    """Results of some quads or triangles.
+
+    In order: the count of faces; the count of faces surely not flat, and 6 times their spread; and the rows of the
+    undecided faces.
     """
 
     count: int
@@ -60,8 +63,9 @@ class _PlanarityPartial:
 
 
 class PlanarityAccumulator:
-    """Quads, and polygons if the surface has the mesh's corners to tell their rings from; other faces are made of
-    triangles and have no choice.
+    """Quads, and polygons if the surface has the mesh's corners to tell their rings from.
+
+    Other faces are made of triangles and have no choice.
 
     error: (length) bound of the distance of points from their intended places. Safe in threads.
 
@@ -225,8 +229,9 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (m,) 6 times the volume of the tetrahedron on the corners of each face, scaled to size 1, zero if the face
-    is flat; and (m,) whether it has no area.
+    """Return (m,) 6 times the volume of the tetrahedron on the corners of each face, and (m,) whether it has no area.
+
+    The volume is scaled to size 1, and zero if the face is flat.
 
     pairs: of corners, QUAD or TRIANGLE. error, exponent: of the surface, or (m,) of each row.
     """
@@ -252,8 +257,9 @@ def _classify_rows(
 def _tetrahedra(
     ring: NDArray[np.integer], begin: NDArray[np.integer], sizes: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-    """Return the tetrahedra of polygons with corners that stand in `ring`, from `begin` on: (m,) the polygon of each,
-    and (m, 4) corners.
+    """Return the tetrahedra of polygons with corners that stand in `ring`, from `begin` on.
+
+    They are (m,) the polygon of each, and (m, 4) corners.
     """
     steps = sizes - 3
     row = np.repeat(np.arange(len(sizes)), steps)
@@ -267,9 +273,7 @@ def _sum_in_order(volumes: NDArray[np.float64]) -> float:
 
 
 def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _PlanarityPartial:
-    """Merge the partial results of `count` rows in the order of the rows; if some rows are missing, all are
-    undecided.
-    """
+    """Merge the partial results of `count` rows in the order of the rows; if some are missing, all are undecided."""
     partials = [blocks[start] for start in sorted(blocks)]
     if sum([block.count for block in partials]) != count:
         return _PlanarityPartial(count, 0, 0.0, np.arange(count))
@@ -282,7 +286,8 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
 
 
 def _degenerate_limit(longest: NDArray | float, error: float | NDArray) -> NDArray | float:
-    """Return the largest square of the normal of a face without area, from the square of its longest edge or
-    diagonal.
+    """Return the largest square of the normal of a face without area.
+
+    It follows from the square of the face's longest edge or diagonal.
     """
     return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

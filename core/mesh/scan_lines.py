@@ -81,8 +81,9 @@ class LineGrids:
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
-        """Return (3, n) places of points: in rows, in columns, and along the lines from the center (unit). body: (n,)
-        the body of each point, None for a single one.
+        """Return (3, n) places of points: in rows, in columns, and along the lines from the center (unit).
+
+        body: (n,) the body of each point, None for a single one.
         """
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
@@ -221,8 +222,9 @@ def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDAr
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (3, k) corners of the triangles that span several rows and columns, and their indices; both halves of such
-    a quad are included.
+    """Return (3, k) corners of the triangles that span several rows and columns, and their indices.
+
+    Both halves of such a quad are included.
     """
     triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
     quads = surface.quads
@@ -260,9 +262,11 @@ def _cross_row(
     higher: NDArray[np.bool_],
     row: NDArray[np.intp],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
-    """Return (2, k) and (2, k) the points at which a row enters and leaves each triangle: in columns, and along the
-    lines; and the sign of the lines' crossings in between. places, corners: (3, 3t) and (3t,) of all first corners, all
-    second and all third ones; which: (k,) the triangles; higher: (3, k) mask of their corners above the row.
+    """Return the points at which a row enters and leaves each triangle, and the sign of the lines' crossings between.
+
+    The points are (2, k) in columns and (2, k) along the lines. places, corners: (3, 3t) and (3t,) of all first
+    corners, all second and all third ones; which: (k,) the triangles; higher: (3, k) mask of their corners above the
+    row.
     """
     first, second, third = higher
     single = (first ^ second ^ third) & ~(first & second & third)

@@ -27,8 +27,9 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
-    """Return (n, k) the face across each side of (n, k) faces, if every edge has two sides that run in opposite
-    directions; None if one has not, or if there are too many for 32 bits.
+    """Return (n, k) the face across each side of (n, k) faces, if every edge has two opposite sides, else None.
+
+    Opposite sides run in opposite directions. None also if there are too many for 32 bits.
 
     vertex_count: of vertices that are all used.
     """
@@ -79,8 +80,9 @@ class _Table:
         return self.sides.take(places, mode="clip") - np.int32(1)
 
     def factors_by_distinct_places(self, faces: NDArray[np.integer]) -> list[int]:
-        """Return the hash factors, ordered by the number of distinct places of the sides around some vertices, most
-        first: in a grid the differences of neighbors are the same few everywhere.
+        """Return the hash factors, ordered by the number of distinct places of the sides around some vertices.
+
+        Most come first: in a grid the differences of neighbors are the same few everywhere.
         """
         flat = faces.ravel()
         first = len(self.sides) >> self.bits + 1

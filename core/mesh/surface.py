@@ -87,9 +87,7 @@ class Surface:
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(3,) and (3,) the smallest and the largest coordinates of the points, used or not; NaN if a coordinate is
-        NaN.
-        """
+        """(3,) and (3,) the smallest and the largest coordinates of the points, used or not; NaN if any is NaN."""
         low = high = self.points
         if len(low) > POINTS_PER_ROW:  # along rows of three numpy is twenty times as slow
             whole = len(low) // POINTS_PER_ROW * POINTS_PER_ROW
@@ -101,8 +99,10 @@ class Surface:
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
-        """(3,) half an ulp of the largest float32 coordinate on each axis: how far storing the points may have moved
-        them. `displacement` holds it for points that were float32 before; otherwise it is zero for float64 points.
+        """(3,) half an ulp of the largest float32 coordinate on each axis.
+
+        It is how far storing the points may have moved them. `displacement` holds it for points that were float32
+        before; otherwise it is zero for float64 points.
         """
         if self.displacement is not None:
             return self.displacement
@@ -114,8 +114,9 @@ class Surface:
         return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
-        """Map the points by `linear @ x + offset` in float64. A mirroring map reverses the faces, so that outward stays
-        outward; the diagonals stay as Blender drew them.
+        """Map the points by `linear @ x + offset` in float64.
+
+        A mirroring map reverses the faces, so that outward stays outward; the diagonals stay as Blender drew them.
 
         Parameters
         ----------

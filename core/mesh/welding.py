@@ -32,6 +32,7 @@ def may_have_neighbor(
     points: NDArray[np.floating], reach: float | NDArray[np.float64], owner: NDArray[np.integer] | None = None
 ) -> NDArray[np.bool_]:
     """Return (n,) whether a point may have another one of the same owner within reach; surely true for all that have.
+
     reach: for all points, or for each, equal for all points of an owner.
     """
     x, y, z = points.T.astype(np.float64)
@@ -48,8 +49,7 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return (n,) for each point the first one of its cluster: of points nearer to each other than all their tolerances
-    (n,).
+    """Return (n,) the first point of each point's cluster: of points nearer to each other than their tolerances (n,).
 
     Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Some
     points of a row, each near to the next, may be left out: their order decides.
@@ -85,10 +85,10 @@ def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64
 def vertex_tolerance(
     points: NDArray[np.floating], triangles: NDArray[np.integer], vertices: NDArray[np.integer], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (k,) the distance that each of `vertices` may move: `tolerance`, less if the triangles around it are
-    small.
+    """Return (k,) the distance that each of `vertices` may move.
 
-    A part much smaller than the body must not be welded away.
+    It is `tolerance`, less if the triangles around the vertex are small. A part much smaller than the body must not be
+    welded away.
     """
     requested = np.zeros(len(points), bool)
     requested[vertices] = True

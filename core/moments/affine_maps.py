@@ -47,8 +47,10 @@ def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
 
 
 def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
-    """Return (K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order, F the functional, (K, 1) or (K, k), l_i the
-    linear forms of the k maps, linear (3, 3, k) and offset (3, k).
+    """Return (K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order.
+
+    F is the functional, (K, 1) or (K, k), and l_i are the linear forms of the k maps, linear (3, 3, k) and offset (3,
+    k).
     """
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
@@ -107,8 +109,9 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
-    """Return the images of the monomials of a degree as polynomials of the old ones, (..., rows, rows). table: the same
-    for one degree less. forms: (..., 3, 3) the images of x, y, z.
+    """Return the images of the monomials of a degree as polynomials of the old ones, (..., rows, rows).
+
+    table: the same for one degree less. forms: (..., 3, 3) the images of x, y, z.
     """
     count, below = count_of_degree(degree), count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
@@ -129,8 +132,10 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 
 @lru_cache
 def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
-    """Return the terms of all monomials, one after the other, once one of x, y, z is moved by t: (k,) the old monomial
-    of each term, the power of t, and the binomial; and (K,) the first term of each monomial.
+    """Return the terms of all monomials, one after the other, once one of x, y, z is moved by t.
+
+    They are (k,) the old monomial of each term, the power of t, and the binomial; and (K,) the first term of each
+    monomial.
     """
     powers, tables = monomials(order), []
     for axis in range(3):
@@ -145,9 +150,7 @@ def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray
 
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
-    """Return (..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], one axis after the
-    other.
-    """
+    """Return (..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], axis by axis."""
     moved = offsets.any(axis=-1)
     if not moved.all():  # most images are about the image of their point
         values = values.copy()
@@ -183,12 +186,12 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) with no negative density, from their
-    moments.
+    """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) without negative density.
 
-    For an even degree n that is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), for an odd one the
-    root of the product of its neighbors (Cauchy and Schwarz). The highest odd degree has no upper neighbor: its bound
-    is an estimate, from the lower degrees (to first order alone nothing but the moment itself).
+    They come from the moments. For an even degree n the bound is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and
+    geometric mean), for an odd one the root of the product of its neighbors (Cauchy and Schwarz). The highest odd
+    degree has no upper neighbor: its bound is an estimate, from the lower degrees (to first order alone nothing but the
+    moment itself).
     """
     out = np.abs(raw)
     largest = [
@@ -209,15 +212,14 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
-    """Return (k,) whether (k, 3, 3) maps are rotations, reflections and uniform scales, as far as float32 matrices can
-    be.
-    """
+    """Return (k,) whether (k, 3, 3) maps are rotations, reflections and uniform scales, as far as float32 goes."""
     return anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """Return (k,) the relative excess of the stretch of each of the (3, 3, k) maps in one direction over another;
-    infinite for a flat map.
+    """Return (k,) the relative excess of the stretch of each of the (3, 3, k) maps in one direction over another.
+
+    It is infinite for a flat map.
     """
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]

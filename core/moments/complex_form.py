@@ -52,8 +52,10 @@ class ComplexBound:
 
 @dataclass(frozen=True)
 class Invariant:
-    """A number that does not change when a shape is turned: `name`, the largest `degree` of its moments, `value`,
-    `is_complex`, and bounds of the changes by rounding, and by storing coordinates as float32.
+    """A number that does not change when a shape is turned.
+
+    It has a `name`, the largest `degree` of its moments, `value`, `is_complex`, and bounds of the changes by rounding,
+    and by storing coordinates as float32.
     """
 
     name: str

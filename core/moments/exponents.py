@@ -46,8 +46,9 @@ def order_from_count(count: int) -> int:
 
 
 def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int, ...]:
-    """Return the exponents of one moment. TypeError if they are not `dimension` integers, IndexError if no moment to
-    this order has them.
+    """Return the exponents of one moment.
+
+    TypeError if they are not `dimension` integers, IndexError if no moment to this order has them.
     """
     powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
     if len(powers) != dimension or not all(isinstance(power, (int, np.integer)) for power in powers):
@@ -121,8 +122,9 @@ def count_of_degree(degree: int) -> int:
 
 @lru_cache
 def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
-    """Return (3, rows) the indices of x^α without one factor x, y or z among the monomials one degree lower; `missing`
-    if x^α has no such factor.
+    """Return (3, rows) the indices of x^α without one factor x, y or z among the monomials one degree lower.
+
+    It is `missing` if x^α has no such factor.
     """
     table = monomials(degree)[-count_of_degree(degree) :]
     r, s = table[:, 2], table[:, 1] + table[:, 2]

@@ -137,8 +137,9 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it; 0 beyond the
-        order.
+        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it.
+
+        It is 0 beyond the order.
         """
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
@@ -411,8 +412,9 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (k,) the factor by which each of the (3, 3, k) maps changes the measure, its rounding bound, and the
-    deviation of the map from one factor.
+    """Return (k,) the factors by which (3, 3, k) maps change the measure, their rounding bounds, and the deviations.
+
+    The deviation is that of the map from one factor.
     """
     exact = np.zeros(linear.shape[2])
     if measure == Measure.MASS:

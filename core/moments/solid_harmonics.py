@@ -51,8 +51,9 @@ def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]
 
 
 def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """Return (…) the scalar made of three multiplets (2l+1, …): Σ (l l' l''; m m' m'') a_m b_m' c_m''. A reflection
-    changes its sign if l + l' + l'' is odd.
+    """Return the scalar made of three multiplets (2l+1, …): (…) Σ (l l' l''; m m' m'') a_m b_m' c_m''.
+
+    A reflection changes its sign if l + l' + l'' is odd.
     """
     l, k, n = ((len(multiplet) - 1) // 2 for multiplet in (a, b, c))
     symbols, (i, j, m) = _nonzero_three_j(l, k, n)
@@ -62,9 +63,7 @@ def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _solid(l: int) -> NDArray[np.complex128]:
-    """Return (l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the monomials of degree l, in their
-    order.
-    """
+    """Return (l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the ordered monomials of degree l."""
     start = monomial_count(l - 1)
     table = np.zeros((l + 1, monomial_count(l) - start), complex)
     for m in range(l + 1):

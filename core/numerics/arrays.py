@@ -29,7 +29,7 @@ def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
-    """Return 0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, …"""
+    """Return 0, 1, … counts[0] - 1, 0, 1, … counts[1] - 1, and so on."""
     starts = segment_starts(counts)
     return np.arange(int(np.add.reduce(counts))) - np.repeat(starts, counts)
 
@@ -40,8 +40,9 @@ def segment_starts(counts: NDArray) -> NDArray[np.intp]:
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
-    """Return (count or more,) the sum of the weights of each index. numpy's types allow `bincount` only without
-    weights.
+    """Return (count or more,) the sum of the weights of each index.
+
+    numpy's types allow `bincount` only without weights.
     """
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 

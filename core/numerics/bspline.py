@@ -117,11 +117,10 @@ class SplineSpace:
         return self.bezier_weights(self.spans, self.intervals)
 
     def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> NDArray[np.float64]:
-        """Return (s, order, order) weights of the acting control points in each Bézier control point of an interval (s,
-        2) within each span (s,).
+        """Return (s, order, order) weights of the acting control points in the Bézier control points of intervals.
 
-        This is the recursion of Cox and de Boor with a parameter for each of its steps, the interval's beginning or its
-        end: Bézier's b-th point takes b ends.
+        There is an interval (s, 2) within each span (s,). This is the recursion of Cox and de Boor with a parameter for
+        each of its steps, the interval's beginning or its end: Bézier's b-th point takes b ends.
         """
         knots = np.asarray(self.knots)
         near = knots[np.asarray(spans)[:, None] + np.arange(2 - self.order, self.order)]
@@ -184,8 +183,9 @@ class SplineSpace:
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
-        """Return (n, count) the weights of the control points at each of n parameters, or in a derivative there. spans:
-        (n,) the span of each parameter, needed if a knot may end one or begin the next.
+        """Return (n, count) the weights of the control points at each of n parameters, or in a derivative there.
+
+        spans: (n,) the span of each parameter, needed if a knot may end one or begin the next.
         """
         parameters = float_array("parameters", parameters, "n")
         spans = self.find_spans(parameters) if spans is None else spans

@@ -32,8 +32,9 @@ def _split(a: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """Return (3, k) (b-a) x (c-a) for corners (3, k), each component to a relative accuracy of about u, however thin
-    the triangle.
+    """Return (3, k) (b-a) x (c-a) for corners (3, k), with components to a relative accuracy of about u.
+
+    That holds however thin the triangle is.
     """
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
     coordinates = []

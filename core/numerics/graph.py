@@ -22,7 +22,7 @@ NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
 def connected_components(count: int, a: ArrayLike, b: ArrayLike) -> tuple[NDArray[np.intp], int]:
-    """Number the connected components of a graph.
+    """Find the connected components of a graph, numbered.
 
     Parameters
     ----------
@@ -73,8 +73,9 @@ def connected_components(count: int, a: ArrayLike, b: ArrayLike) -> tuple[NDArra
 
 
 def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """Find connected components like `connected_components`, if all nodes have equally many links, each seen from both
-    ends.
+    """Find connected components like `connected_components`, if all nodes have equally many links.
+
+    Each link is seen from both ends.
 
     neighbors: (n, k) the other ends of each node's links.
     """
@@ -97,8 +98,9 @@ def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp
 
 
 def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """Return the tree of each node, numbered in the order of their roots, and the number of trees. parent: no higher
-    than the node; is overwritten.
+    """Return the tree of each node, numbered in the order of their roots, and the number of trees.
+
+    parent: no higher than the node; is overwritten.
 
     Paths are halved by pointer jumping, block by block: a path out of a block ends at a root at once.
     """

@@ -200,8 +200,9 @@ def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]])
 
 
 def _plane(corners: Sequence[Vector]) -> tuple[Vector, Vector]:
-    """Return Newell's normal, twice the area long, and the foot of the perpendicular from the origin. A face that is
-    not flat has its mean plane.
+    """Return Newell's normal, twice the area long, and the foot of the perpendicular from the origin.
+
+    A face that is not flat has its mean plane.
     """
     normal = (0, 0, 0)
     for a, b in zip(corners, [*corners[1:], corners[0]]):

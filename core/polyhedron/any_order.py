@@ -49,7 +49,7 @@ MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 
 @lru_cache
 def _factors(order: int) -> NDArray[np.float64]:
-    """Return (K,) p! q! r! / (p+q+r+2)!"""
+    """Return (K,) the factors p! q! r! / (p+q+r+2)! of the monomials."""
     return np.array(
         [
             float(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 2))
@@ -75,8 +75,9 @@ class _FaceBatch:
 
 
 class _CompensatedSum:
-    """A running sum of arrays, with the rounding errors of the additions (Neumaier), and with the sums that make its
-    bounds. faces: number of faces added.
+    """A running sum of arrays, with the rounding errors of the additions (Neumaier) and the sums for its bounds.
+
+    faces: number of faces added.
     """
 
     def __init__(self, order: int, weights: int):
@@ -155,9 +156,7 @@ class _StreamIntegrator:
         return self._moments(total, Measure.VOLUME), self._moments(total, Measure.AREA) if self.area else None
 
     def _ordered_results(self, tasks: Iterator[_FaceBatch]) -> Iterator[tuple[int, list[Sums]]]:
-        """Yield the results of `_run` in the order of the tasks, irrespective of which finishes first; a few run at a
-        time.
-        """
+        """Yield the results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
         first = list(islice(tasks, min(self.threads, 2)))
         alone, tasks = len(first) < 2, chain(first, tasks)
         del first  # it holds pieces of a stream
@@ -193,8 +192,9 @@ class _StreamIntegrator:
                     yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
 
     def _size(self, faces: NDArray) -> int:
-        """Return the number of faces in a block: blocks are of even length, and as many for each of 2 or 4 threads. The
-        blocks, and so their sum, do not depend on the number of threads.
+        """Return the number of faces in a block: blocks are of even length, and as many for each of 2 or 4 threads.
+
+        The blocks, and so their sum, do not depend on the number of threads.
         """
         corners = faces.shape[1]
         # 2 if two triangles make one face here
@@ -233,9 +233,10 @@ class _StreamIntegrator:
 
     @staticmethod
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """Yield the corners of faces, a block at a time: quads as Blender cuts them, pairs of triangles, or triangles;
-        and the number of faces in a full block. Each block is judged by itself, so that it does not depend on its
-        neighbors.
+        """Yield the corners of faces, a block at a time, and the number of faces in a full block.
+
+        The faces are quads as Blender cuts them, pairs of triangles, or triangles. Each block is judged by itself, so
+        that it does not depend on its neighbors.
         """
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
@@ -269,8 +270,10 @@ class _StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """Return the change if the vertices move by their half ulps: over the volume that they sweep; of areas, over
-        the added area, and by the change of the integrand.
+        """Return the change if the vertices move by their half ulps.
+
+        It is integrated over the volume that they sweep; for areas, over the added area, and with the change of the
+        integrand.
         """
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:

@@ -69,8 +69,9 @@ class Sums:
 
 @lru_cache
 def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
-    """Return the row shapes of the arrays of `_Block` for faces of `count` corners: the lasting ones, the ones for
-    weighing, and the ones for summing, which share memory with the second.
+    """Return the row shapes of the arrays of `_Block` for faces of `count` corners.
+
+    They are the lasting ones, the ones for weighing, and the ones for summing, which share memory with the second.
     """
     ends, fans, lower = count - 1, count - 2, count_of_degree(order - 1)
     return (
@@ -90,8 +91,10 @@ def row_count(count: int, order: int, weights: int) -> int:
 
 
 class _Block:
-    """The rows of a block of faces, k columns, and the calls on them once the corners' coordinates and the edges from
-    the first corner are there: `steps`, in their order.
+    """Rows of a block of faces, k columns, and the calls on them.
+
+    The calls are `steps`, in their order, to be made once the corners' coordinates and the edges from the first corner
+    are there.
 
     corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles a, b, c and a, c, d;
     both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree.
@@ -175,8 +178,9 @@ class _Block:
             self._append_call(np.add, self.levels[1, part], grown, self.levels[1, part])
 
     def _append_raise(self, degree: int, vectors: NDArray) -> None:
-        """Append the calls that put Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower. vectors:
-        (3, c-1, 1, k).
+        """Append the calls that put Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower.
+
+        vectors: (3, c-1, 1, k).
 
         Without a factor x, a row keeps its place; without y or z, it is in the run of rows with one less q+r.
         """
@@ -204,8 +208,9 @@ class _Block:
             end = first - 1
 
     def _append_last_degree(self) -> None:
-        """Append the calls for the sums of the last degree: of products of the rows one degree lower and weighted
-        coordinates.
+        """Append the calls for the sums of the last degree.
+
+        They sum products of the rows one degree lower and weighted coordinates.
         """
         degree, weighted_products, powers = self.order, self.weighted_products, self.powers
         count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
@@ -286,9 +291,11 @@ class AnyOrderKernel:
 
 
 def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
-    """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for the weights |determinant| with its
-    rounding, that rounding alone, the volume that moving every vertex by its half ulp sweeps; and with areas: doubled
-    area with its rounding, that alone, and the area that moving the vertices adds.
+    """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for each set of weights.
+
+    The weights are |determinant| with its rounding, that rounding alone, the volume that moving every vertex by its
+    half ulp sweeps; and with areas: doubled area with its rounding, that alone, and the area that moving the vertices
+    adds.
     """
     chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
     high, low, weight_sums, squares = np.split(chunks, (3, 6, 6 + weights))
@@ -314,8 +321,10 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
-    """Compute row by row x^α of one degree from the degree below, perhaps in its place: powers without x from the last
-    ones. do: calls a function with these arguments, or notes the call for later.
+    """Compute row by row x^α of one degree from the degree below, perhaps in its place.
+
+    Powers without x are computed from the last rows below. do: calls a function with these arguments, or notes the call
+    for later.
     """
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])

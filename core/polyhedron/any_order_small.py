@@ -76,9 +76,7 @@ def extend_small_moments(
 
 @lru_cache
 def _new_monomials(known: int, order: int) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return the exponents and the degrees of the monomials after so many, and the factors from their coefficients to
-    moments.
-    """
+    """Return exponents and degrees of the monomials after so many, and their factors from coefficients to moments."""
     powers = monomials(order)[known:]
     degree = powers.sum(axis=1)
     factors = [np.prod([float(factorial(p)) for p in row]) / factorial(sum(row) + 2) for row in powers.tolist()]

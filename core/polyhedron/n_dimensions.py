@@ -76,7 +76,8 @@ class SimplexMoments:
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
     """Return (K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only.
-    In three dimensions the order of `monomials`.
+
+    In three dimensions it is the order of `monomials`.
     """
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
@@ -286,8 +287,9 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
 
 
 def _weight_steps(dimension: int) -> int:
-    """Count the roundings on the way of one product to det or |N|: two of each edge, a product and all sums of each
-    minor.
+    """Count the roundings on the way of one product to det or |N|.
+
+    There are two of each edge, a product and all sums of each minor.
     """
     minors = sum(2 + 1 + size for size in range(1, dimension))
     return minors + 2 * dimension + 6
@@ -318,8 +320,9 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 
 @lru_cache
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
-    """Return the start of each degree, and for each degree and axis the indices, in the next degree, of its products
-    with that coordinate.
+    """Return the start of each degree, and for each degree and axis the indices of products.
+
+    The indices are, in the next degree, of the monomials' products with that coordinate.
     """
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()

@@ -108,7 +108,8 @@ def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | Non
 def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return all facets that have an extent, the places of their corners, sorted, and 1 or -1, their orientations.
+    """Return all facets that have an extent, their corners' places, sorted, and their orientations, 1 or -1.
+
     Points at the same place are one.
     """
     simplices = np.asarray(simplices)

@@ -88,8 +88,7 @@ def integrate(
     about: NDArray | None = None,
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments]:
-    """Return the moments of the volume to third order; and the area if `area`, its moments if
-    `area_moments`.
+    """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`.
 
     exact: the third order to rounding for every size of mesh. about: (3,), by default the center of the bounding box.
     planarity: is shown the faces, if that costs little.
@@ -150,8 +149,9 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """Return the center of a bounding box of points of this type, for float32 rounded so that subtracting it is
-    exact.
+    """Return the center of a bounding box of points of this type.
+
+    For float32 it is rounded so that subtracting it is exact.
     """
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
@@ -182,8 +182,9 @@ def _measure_rescaled(
 
 @dataclass(frozen=True, eq=False)
 class _Integration:
-    """One surface to be measured. points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count:
-    triangles; size: triangles in a block.
+    """Surface to be measured.
+
+    points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count: triangles; size: triangles in a block.
     """
 
     points: NDArray
@@ -279,8 +280,7 @@ class _Integration:
 
 
 def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Return bounds, from the largest edges of each chunk of triangles and the sums of their sizes, for volume and
-    area.
+    """Return bounds, from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
 
     They are the sum of the |determinants| and the sum of the doubled areas; (2, 20) the errors of Σ w E[f], w the
     determinants and the doubled areas; and (2, 20) the `input_error` of the moments.

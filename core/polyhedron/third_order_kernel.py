@@ -227,8 +227,9 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the first k columns with quads that Blender may cut along their other diagonal, and the ones that it
-        does, after appending them to `flipped`.
+        """Return the first k columns with quads that Blender may cut along their other diagonal, and the ones it does.
+
+        The latter are appended to `flipped` first.
 
         The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
         product is within float32's rounding of zero.
@@ -277,9 +278,7 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
 
 
 def to_monomial_sums(table_sums: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
-    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that have been
-    summed.
-    """
+    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that were summed."""
     mixed = 0.5 * np.add.reduce(products.take(SQUARE))
     third = 10.0 * np.add.reduce(products.take(CUBE))
     total = 2.0 * np.concatenate([table_sums[12:], table_sums[6:9] + table_sums[9:12], table_sums[:6] + mixed, third])

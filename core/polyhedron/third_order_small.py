@@ -50,8 +50,9 @@ def small_moments(
     area: bool,
     area_moments: bool,
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
-    """Return the volume's moments of n bodies and their areas, stacked; and (n, 2) the sums of the cones over the
-    faces of each, all counted as positive, and signed.
+    """Return the volume's moments of n bodies and their areas, stacked, and their cones' sums.
+
+    The sums are (n, 2), of the cones over the faces of each body, all counted as positive, and signed.
 
     Parameters
     ----------
@@ -141,8 +142,9 @@ def _segment_sums(
 def _error_bounds(
     reach: NDArray, half_ulp: NDArray, side: NDArray, base: NDArray, sizes: NDArray, counts: NDArray, area: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the errors of Σ w E[f], w the determinants and the doubled areas, (2, n, 20), and the `input_error` of the
-    moments, (2, n, 20); see `third_order`.
+    """Return the errors of Σ w E[f], (2, n, 20), and the `input_error` of the moments, (2, n, 20).
+
+    w are the determinants and the doubled areas; see `third_order`.
 
     side, base: (n, 3) the largest edges. sizes: (n, 2). counts: (n, 1).
     """

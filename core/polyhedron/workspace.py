@@ -67,8 +67,9 @@ class Workspace(Generic[Block]):
 
 
 def gather(points: NDArray, index: NDArray[np.intp], single: NDArray[np.float32], corners: NDArray[np.float64]) -> None:
-    """Gather the coordinates of points, one row for each axis: into `corners`, (3, ...), by way of `single` if they are
-    float32.
+    """Gather the coordinates of points, one row for each axis: into `corners`, (3, ...).
+
+    Float32 coordinates go by way of `single`.
 
     points: (n, 3) contiguous. index: checked; it is multiplied by 3.
     """

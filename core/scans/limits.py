@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Limits on the demands of a scan's file. A small file can ask for terabytes: by a sparse file, by compression, by its
-header.
+"""Limits on the demands of a scan's file.
+
+A small file can ask for terabytes: by a sparse file, by compression, by its header.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ from .findings import FILE_EXCEEDS_LIMIT, LIMITS_UNRECOGNIZED
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of a file. samples: of one scan. unpacked_bytes: of compressed samples, all of which are in memory.
-    entries: of an archive. header_bytes: of a header. text_bytes: of a file of surfaces, which is text. allow_outside:
-    if a header may name a file of samples outside of its own folder.
+    """Limits of a file.
+
+    samples: of one scan. unpacked_bytes: of compressed samples, all of which are in memory. entries: of an archive.
+    header_bytes: of a header. text_bytes: of a file of surfaces, which is text. allow_outside: if a header may name a
+    file of samples outside of its own folder.
     """
 
     samples: int = 1 << 33
@@ -30,8 +33,9 @@ class Limits:
 
     @classmethod
     def parse(cls, text: str) -> Limits:
-        """Return the limits with some replaced by a text such as “samples=2e10, entries=5000”. QueryError if the text
-        is invalid.
+        """Return the limits with some replaced by a text such as “samples=2e10, entries=5000”.
+
+        QueryError if the text is invalid.
         """
         names = [field.name for field in fields(cls) if field.type == "int"]
         given = {}

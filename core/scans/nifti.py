@@ -84,9 +84,7 @@ def _head(path: Path, packed: bool) -> bytes:
 
 
 def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
-    """Return the matrix of the samples by the standard's three methods: the affine, else the quaternion, else the
-    spacing alone.
-    """
+    """Return the matrix of the samples by the standard's methods: affine, else quaternion, else the spacing alone."""
     matrix = np.eye(4)
     pixdim = struct.unpack_from(order + "8f", head, 76)
     qform, sform = struct.unpack_from(order + "2h", head, 252)

@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, with shape and type in their file's
-name.
-"""
+"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, their shape and type in the file's name."""
 
 from __future__ import annotations
 
@@ -41,8 +39,9 @@ def read_npy(path: Path, _limits: Limits) -> Scan:
 
 
 def map_array(path: Path) -> NDArray:
-    """Map the array, of any shape and type but objects. FileError if the file is not just that, OSError if it cannot be
-    opened.
+    """Map the array, of any shape and type but objects.
+
+    FileError if the file is not just that, OSError if it cannot be opened.
     """
     with open(path, "rb") as file:
         start = file.read(12)
@@ -66,8 +65,9 @@ def read_npz(path: Path, limits: Limits) -> Scan:
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
-    """Return the arrays of these names that an .npz has, of any shape and type but objects. FileError if it is damaged
-    or asks for more than the limits, OSError if it cannot be opened.
+    """Return the arrays of these names that an .npz has, of any shape and type but objects.
+
+    FileError if it is damaged or asks for more than the limits, OSError if it cannot be opened.
     """
     with _archive(path, limits) as (archive, shapes):
         return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
@@ -113,8 +113,9 @@ def _check_array_header(start: bytes) -> None:
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """Return the shape of an array in an archive, which must fill its entry: beyond the array no checksum would be
-    reached.
+    """Return the shape of an array in an archive, which must fill its entry.
+
+    Beyond the array no checksum would be reached.
     """
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))

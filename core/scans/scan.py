@@ -109,8 +109,10 @@ def damaged(path: Path, code: str, **values: object) -> FileError:
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
-    """Check that a file holds just the bytes of samples that its sizes ask for. More of them mean that the sizes are
-    wrong, or that nobody knows the meaning of the rest; without a checksum nothing else can show damage.
+    """Check that a file holds just the bytes of samples that its sizes ask for.
+
+    More of them mean that the sizes are wrong, or that nobody knows the meaning of the rest; without a checksum nothing
+    else can show damage.
     """
     if held < wanted:
         raise damaged(path, DAMAGE_TOO_SHORT, bytes=held, total=wanted)
@@ -121,8 +123,9 @@ def check_length(path: Path, held: int, wanted: int) -> None:
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Map uncompressed samples, x fastest, from byte `offset` to the end of the file. from_end: they are its last
-    bytes, after any other bytes at `offset`, so that only too few of them can be noticed.
+    """Map uncompressed samples, x fastest, from byte `offset` to the end of the file.
+
+    from_end: they are its last bytes, after any other bytes at `offset`, so that only too few of them can be noticed.
     """
     size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
     if from_end:
@@ -134,8 +137,9 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Unpack samples that are compressed by gzip from byte `start` of the file on, x fastest; skip: unpacked bytes
-    before.
+    """Unpack samples that are compressed by gzip from byte `start` of the file on, x fastest.
+
+    skip: unpacked bytes before the samples.
 
     They are read to the end of the file, for the checksum stands behind them; see `gzip_blocks`.
     """

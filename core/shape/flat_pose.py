@@ -114,8 +114,9 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
 
 
 def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
-    """Return a test that the images of (n, 3) points, about the centroid in the plane's axes, are within the tolerance
-    of the outline. distance: of (k, 3) such points from it.
+    """Return a test that the images of (n, 3) points are within the tolerance of the outline.
+
+    The points are about the centroid in the plane's axes. distance: of (k, 3) such points from the outline.
     """
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
@@ -149,8 +150,10 @@ def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
 
 
 def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3, 3) the reflections that may take a shape to itself: the ones of its moments, and the ones that take
-    the outermost corner to another one, for prisms of many sides.
+    """Return (k, 3, 3) the reflections that may take a shape to itself.
+
+    They are the ones of its moments, and, for prisms of many sides, the ones that take the outermost corner to another
+    one.
     """
     radius = np.hypot(*points.T)
     outer = points[radius > (1.0 - 1e-4) * radius.max()]

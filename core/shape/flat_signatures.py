@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The signature of a flat shape: numbers that find it again, however it is moved, turned, scaled or cut into faces, and
-that distinguish it from its mirror image.
+"""Signature of a flat shape: numbers that find it again and distinguish it from its mirror image.
+
+They do so however it is moved, turned, scaled or cut into faces.
 
     invariants   c_pp, and the real parts of products of complex moments with p - q that add up to zero, c_a conj(c_b)
                  and c_a c_b conj(c_c); of central moments over A s^n with the radius of gyration s.

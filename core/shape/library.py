@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Libraries of signatures: JSON lines, as `measure --signature --format jsonl` writes them, and a search for the
-nearest.
+"""Libraries of signatures in JSON lines, and a search for the nearest.
+
+`measure --signature --format jsonl` writes such lines.
 """
 
 from __future__ import annotations

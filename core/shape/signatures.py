@@ -146,8 +146,9 @@ class Likeness:
     is_mirror_image: bool | None
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
-        """Return 0 for a copy; also for one of another size, and for a mirror image, if that does not matter. If it
-        does, a difference of size or hand counts as much as one of shape, but never for more than
+        """Return 0 for a copy; also for one of another size, and for a mirror image, if that does not matter.
+
+        If it does, a difference of size or hand counts as much as one of shape, but never for more than
         MAX_SIMILAR_DIFFERENCE.
         """
         size, hand = (
@@ -232,8 +233,9 @@ def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]
 def _numbers(
     raw: NDArray, moments: Moments, size: PerBody, radius: PerBody, zernike: Multiplets | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody]:
-    """Return invariants, descriptors, power, chirality and error of a signature, with a last axis if there are several
-    bodies. raw: the moments, (K, …).
+    """Return invariants, descriptors, power, chirality and error of a signature.
+
+    They have a last axis if there are several bodies. raw: the moments, (K, …).
     """
     total, order = raw[0], min(moments.order, MAX_ORDER_BY_MOMENTS)
     degree = along_first(monomials(moments.order).sum(axis=1), raw)

@@ -170,6 +170,7 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
     """Return candidates for a body with the moments of a body of revolution, but with corners: a prism of many sides.
+
     Its mirrors and half turns take one of the points farthest from the axis to another one.
     """
     # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
@@ -204,8 +205,9 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return the operations of a body of revolution that stand for all: the identity, and a reflection of the axis if
-    it can be turned over.
+    """Return the operations of a body of revolution that stand for all.
+
+    They are the identity, and a reflection of the axis if it can be turned over.
     """
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]

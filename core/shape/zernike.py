@@ -40,8 +40,9 @@ QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadr
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
-    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin, from its raw moments
-    there, (K, …).
+    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin.
+
+    The argument holds its raw moments there, (K, …).
     """
     harmonic = harmonic_moments(raw, order)
     return {
@@ -52,8 +53,9 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (…) an estimate of the error of the descriptors from raw moments (K, …) accurate to a few roundings: their
-    change if each moment is moved by such an amount, at random but always the same.
+    """Return (…) an estimate of the error of the descriptors from raw moments (K, …) accurate to a few roundings.
+
+    It is their change if each moment is moved by such an amount, at random but always the same.
     """
     moved = raw * along_first(1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw)
     before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
@@ -135,7 +137,7 @@ def _solid_at(x: NDArray, order: int) -> Iterator[tuple[int, NDArray[np.complex1
 
 
 def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
-    """Yield P_k^(0, beta)(x) for k = 0, 1, …"""
+    """Yield P_k^(0, beta)(x) for k = 0, 1, and so on."""
     before, now = np.zeros_like(x), np.ones_like(x)
     for k in count(1):
         yield now
@@ -149,8 +151,9 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
 
 
 def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k, …) the mean of |F(q)|² over all directions of q, F(q) = ∫ exp(-i q·x) dV, and a bound of the change by
-    the orders that are left out.
+    """Return (k, …) the mean of |F(q)|² over all directions of q, and a bound of the change by the missing orders.
+
+    F(q) = ∫ exp(-i q·x) dV.
 
     moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
     """

@@ -24,8 +24,9 @@ MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in t
 
 
 def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-    """Return the vertices from which and to which sides run. Side 3t + i runs from corner i of triangle t to the next
-    one.
+    """Return the vertices from which and to which sides run.
+
+    Side 3t + i runs from corner i of triangle t to the next one.
     """
     triangle, corner = sides // 3, sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
@@ -151,8 +152,9 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return a (l,) mask of loops that are holes; the others are narrower than `tolerance` (length, of all or of
-        each) and much longer than wide.
+        """Return a (l,) mask of loops that are holes.
+
+        The others are narrower than `tolerance` (length, of all or of each) and much longer than wide.
         """
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
@@ -164,14 +166,17 @@ class BoundaryLoops:
 
     def caps(self, tolerance: float | NDArray[np.float64]) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray]:
         """Return (l,) masks of flat and of curved caps among the cones over the loops, and the caps' areas.
+
         tolerance: as for `has_area`.
         """
         is_flat = self.out_of_plane <= tolerance
         return is_flat, ~is_flat, np.where(is_flat, self.planar_area, self.cone_area)
 
     def apexes(self, start: NDArray[np.integer], centroid: NDArray[np.integer]) -> NDArray[np.integer]:
-        """Return (l,) vertices of the cones' tips: the centroid, or the start of the first of three sides, for one
-        triangle. start: (r,) of each side; centroid: (l,) the vertex of each centroid.
+        """Return (l,) vertices of the cones' tips.
+
+        They are the centroid, or the start of the first of three sides, for one triangle. start: (r,) of each side;
+        centroid: (l,) the vertex of each centroid.
         """
         return np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroid)
 
@@ -179,8 +184,9 @@ class BoundaryLoops:
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
 ) -> BoundaryLoops:
-    """Group boundary sides into the loops that the links of `join_sides` make, and measure those. begin, end: (r, 3)
-    ends of each side. links: from `join_sides`.
+    """Group boundary sides into the loops that the links of `join_sides` make, and measure those.
+
+    begin, end: (r, 3) ends of each side. links: from `join_sides`.
     """
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))

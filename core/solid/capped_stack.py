@@ -90,8 +90,10 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap the surfaces of a stack that need nothing but caps. links: of its faces. usable: (n,) mask of surfaces that
-    may be capped at all. tolerance: (n,) distance below which points touch (unit).
+    """Cap the surfaces of a stack that need nothing but caps.
+
+    links: of its faces. usable: (n,) mask of surfaces that may be capped at all. tolerance: (n,) distance below which
+    points touch (unit).
     """
     can = usable & links.is_open
     start, stop = links.open_sides
@@ -141,8 +143,10 @@ def _capped(
     loops: BoundaryLoops,
     of_loop: NDArray[np.intp],
 ) -> StackCaps:
-    """Add the cones over their loops to the surfaces. part: (t,) the component of each triangle. sides: the triangle of
-    each side, its start and its stop; of_loop: the surface of each loop.
+    """Add the cones over their loops to the surfaces.
+
+    part: (t,) the component of each triangle. sides: the triangle of each side, its start and its stop; of_loop: the
+    surface of each loop.
     """
     triangle, start, stop = sides
     count, body = len(stack), stack.point_owners[start]

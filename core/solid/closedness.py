@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first stages of measuring a solid: is there something to measure, and do its own edges prove it closed?"""
+"""First stages of measuring a solid: whether it can be measured, and whether its own edges prove it closed."""
 
 from __future__ import annotations
 
@@ -187,9 +187,7 @@ def prove_closed(surface: Surface) -> RepairedMesh | None:
 
 
 def _components_of_closed(surface: Surface) -> tuple[NDArray[np.intp], int] | None:
-    """Return the component of each mesh face and their number; None if the surface is not proven closed and
-    oriented.
-    """
+    """Return the component of each mesh face and their number; None if not proven closed and oriented."""
     if surface.corner_edges is not None:
         sides = closed_side_faces(surface)
         return None if sides is None else connected_components(int(sides.max()) + 1, *sides)

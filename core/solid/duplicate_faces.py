@@ -82,8 +82,10 @@ def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDAr
 def _regions_of_one_layer(
     edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles in regions to be reduced to one layer. later, copied: (m,) masks of later copies,
-    and of faces with copies at all; agree: (m,) positive if a triangle's face runs as the first of its copies.
+    """Return a (m,) mask of triangles in regions to be reduced to one layer.
+
+    later, copied: (m,) masks of later copies, and of faces with copies at all; agree: (m,) positive if a triangle's
+    face runs as the first of its copies.
     """
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
@@ -123,8 +125,10 @@ def _copies_findings(
 
 
 def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return the sides on edges with more than two triangles. A polygon's own diagonal, which it has on both sides, is
-    none of its edges. face: (m,) the mesh face of each triangle.
+    """Return the sides on edges with more than two triangles.
+
+    A polygon's own diagonal, which it has on both sides, is none of its edges. face: (m,) the mesh face of each
+    triangle.
     """
     sides = np.flatnonzero((edges.count > 2)[edges.of_side])
     first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))

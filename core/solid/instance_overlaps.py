@@ -42,8 +42,9 @@ class PlaceComparison:
 
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
-    """Find solids that overlap or contain each other in their places. solids: measured solids, each with (k, 4, 4) maps
-    to its places.
+    """Find solids that overlap or contain each other in their places.
+
+    solids: measured solids, each with (k, 4, 4) maps to its places.
     """
     points, triangles, component, owner, place, closed = [], [], [], [], [], []
     number = shift = places = 0

@@ -62,8 +62,10 @@ class ComponentRelations:
 def classify_pairs(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> ComponentRelations:
-    """Find how closed components lie relative to each other. points: (n, 3). components: over these points. candidates:
-    (c,) components to compare: closed and not flat. tolerance: distance below which points touch (unit).
+    """Find how closed components lie relative to each other.
+
+    points: (n, 3). components: over these points. candidates: (c,) components to compare: closed and not flat.
+    tolerance: distance below which points touch (unit).
     """
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
@@ -104,9 +106,11 @@ def classify_pairs(
 def _breakthrough(
     components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (k,) how far the two components of each pair (inner, outer) reach out of each other: the largest distance
-    of places on edges of the inner one outside the outer one from its surface, and of places on edges of the outer one
-    in the inner one. At least the tolerance, by which they are known to pass through each other.
+    """Return (k,) how far the two components of each pair (inner, outer) reach out of each other.
+
+    It is the largest distance of places on edges of the inner one outside the outer one from its surface, and of places
+    on edges of the outer one in the inner one. At least the tolerance, by which they are known to pass through each
+    other.
     """
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
@@ -138,8 +142,9 @@ def surfaces_intersect(
     vertex: NDArray[np.integer],
     tolerance: float,
 ) -> bool:
-    """Return whether surfaces are found, in limited time, to go through each other or themselves by more than
-    `tolerance`. Triangles that share a vertex are neighbors and do not count.
+    """Return whether surfaces are found, in limited time, to go through each other or themselves by over `tolerance`.
+
+    Triangles that share a vertex are neighbors and do not count.
 
     triangles: (m, 3), component: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex:
     (n,) which vertex a point is.
@@ -152,8 +157,9 @@ def surfaces_intersect(
 def self_overlaps(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> bool:
-    """Return whether a closed component among `candidates` surrounds a sampled point under its own skin more than once:
-    it has run into itself, though no edge need pierce a face.
+    """Return whether a closed component among `candidates` has run into itself, though no edge need pierce a face.
+
+    It surrounds a sampled point under its own skin more than once.
     """
     chosen = np.flatnonzero(candidates)
     if not len(chosen):
@@ -203,8 +209,9 @@ def orient_nested_components(
 
 
 def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Return (c,) the component that each cavity is cut from: the innermost around it that no other cavity is cut from
-    before; for others, themselves.
+    """Return (c,) the component that each cavity is cut from; for others, themselves.
+
+    It is the innermost around the cavity that no other cavity is cut from before.
     """
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
@@ -231,8 +238,9 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
 def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Count, for each pair, the decidable points under the smaller component's skin inside and outside the larger
-    one.
+    """Count, for each pair, the decidable points inside and outside the larger component.
+
+    The points are under the smaller one's skin.
     """
     most, least, together = SAMPLES_PER_PAIR
     number = np.clip(together // len(small), least, most)

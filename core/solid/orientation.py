@@ -149,8 +149,9 @@ class OrientedSolid:
 def orient_components(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, threads: int
 ) -> OrientedSolid:
-    """Compare the components of a body, turn components that are inside out, and integrate the result. given: of the
-    same surface; reused if only caps were added. mesh: ``given.proven``, or the surface repaired.
+    """Compare the components of a body, turn components that are inside out, and integrate the result.
+
+    given: of the same surface; reused if only caps were added. mesh: ``given.proven``, or the surface repaired.
     """
     is_proven, comparison, flipped = mesh is given.proven, None, np.zeros(mesh.number, bool)
     surface, volume = checked.surface, given.volume
@@ -180,8 +181,9 @@ def orient_components(
 
 
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
-    """Find the components with a volume, and their relations. tolerance: distance below which points touch (unit).
-    error: displacement of the points by storing them (unit).
+    """Find the components with a volume, and their relations.
+
+    tolerance: distance below which points touch (unit). error: displacement of the points by storing them (unit).
     """
     components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
     size = np.linalg.norm(components.high - components.low, axis=1)
@@ -193,8 +195,9 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume below which a component counts as flat: a closed sheet's rounding, or a capped flat sheet's
-    error.
+    """Return the volume below which a component counts as flat.
+
+    It is a closed sheet's rounding, or a capped flat sheet's error.
     """
     return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
 

@@ -191,8 +191,9 @@ class RepairedMesh:
         )
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
-        """Return the mesh with more triangles, without degenerate ones. owner: (k,) a triangle of each one's
-        component.
+        """Return the mesh with more triangles, without degenerate ones.
+
+        owner: (k,) a triangle of each one's component.
         """
         useful = has_distinct_vertices(caps)
         caps, owner = caps[useful], owner[useful]

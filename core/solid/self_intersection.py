@@ -88,8 +88,9 @@ def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -
 
 
 def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
-    """Return whether all faces have the same side toward a point, or their planes contain it. Such a surface may still
-    go around the point several times.
+    """Return whether all faces have the same side toward a point, or their planes contain it.
+
+    Such a surface may still go around the point several times.
     """
     total = signed = 0.0
     for corners in _corner_blocks(surface):

@@ -28,8 +28,9 @@ NO_LINKS = NO_INDICES, NO_INDICES
 def wall_links(
     points: NDArray[np.floating], edges: Edges, triangles: NDArray[np.integer], face: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Find the sides that belong together at the walls between bodies. points: (n, 3). triangles: (t, 3). face: (t,)
-    the mesh face of each. Returns (k,) and (k,) the joined sides.
+    """Find the sides that belong together at the walls between bodies.
+
+    points: (n, 3). triangles: (t, 3). face: (t,) the mesh face of each. Returns (k,) and (k,) the joined sides.
     """
     if not (edges.count == 4).any():
         return NO_LINKS
@@ -74,8 +75,10 @@ def wall_links(
 
 
 def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return (k, 2) the sides that are joined within walls. within: (e, 4) sides on edges between two faces of a wall,
-    of the first layer and then of the other one; wall: (t,) as of `_layers`.
+    """Return (k, 2) the sides that are joined within walls.
+
+    within: (e, 4) sides on edges between two faces of a wall, of the first layer and then of the other one; wall: (t,)
+    as of `_layers`.
 
     Which copy of a face is the first one is an accident: a copy goes with the one of its neighbors that it agrees with.
     """
@@ -95,9 +98,11 @@ def _layers(
     face: NDArray[np.integer],
     piece: NDArray[np.intp],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (t,) 1 and 2 for triangles of the first and of the other layer of walls, else 0; and (t,) a number that
-    both layers of a wall share. Layers are faces on the same vertices, or flat pieces with the same border that are cut
-    into triangles differently. piece: (t,) the piece of each triangle, connected across edges of two faces.
+    """Return (t,) 1 and 2 for triangles of the two layers of walls, else 0; and (t,) a number of each wall.
+
+    Both layers of a wall share the number. Layers are faces on the same vertices, or flat pieces with the same border
+    that are cut into triangles differently. piece: (t,) the piece of each triangle, connected across edges of two
+    faces.
     """
     group = same_vertices_groups(triangles, face)
     layer = is_duplicated(group, face).astype(np.intp) + (group != face)

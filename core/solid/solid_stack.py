@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many small solids measured at once, if closed as they are or by caps alone, outward, in one or several separate
-pieces.
+"""Measurement of many small solids at once, if closed as they are or by caps alone, and outward.
 
-Results are exact or capped, with the same numbers as from `measure_solid`, which measures all other solids one by one.
+A solid may have one or several separate pieces. Results are exact or capped, with the same numbers as from
+`measure_solid`, which measures all other solids one by one.
 """
 
 from __future__ import annotations
@@ -102,8 +102,9 @@ class SolidStack:
 
 
 def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
-    """Return the volumes of solids that were measured by themselves, each of at most MAX_SMALL_TRIANGLES triangles, to
-    a higher order than third.
+    """Return the volumes, to a higher order than third, of solids that were measured by themselves.
+
+    Each solid has at most MAX_SMALL_TRIANGLES triangles.
     """
     surfaces = [solid.repaired_surface for solid in solids]
     triangles = [surface.all_triangles()[0] for surface in surfaces]
@@ -134,6 +135,7 @@ def can_be_stacked(surface: Surface) -> bool:
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     """Measure the bodies that many small surfaces bound, as far as they are closed as they are, or by caps alone.
+
     surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates.
     """
     stack = SurfaceStack.of(surfaces)
@@ -200,6 +202,7 @@ def _stand_apart(
     error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
     """Return a (k,) mask of the bodies in `rows` with outward components of certain volume and boxes that do not touch.
+
     part: the component of each triangle of all bodies; counts, tolerance, capped, error: of all bodies.
     """
     chosen = stack.owned(rows)[1]
@@ -224,8 +227,9 @@ def _stand_apart(
 
 
 def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
-    """Return a (n,) mask of surfaces with cones from their points, (n, 3), that agree and surround them once, by their
-    solid angles (van Oosterom and Strackee 1983).
+    """Return a (n,) mask of surfaces with cones from their points, (n, 3), that agree and surround them once.
+
+    It is known by their solid angles (van Oosterom and Strackee 1983).
     """
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
@@ -240,8 +244,9 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 
 def _looked_for(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
-    """Return (k,) results of the search for self-intersections along lines, as `find_self_intersection`. part: (t,) the
-    component of each triangle.
+    """Return (k,) results of the search for self-intersections along lines, as `find_self_intersection`.
+
+    part: (t,) the component of each triangle.
     """
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)

@@ -156,8 +156,9 @@ class SolidIntegrals:
 def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
-    """Give a verdict on the measured body, and report all decisions. All arguments are of the same surface.
-    intersection: None if not searched.
+    """Give a verdict on the measured body, and report all decisions.
+
+    All arguments are of the same surface. intersection: None if not searched.
     """
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
@@ -207,9 +208,7 @@ def judge(
 
 
 def _flipped_faces(mesh: RepairedMesh, turned: NDArray[np.bool_]) -> tuple[NDArray[np.integer], NDArray[np.intp]]:
-    """Return the mesh faces that were turned within their components, and the components that were turned as a
-    whole.
-    """
+    """Return the mesh faces that were turned within their components, and the components turned as a whole."""
     of_mesh = mesh.face >= 0
     flipped, component = (mesh.flipped ^ turned[mesh.component])[of_mesh], mesh.component[of_mesh]
     whole = np.bincount(component, ~flipped) == 0
@@ -291,8 +290,9 @@ def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[n
 def cap_finding(
     edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
 ) -> Finding:
-    """Return findings about capped holes. caps: (3,) flat ones, curved ones, and their area; share: of the
-    surface's.
+    """Return findings about capped holes.
+
+    caps: (3,) flat ones, curved ones, and their area; share: of the surface's.
     """
     flat, curved = map(int, caps[:2])
     if caps[2] * size < NEGLIGIBLE * volume:  # all their moments together

@@ -23,8 +23,9 @@ from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_di
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:
-    """Cut a surface into triangles, and find the parts that welding may touch. surface: with at least one face; every
-    vertex belongs to one. The result has no components yet.
+    """Cut a surface into triangles, and find the parts that welding may touch.
+
+    surface: with at least one face; every vertex belongs to one. The result has no components yet.
     """
     triangles, face = surface.all_triangles()
     triangles, count = triangles.astype(np.intp), len(triangles)
@@ -122,6 +123,7 @@ def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
     """Return the mesh with some vertices replaced in the triangles `rows`, and (n,) the new vertex of each vertex.
+
     same: (v,) the position in ``vertices`` of each replacement.
     """
     triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))

@@ -13,8 +13,9 @@ from .findings import AT_TRIANGLE, AT_VERTEX, NON_FINITE_COORDINATES
 
 
 class BoxOfBlocks:
-    """The bounding box of blocks, which grows block by block. place: "triangle" or "vertex", the meaning of a row of a
-    block.
+    """Bounding box of blocks, which grows block by block.
+
+    place: "triangle" or "vertex", the meaning of a row of a block.
     """
 
     def __init__(self, place: str) -> None:
@@ -42,8 +43,9 @@ class BoxOfBlocks:
         return not self._bad
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and the largest coordinates, zero if there are none. Raises FileError if some are not
-        finite.
+        """Return the least and the largest coordinates, zero if there are none.
+
+        Raises FileError if some are not finite.
         """
         if self._bad:
             is_triangle = self._place == "triangle"

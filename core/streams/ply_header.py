@@ -55,8 +55,9 @@ class Header:
 
 
 def parse_header(data: bytes) -> Header:
-    """Return the header at the start of a file. Raises ValueError, KeyError or IndexError if there is none, or it makes
-    no sense.
+    """Return the header at the start of a file.
+
+    Raises ValueError, KeyError or IndexError if there is none, or it makes no sense.
     """
     end = END.search(data)
     if end is None or not data.startswith(b"ply"):

@@ -33,8 +33,9 @@ class RowReader:
         self._text = b""
 
     def rows(self, element: Element) -> Iterator[list[NDArray]]:
-        """Yield the rows of the next element, all of which must be taken, in blocks of one length: for each property
-        (n,) numbers, or (n, k) lists.
+        """Yield the rows of the next element in blocks of one length: for each property (n,) numbers, or (n, k) lists.
+
+        All of them must be taken.
         """
         left = element.rows if element.properties else 0
         while left:

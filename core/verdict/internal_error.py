@@ -17,8 +17,9 @@ PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
-    """Return the finding of a refusal; of too little memory; else of an internal error: the failure and its place,
-    after its traceback has gone to the console.
+    """Return the finding of a refusal; of too little memory; else of an internal error.
+
+    An internal error names the failure and its place, after its traceback has gone to the console.
     """
     if isinstance(error, MeasureError):
         return error.finding

@@ -99,8 +99,9 @@ class _Formatter(string.Formatter):
 def sentence(
     finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
 ) -> str:
-    """Return the sentence of a finding. translate: applied to each template before it is filled. lengths: formats a
-    length in meters, by default in meters.
+    """Return the sentence of a finding.
+
+    translate: applied to each template before it is filled. lengths: formats a length in meters, by default in meters.
     """
     entry, values = declared(finding.code), finding.values
     template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
