@@ -408,9 +408,7 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
 
 
 def density_field_name(scene: Scene) -> str:
-    """Return the property of an object's or a material's settings that shows its density in the unit that a scene is
-    set to.
-    """
+    """Return the property of an object's or a material's settings for its density in the scene's unit."""
     return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
 
 

@@ -87,8 +87,9 @@ ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 
 @dataclass(frozen=True, eq=False)
 class StoredProperties:
-    """Stored results of an object, SI. body: in the object frame, or in the world after `in_world`. error_bound: as in
-    `Measurement`.
+    """Stored results of an object, SI.
+
+    body: in the object frame, or in the world after `in_world`. error_bound: as in `Measurement`.
     """
 
     density: float
@@ -238,8 +239,9 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
 
 
 def _write(obj: Owner, values: dict, before: dict) -> None:
-    """Make these, by their keys, the only results of the object. before: the earlier ones, whose descriptions stay if
-    the kind of value does.
+    """Make these values, by their keys, the only results of the object.
+
+    before: the earlier ones, whose descriptions stay if the kind of value does.
     """
     for key in DESCRIPTIONS:
         if key not in values and key in obj:
@@ -263,8 +265,9 @@ def _description(key: str, owner: type) -> str:
 
 
 def store_reference(obj: Owner, values: dict) -> None:
-    """Write results about a reference, by their keys, beside the others. EditRefusedError if the owner cannot hold
-    them.
+    """Write results about a reference, by their keys, beside the others.
+
+    EditRefusedError if the owner cannot hold them.
     """
     require_storable(obj)
     for key in DESCRIPTIONS:
@@ -347,8 +350,9 @@ def findings_text(findings: Iterable[Finding]) -> str:
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:
-    """Return the findings in a stored text. Text that `findings_text` has not written gives none; a finding that this
-    version of the add-on cannot put into words is left out.
+    """Return the findings in a stored text, or none if `findings_text` did not write it.
+
+    A finding that this version of the add-on cannot put into words is left out.
     """
     return _findings_in(text) if isinstance(text, str) else ()
 

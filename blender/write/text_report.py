@@ -52,8 +52,9 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of the results stored on `objects`; see `report_text`. The health of their meshes is not
-    stored.
+    """Return the document of the results stored on `objects`; see `report_text`.
+
+    The health of their meshes is not stored.
     """
     scene = context.scene
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
