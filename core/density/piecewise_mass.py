@@ -49,7 +49,7 @@ def _degrees(order: int) -> NDArray[np.intp]:
 
 @lru_cache
 def _scales(order: int, more: int) -> NDArray[np.float64]:
-    """Return (K,) α! / (|α| + more)!"""
+    """Return (K,) the factors α! / (|α| + more)! of the monomials."""
     return np.array(
         [
             factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + more)
@@ -120,8 +120,9 @@ def solid_mass_moments(points: ArrayLike, triangles: ArrayLike, density: ArrayLi
 def sheet_mass_moments(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, stored: bool = False
 ) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dA, with a density for each triangle, (t,), or, linear between them, for each of
-    its corners, (t, 3); none negative.
+    """Return ∫ ρ x^p y^q z^r dA, with densities (t,) of triangles, or (t, 3) of their corners, linear between them.
+
+    No density may be negative.
 
     like: the area moments, to the order that is wanted. stored: the densities were float32, which goes into
     `input_error`. The result maps as an area does.

@@ -106,8 +106,9 @@ def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _grid_side(half: int, width: int) -> int:
-    """Return the cells along a side of the fine grid: an even number with small prime factors only, for which a fast
-    Fourier transform is fast.
+    """Return the cells along a side of the fine grid: an even number with small prime factors only.
+
+    For such a number a fast Fourier transform is fast.
     """
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2

@@ -45,9 +45,10 @@ def document(
     frame: str = "world",
     status: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of one file. The objects are sorted by name; `file` is None for a scene that was never saved.
-    errors, left_out: names and reasons of objects that could not be measured, or were excluded. status: one of
-    `STATUSES`, by default according to the errors.
+    """Return the document of one file, with the objects sorted by name.
+
+    `file` is None for a scene that was never saved. errors, left_out: names and reasons of objects that could not be
+    measured, or were excluded. status: one of `STATUSES`, by default according to the errors.
     """
     errors = list(errors)
     if frame != "world":
@@ -101,8 +102,10 @@ def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield one row an object under one header. Unmeasured objects have a row too, with the reason under `error`, and
-    so do excluded ones, with the reason under `left_out`. documents: gone through twice.
+    """Yield one row an object under one header; documents is gone through twice.
+
+    Unmeasured objects have a row too, with the reason under `error`, and so do excluded ones, with the reason under
+    `left_out`.
 
     Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
     so does text that has one there already: whoever reads a text removes one apostrophe from its start.
@@ -115,8 +118,9 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield CSV with these columns: a row for each mapping; missing entries stay empty. Text is escaped as in
-    `to_csv`.
+    """Yield CSV with these columns, a row for each mapping; missing entries stay empty.
+
+    Text is escaped as in `to_csv`.
     """
     yield _line(header)
     for row in rows:

@@ -88,8 +88,9 @@ def flat_record(
 
 
 def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
-    """Return bounds of the area, of each coordinate of the centroid and of each second moment. bounds: of the central
-    moments.
+    """Return bounds of the area, of each coordinate of the centroid and of each second moment.
+
+    bounds: of the central moments.
     """
     first, second = (
         float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows])) for rows in (_FIRST, _SECOND)

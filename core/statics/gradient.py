@@ -83,8 +83,9 @@ class Gradient:
         return self.by_vertex[:, 1:4] / total
 
     def inertia(self) -> NDArray[np.float64]:
-        """Return the derivative of the tensor about the center, (n, 3, 3, 3), of unit density. `about` must be the
-        center.
+        """Return the derivative of the tensor about the center, (n, 3, 3, 3), of unit density.
+
+        `about` must be the center.
         """
         second = self.by_vertex[:, SECOND_MOMENT_INDEX]
         trace = np.einsum("niik->nk", second)

@@ -68,9 +68,10 @@ class RestingPoses:
 
 @dataclass(frozen=True, eq=False)
 class _Faces:
-    """Faces of a hull, several triangles each: (m,) the face of each triangle, (f, 3) outward unit normals, (f,)
-    heights of the center, (f,) margins, and (f,) the face beyond the edge that the foot is nearest to or farthest
-    outside of.
+    """Faces of a hull, several triangles each.
+
+    (m,) the face of each triangle, (f, 3) outward unit normals, (f,) heights of the center, (f,) margins, and (f,) the
+    face beyond the edge that the foot is nearest to or farthest outside of.
     """
 
     face: NDArray[np.intp]
