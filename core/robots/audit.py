@@ -59,8 +59,9 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain. upright: the
-    rotation that its file asks for, if another axis than z is up.
+    """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain.
+
+    upright: the rotation that its file asks for, if another axis than z is up.
     """
 
     points: NDArray[np.float64]
@@ -68,7 +69,7 @@ class _Piece:
     upright: NDArray[np.float64] | None = None
 
     def turned(self) -> _Piece:
-        """It with the axis up that its file says."""
+        """Return the piece with the axis up that its file says."""
         if self.upright is None:
             return self
         moments = None if self.moments is None else self.moments.transform(_matrix(Pose(np.zeros(3), self.upright)))

@@ -359,8 +359,9 @@ class Robot:
         return parts
 
     def rigid_inertial(self, link: Link) -> Inertial | None:
-        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None if
-        none of it has mass.
+        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes.
+
+        None if none of it has mass.
         """
         to_link = link.pose.inverse()
         parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]

@@ -30,8 +30,10 @@ _GLB, _JSON = 0x46546C67, 0x4E4F534A
 
 
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
-    """Return the entry `motion` of both extensions, in the axes of the file. inertial: along the axes of Blender's
-    object. scale: meters per unit of the node's own space along Blender's axes, for the center.
+    """Return the entry `motion` of both extensions, in the axes of the file.
+
+    inertial: along the axes of Blender's object. scale: meters per unit of the node's own space along Blender's axes,
+    for the center.
     """
     values: dict[str, Any] = {
         "mass": inertial.mass,
