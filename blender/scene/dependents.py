@@ -67,7 +67,10 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
 
 
 def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
-    """Return the shape after a rigid move with all of its object. was, now: (4, 4) the object's matrices."""
+    """Return the shape after a rigid move with all of its object.
+
+    was, now: (4, 4) the object's matrices.
+    """
     way = now @ np.linalg.pinv(was)
     if before is None:
         return None

@@ -93,7 +93,10 @@ def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
 
 
 def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
-    """Carry out plans for objects that pass `shows_own_mesh`; return the finished objects. The others are unchanged."""
+    """Carry out plans for objects that pass `shows_own_mesh`; return the finished objects.
+
+    The others are unchanged.
+    """
     done: list[Object] = []
     for move_only in (True, False):
         some = [plan for plan in plans if plan.move_only == move_only]
@@ -247,7 +250,10 @@ def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
 def _change_mesh(
     mesh: Mesh, change: NDArray, points: NDArray[np.float32], is_flipped: bool, put_back: ExitStack
 ) -> None:
-    """Give a mesh its mapped points. put_back: gets functions that undo all but the points."""
+    """Give a mesh its mapped points.
+
+    put_back: gets functions that undo all but the points.
+    """
     if mesh.has_custom_normals:
         mesh.transform(Matrix(change))  # turns them, too
         put_back.callback(mesh.transform, Matrix(np.linalg.inv(change)))

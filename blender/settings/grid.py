@@ -52,7 +52,10 @@ class GridOptions:
 
     @classmethod
     def of(cls, settings, density: float | None = None) -> GridOptions:
-        """Return the options of an object's settings. density: overrides the density of a value of 1, and the table."""
+        """Return the options of an object's settings.
+
+        density: overrides the density of a value of 1, and the table.
+        """
         table = settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
         return cls(
             settings.grid,
@@ -95,7 +98,10 @@ class GridOptions:
         return x, y, z
 
     def needs_even_samples(self, grid: str) -> None:
-        """Raise ReadError if samples are uneven. grid: its name."""
+        """Raise ReadError if samples are uneven.
+
+        grid: its name.
+        """
         if self.sample_positions:
             raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=grid)
 

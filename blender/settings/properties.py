@@ -413,7 +413,10 @@ def density_field_name(scene: Scene) -> str:
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
-    """Copy every setting; return whether anything was different. Settings set in the source are set in the target."""
+    """Copy every setting; return whether anything was different.
+
+    Settings set in the source are set in the target.
+    """
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)

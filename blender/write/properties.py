@@ -99,7 +99,10 @@ class StoredProperties:
     error_bound: dict
 
     def in_world(self, matrix_world, unit: float) -> StoredProperties:
-        """Return the results in the world frame. matrix_world: of the object; unit: meters per Blender unit."""
+        """Return the results in the world frame.
+
+        matrix_world: of the object; unit: meters per Blender unit.
+        """
         location, turn, _ = matrix_world.decompose()
         to_object = rotation_matrix(turn).T
         origin = -to_object @ np.array(location, np.float64) * unit
@@ -107,7 +110,10 @@ class StoredProperties:
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
-    """Write all results on an object, a collection or a pose bone, or none. EditRefusedError if it cannot hold them."""
+    """Write all results on an object, a collection or a pose bone, or none.
+
+    EditRefusedError if it cannot hold them.
+    """
     require_storable(obj)
     body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
     bound = measurement.error_bound
@@ -200,7 +206,10 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
 
 
 def _replace(obj: Owner, values: dict) -> None:
-    """Make these the only results, or leave the earlier ones. The tensor is stored in two ways."""
+    """Make these the only results, or leave the earlier ones.
+
+    The tensor is stored in two ways.
+    """
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
     values = {key: values[key] for key in DESCRIPTIONS if key in values}

@@ -232,7 +232,10 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
-    """Return the sum of all stored results as one body, world frame. Axes are left out: signs need third moments."""
+    """Return the sum of all stored results as one body, world frame.
+
+    Axes are left out: signs need third moments.
+    """
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     if bodies:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Units in which densities are shown and entered. Pure data."""
+"""Pure data: units in which densities are shown and entered."""
 
 from __future__ import annotations
 

@@ -317,7 +317,7 @@ class _Sums:
         turn: tuple,
         threshold: float,
     ) -> None:
-        """Add the masses of columns. The density is linear along them: Gauss's rule is exact."""
+        """Add the masses of columns with densities that are linear along them, for which Gauss's rule is exact."""
         first, size = column
         low, height = columns.low[kept], (columns.high - columns.low)[kept]
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):

@@ -43,7 +43,10 @@ class Cells:
         return Cells(self.corners[chosen], self.origin[chosen], self.size[chosen])
 
     def cut_in_eight(self) -> Cells:
-        """Cut each at the middle of its edges. A density that is linear along the axes stays so in every part."""
+        """Cut each at the middle of its edges.
+
+        A density that is linear along the axes stays so in every part.
+        """
         finer = self.corners
         for axis in (1, 2, 3):
             low, high = np.split(finer, 2, axis=axis)

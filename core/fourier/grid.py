@@ -179,7 +179,7 @@ class GridTransform(Transform):
         )
 
     def steps(self) -> Iterator[float]:
-        """Do the work. Yields after each part of it the fraction done, from 0 to 1, roughly."""
+        """Do the work and yield the rough fraction done, from 0 to 1, after each part of it."""
         expected = len(self.faces.triangles) * len(_trial_vectors(self.grid)) / PAIRS_PER_BLOCK
         for tried, _ in enumerate(self._assign_triangles()):
             yield SHARING_TIME * tried / (tried + expected)

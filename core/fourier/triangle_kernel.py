@@ -221,9 +221,9 @@ class PhaseMeans:
 
 
 def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
-    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g. All are overwritten.
+    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g.
 
-    It is v / 2 + (1 + v) g with v = exp(-i s0) - 1, which is small if s0 is.
+    It is v / 2 + (1 + v) g with v = exp(-i s0) - 1, which is small if s0 is. All arguments are overwritten.
     """
     np.multiply(cosine, sine, out=cosine)
     np.multiply(cosine, -2.0, out=cosine)  # The imaginary part of v.

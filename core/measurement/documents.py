@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The JSON document of a file, and its formats: JSON, JSON lines and CSV. A public contract, `body-moments/1`.
+"""The JSON document of a file, and its formats: JSON, JSON lines and CSV.
+
+A public contract, `body-moments/1`.
 
 A document is the result of one file: one record for each object, their total, and the objects that could not be
 measured. Nothing here needs numpy or Blender: a process that only gathers results of others writes the same.
@@ -211,7 +213,10 @@ def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _line(cells: Iterable[Any]) -> str:
-    """Return a row of a table. Before Python 3.13 the csv module quotes only line breaks that it ends a row with."""
+    """Return a row of a table.
+
+    Before Python 3.13 the csv module quotes only line breaks that it ends a row with.
+    """
     text = io.StringIO()
     csv.writer(text, lineterminator="\r\n").writerow(cells)
     return text.getvalue().removesuffix("\r\n") + "\n"

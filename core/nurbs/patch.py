@@ -23,7 +23,9 @@ from .curve import Curve, checked_points
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """A tensor-product B-spline patch, polynomial or rational. Its normal is ∂S/∂s x ∂S/∂t.
+    """A tensor-product B-spline patch, polynomial or rational.
+
+    Its normal is ∂S/∂s x ∂S/∂t.
 
     Parameters
     ----------

@@ -112,7 +112,9 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """Return the area moments of patches by quadrature; `rounding_error` is an estimate. Otherwise as `volume_moments`.
+    """Return the area moments of patches by quadrature; `rounding_error` is an estimate.
+
+    Otherwise as `volume_moments`.
 
     If a patch turns over between two neighboring points, or a cell's side and its first point, the area between them
     counts as error, so that such a cell is cut.

@@ -43,7 +43,10 @@ SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """One side of a patch. forward: True if the patch's boundary runs the way of its curve."""
+    """One side of a patch.
+
+    forward: True if the patch's boundary runs the way of its curve.
+    """
 
     patch: int
     curve: Curve
@@ -93,7 +96,9 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
-    """Find the seams, orientation and holes of patches. tolerance: the distance within which points are the same.
+    """Find the seams, orientation and holes of patches.
+
+    tolerance: the distance within which points are the same.
 
     MeasureError if knots may tear one: a gap within a patch is not one of its sides.
     """

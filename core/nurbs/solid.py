@@ -259,7 +259,10 @@ def _judge_parts(
 
 
 def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
-    """Return the verdict's method. misoriented: the number of patches that face against the rest of their part."""
+    """Return the verdict's method.
+
+    misoriented: the number of patches that face against the rest of their part.
+    """
     if is_open:
         return Verdict.OPEN
     if verdict.caps[verdict.solid].any():
@@ -439,7 +442,10 @@ def _orientation_findings(
 def _closing_findings(
     closure: PatchTopology, solid: NDArray[np.bool_], area: float, volume: float, size: float
 ) -> list[Finding]:
-    """Return findings about open, flat and capped parts. solid: (c,) the parts with a volume."""
+    """Return findings about open, flat and capped parts.
+
+    solid: (c,) the parts with a volume.
+    """
     findings = []
     if closure.unclosable.any():
         findings.append(finding(OPEN_PATCH_SIDES))

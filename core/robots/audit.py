@@ -41,7 +41,10 @@ RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
 
 @dataclass(frozen=True, eq=False)
 class LinkAudit:
-    """Findings about one link. repaired: its corrected inertial, None if it stays."""
+    """Findings about one link.
+
+    repaired: its corrected inertial, None if it stays.
+    """
 
     link: StatedLink
     findings: tuple[Finding, ...]
@@ -81,7 +84,10 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its difference from that geometry filled evenly."""
+    """Comparison of an inertial with some geometry.
+
+    apart: its difference from that geometry filled evenly.
+    """
 
     findings: list[Finding]
     impossible: bool
@@ -165,7 +171,10 @@ class Auditor:
 
 
 def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
-    """Judge an inertial by its geometry. incomplete: True if some geometry could not be read, and shows nothing."""
+    """Judge an inertial by its geometry.
+
+    incomplete: True if some geometry could not be read, and shows nothing.
+    """
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()

@@ -196,7 +196,10 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (r, r) the derivative of the center by the multiplier. A move that is cut can still turn, not grow."""
+    """Return (r, r) the derivative of the center by the multiplier.
+
+    A move that is cut can still turn, not grow.
+    """
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)

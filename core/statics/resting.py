@@ -147,7 +147,10 @@ def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
 
 
 def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """Find the faces of a hull. points: from the center."""
+    """Find the faces of a hull.
+
+    points: from the center.
+    """
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
     face, count = _coplanar(points, triangles, neighbors, double, least)

@@ -86,7 +86,10 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
 
 
 def read_json(data: bytes) -> dict[str, Any]:
-    """Return the document of a .gltf or .glb file that Blender has written. Raises FileError if it is none."""
+    """Return the document of a .gltf or .glb file that Blender has written.
+
+    Raises FileError if it is none.
+    """
     try:
         if data[:4] != b"glTF":
             return json.loads(data)

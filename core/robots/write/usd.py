@@ -251,7 +251,7 @@ def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
-    """Return a joint in the child's frame. One of several degrees of freedom is a general one with limits."""
+    """Return a joint in the child's frame; several degrees of freedom make a general joint with limits."""
     child, parent = robot.link(joint.child), robot.link(joint.parent)
     place = parent.pose.inverse() @ child.pose
     turn = np.eye(3)
