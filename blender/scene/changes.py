@@ -58,8 +58,9 @@ def _advance(change: SceneChange, depsgraph: Depsgraph) -> bool:
 
 
 def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
-    """Return changes, each with the data it may touch, in rounds: after all earlier ones that touch the same data,
-    beside others.
+    """Return changes in rounds: each after all earlier changes of the same data, beside others.
+
+    changes: each with the data it may touch.
     """
     last: dict[ID, int] = {}
     by_round: dict[int, list[Planned]] = {}
@@ -71,9 +72,7 @@ def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[
 
 
 def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
-    """Return for each object itself and all that refer to it, directly or through others: they may look different
-    during its change.
-    """
+    """Return for each object itself and its direct and indirect users; its change may affect their look meanwhile."""
     users = users_of(objects, {"OBJECT", *LINKING_TYPES})
 
     def reached(obj: Object) -> set[Object]:

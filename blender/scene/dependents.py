@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data that must not move when an object gets another origin and other axes: its own shape, its
-children, and all other users of it.
+"""Dependents of an object whose origin and axes change: its shape, its children and all other users must not move.
 
 Surfaces are compared as they are evaluated, point by point in the world, because no list of
 modifiers could say how each of them depends on an origin.
@@ -48,8 +47,9 @@ def referring(objects: set[Object]) -> dict[Object, set[Object]]:
 
 
 def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
-    """Return the evaluated surfaces of an object in the world: for each part, all points of the first place and some
-    points of all others. None if there is nothing to see.
+    """Return the evaluated surfaces of an object in the world, or None if there is nothing to see.
+
+    For each part, all points of the first place and some points of all others.
     """
     try:
         reading = read_object(obj, depsgraph, edges=False)
@@ -67,7 +67,10 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
 
 
 def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
-    """Return the shape after a rigid move with all of its object. was, now: (4, 4) the object's matrices."""
+    """Return the shape after a rigid move with all of its object.
+
+    was, now: (4, 4) the object's matrices.
+    """
     way = now @ np.linalg.pinv(was)
     if before is None:
         return None
@@ -88,8 +91,9 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
-    """Return a few points of each place, of any part, in the order of their centers along a line: for each number of
-    points (k, few, 3).
+    """Return a few points of each place, of any part: for each number of points (k, few, 3).
+
+    They are in the order of their centers along a line.
     """
     by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
@@ -112,9 +116,7 @@ def _nearly_equal(first: NDArray, second: NDArray, size: float) -> bool:
 
 
 class DependentsGuard:
-    """Objects that refer to the changed ones: children are held in place, the others are
-    watched.
-    """
+    """Objects that refer to the changed ones: children are held in place, the others are watched."""
 
     def __init__(
         self,
@@ -152,8 +154,9 @@ class DependentsGuard:
         }
 
     def compensate(self) -> None:
-        """Set parent inverses of children, and inverses of Child Of constraints, that keep them in their old places,
-        now that the changed objects' matrices are evaluated.
+        """Set inverses of children and of Child Of constraints so that the children keep their old places.
+
+        The matrices of the changed objects must be evaluated.
         """
         held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
         for child, inverse in self.children.items():

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Collections of objects made for an armature. Objects made before are replaced; all else in them stays."""
+"""Collections of objects made for an armature.
+
+Objects made before are replaced; all else in them stays.
+"""
 
 from __future__ import annotations
 

@@ -299,7 +299,10 @@ def _parent_matrix(obj: Object) -> Matrix4:
 
 
 def transform_data(data: ID, change: Matrix4) -> None:
-    """Map every control point of the data and its shape keys, p → change · p. EditRefusedError if the data cannot."""
+    """Map every control point of the data and its shape keys, p → change · p.
+
+    EditRefusedError if the data cannot.
+    """
     if isinstance(data, bpy.types.Mesh):
         _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):

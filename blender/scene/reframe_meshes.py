@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many meshes that get another origin and other axes at once: of objects that show their unmodified mesh and have no
-users.
+"""New origins and axes of many meshes at once, for objects that show their unmodified mesh and have no users.
 
 The new places of their points are known, so that no trial is needed. Objects that share a mesh and want the same change
 of it go on sharing; for other changes, and if others use the mesh, too, it is copied. Deviations found after the move
@@ -60,9 +59,7 @@ def location_tolerance(obj: Object, size: float) -> float:
 
 
 def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float64]:
-    """Return (..., 4, 4) the maps of points that keep their places while their objects' matrices go from `was` to
-    `now`.
-    """
+    """Return (..., 4, 4) maps that keep points in place while their objects' matrices go from `was` to `now`."""
     change = np.linalg.solve(now, was)
     if move_only:
         change[..., :3, :3] = np.eye(3)
@@ -73,8 +70,9 @@ def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float
 
 
 def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
-    """Return whether an object shows just its unmodified mesh, has no users, and stands by its location, rotation and
-    scale alone, free to change.
+    """Return whether an object shows just its unmodified mesh, has no users and is free to change.
+
+    Its location, rotation and scale alone must place it.
     """
     data = obj.data
     return (
@@ -95,7 +93,10 @@ def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
 
 
 def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
-    """Carry out plans for objects that pass `shows_own_mesh`; return the finished objects. The others are unchanged."""
+    """Carry out plans for objects that pass `shows_own_mesh`; return the finished objects.
+
+    The others are unchanged.
+    """
     done: list[Object] = []
     for move_only in (True, False):
         some = [plan for plan in plans if plan.move_only == move_only]
@@ -154,8 +155,9 @@ def _reframe_alike(
 
 
 def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> list[int]:
-    """Copy meshes for objects that share them and want different changes, (n, 4, 4), of points as far out as `reach`
-    says; for each mesh that then has to be changed, the first of the plans that want it.
+    """Copy meshes for objects that share them and want different changes; return the first plan of each.
+
+    These meshes have to be changed then. changes: (n, 4, 4). reach: the distance of the points farthest out.
     """
     sharing: dict[Mesh, list[int]] = {}
     for i, plan in enumerate(plans):
@@ -248,7 +250,10 @@ def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
 def _change_mesh(
     mesh: Mesh, change: NDArray, points: NDArray[np.float32], is_flipped: bool, put_back: ExitStack
 ) -> None:
-    """Give a mesh its mapped points. put_back: gets functions that undo all but the points."""
+    """Give a mesh its mapped points.
+
+    put_back: gets functions that undo all but the points.
+    """
     if mesh.has_custom_normals:
         mesh.transform(Matrix(change))  # turns them, too
         put_back.callback(mesh.transform, Matrix(np.linalg.inv(change)))

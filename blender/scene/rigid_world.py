@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rigid bodies and joints of a scene. Blender adds joints to the view layer's active object alone."""
+"""Rigid bodies and joints of a scene.
+
+Blender adds joints to the view layer's active object alone.
+"""
 
 from __future__ import annotations
 

@@ -50,9 +50,7 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
 
 
 def surface_data(name: str, patches: Sequence[Patch], factor: float) -> tuple[Curve, float, NDArray[np.float32]]:
-    """Return the data of `surface_object`, the share of the size by which its points moved, and the place of its
-    origin.
-    """
+    """Return the data of `surface_object`, its points' movement as a share of the size, and its origin's place."""
     low = factor * np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0)
     high = factor * np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0)
     size, distance = float((high - low).max()), float(np.abs([low, high]).max())

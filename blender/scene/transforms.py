@@ -75,8 +75,9 @@ def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
 
 
 def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) angles by axis x, y, z that rebuild rotations (..., 3, 3), the nearest of all equal ones to
-    `near`, (..., 3).
+    """Return (..., 3) angles by axis x, y, z of rotations (..., 3, 3).
+
+    Of all equal angles they are the nearest to `near`, (..., 3).
     """
     i, j, k, s = _order(mode)
     locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
@@ -130,8 +131,10 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
-    """Return rotations (..., 3, 3) and scales (..., 3) of linear maps, with the signs of the present scales as
-    far as their hand allows, and a (...,) mask of such maps: not sheared, and with no zero scale.
+    """Return rotations (..., 3, 3) and scales (..., 3) of linear maps, and a (...,) mask of maps that have them.
+
+    Scales have the signs of the present ones as far as the maps' hand allows. The mask excludes sheared maps and zero
+    scales.
     """
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings that a user has judged and accepted, by object and code: a warning is a note then, in the panel, in stored
-results and in records.
+"""Findings that a user has judged and accepted, by object and code.
+
+A warning is a note then, in the panel, in stored results and in records.
 """
 
 from __future__ import annotations

@@ -29,8 +29,10 @@ _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_M
 
 @dataclass(frozen=True, eq=False)
 class DensityField:
-    """kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the
-    world's axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices.
+    """A density that varies over a body.
+
+    kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the world's
+    axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices.
     """
 
     kind: str
@@ -45,16 +47,18 @@ class DensityField:
         return "world" if self.in_world else "object"
 
     def polynomial_source(self) -> Finding:
-        """Return the source of a polynomial density. A decimal comma shows here as the coefficients it was taken
-        for.
+        """Return the source of a polynomial density.
+
+        A decimal comma shows here as the coefficients it was taken for.
         """
         code = DENSITY_FROM_COEFFICIENTS if "," in self.text else DENSITY_FROM_POLYNOMIAL
         return finding(code, polynomial=self.text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
-    """Return the density that the object's settings name; None for one value or a given mass. MeasureError if a
-    polynomial cannot be read, or nothing is chosen.
+    """Return the density field named by the object's settings, or None for one value or a given mass.
+
+    MeasureError if a polynomial cannot be read, or nothing is chosen.
     """
     if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return None
@@ -85,8 +89,10 @@ def material_density(material: bpy.types.Material | None) -> float | None:
 
 
 def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.types.Scene) -> str | None:
-    """Return the density setting that was used and set by nobody, neither for the object nor for the scene: "density"
-    or "linear_density"; None if there was none. measurement: of the object, with no density or mass from elsewhere.
+    """Return the used density setting that nobody has set: "density", "linear_density" or None.
+
+    It is set neither for the object nor for the scene. measurement: of the object, with no density or mass from
+    elsewhere.
     """
     settings = obj.body_moments
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
@@ -103,8 +109,9 @@ def is_density_unset(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) 
 
 
 def density_anchor(obj: bpy.types.Object) -> str:
-    """Return the coordinates to which the object's density is fixed, if it changes as the object moves or gets other
-    axes: "own" or "world"; else "".
+    """Return the coordinates to which the object's density is fixed: "own", "world" or "".
+
+    If it is fixed to either, it changes as the object gets other axes or moves.
     """
     settings = obj.body_moments
     if settings.mass_from != "DENSITY" or settings.density_from != "POLYNOMIAL":

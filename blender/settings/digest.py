@@ -14,7 +14,10 @@ from .grid import GridOptions
 
 
 def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
-    """Return a key of the density of a Volume object. density: as for `GridOptions.of`."""
+    """Return a key of the density of a Volume object.
+
+    density: as for `GridOptions.of`.
+    """
     grid = GridOptions.of(obj.body_moments, density)
     return "" if grid.solid else repr(grid.key)
 

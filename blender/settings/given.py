@@ -35,7 +35,10 @@ class GivenPart:
 
     @classmethod
     def of(cls, settings: PropertyGroup, unit: float) -> GivenPart:
-        """Return the given part of the settings. unit: meters per Blender unit."""
+        """Return the given part of the settings.
+
+        unit: meters per Blender unit.
+        """
         center = inertia = None
         if settings.use_center:
             center = _decimals(settings.given_center) * unit

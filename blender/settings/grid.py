@@ -52,7 +52,10 @@ class GridOptions:
 
     @classmethod
     def of(cls, settings, density: float | None = None) -> GridOptions:
-        """Return the options of an object's settings. density: overrides the density of a value of 1, and the table."""
+        """Return the options of an object's settings.
+
+        density: overrides the density of a value of 1, and the table.
+        """
         table = settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
         return cls(
             settings.grid,
@@ -76,8 +79,9 @@ class GridOptions:
         return (*values, self.spline_order) if self.threshold is None else (*values, self.spline_order, self.threshold)
 
     def positions(self, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
-        """Return the positions of all samples of the scan along each axis, in voxels. ReadError if they are unknown in
-        the box from `low` on. grid: its name.
+        """Return the positions of all samples of the scan along each axis, in voxels.
+
+        grid: its name. ReadError if they are unknown in the box from `low` on.
         """
         if not self.sample_positions:
             return EVEN
@@ -94,13 +98,17 @@ class GridOptions:
         return x, y, z
 
     def needs_even_samples(self, grid: str) -> None:
-        """Raise ReadError if samples are uneven. grid: its name."""
+        """Raise ReadError if samples are uneven.
+
+        grid: its name.
+        """
         if self.sample_positions:
             raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=grid)
 
     def to_densities(self, background: float | None) -> Callable[[NDArray], NDArray]:
-        """Return a function that makes densities in kg/m³ of values, and raises ReadError if it cannot. The background,
-        if any, is empty, at any value.
+        """Return a function from values to densities in kg/m³; it raises ReadError if it cannot convert them.
+
+        The background, if any, is empty, at any value.
         """
         pairs = parse_table(self.table) if self.table else None
 
@@ -132,9 +140,7 @@ class GridOptions:
 
 
 def positions_text(positions: Positions) -> str:
-    """Return positions as text for an object: in voxels, with the first and the last sample at their places in
-    Blender.
-    """
+    """Return positions as text for an object: in voxels, with the first and last sample's places in Blender."""
     known = {axis: (row * ((len(row) - 1) / row[-1])).tolist() for axis, row in zip(AXES, positions) if row is not None}
     return json.dumps(known, separators=(",", ":")) if known else ""
 

@@ -12,5 +12,8 @@ VARIABLE = "BODY_MOMENTS_LIMITS"
 
 
 def scan_limits() -> Limits:
-    """Return the limits of this process. MeasureError if the variable is not understood."""
+    """Return the limits of this process.
+
+    MeasureError if the variable is not understood.
+    """
     return Limits.parse(os.environ.get(VARIABLE, ""))

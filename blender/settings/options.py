@@ -14,7 +14,7 @@ from ...core.numerics.float32 import shortest_decimal
 
 @dataclass(frozen=True)
 class MeasureOptions:
-    """Overrides of the objects' own settings; None leaves the setting. SI units.
+    """Overrides of the objects' own settings, in SI units; None leaves the setting.
 
     kind: "solid", "shell" or "wire"; density: kg/m³, of a wire kg/m; mass: kg; thickness: m; overlap: "signed" or
     "union"; wall: of a shell, "thin", "inward", "outward" or "centered"; unit_scale: meters per Blender unit, else the
@@ -45,7 +45,10 @@ class MeasureOptions:
 
 @dataclass(frozen=True)
 class ResolvedOptions(MeasureOptions):
-    """Options without gaps: the given ones, completed by the object's settings. Of density and mass one at most."""
+    """Options without gaps: the given ones, completed by the object's settings.
+
+    Of density and mass one at most.
+    """
 
     kind: str = field(kw_only=True)
     thickness: float = field(kw_only=True)

@@ -133,7 +133,10 @@ def preferences() -> BodyMomentsPreferences | None:
 
 
 def copy_defaults(scene: Scene) -> None:
-    """Copy the preferences into a scene that has none of its own yet. For operators that a user presses."""
+    """Copy the preferences into a scene that has none of its own yet.
+
+    For operators that a user presses.
+    """
     settings, source = scene.body_moments, preferences()
     if source is None or settings.has_defaults or not scene.is_editable:
         return

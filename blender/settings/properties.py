@@ -408,14 +408,15 @@ class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
 
 
 def density_field_name(scene: Scene) -> str:
-    """Return the property of an object's or a material's settings that shows its density in the unit that a scene is
-    set to.
-    """
+    """Return the property of an object's or a material's settings for its density in the scene's unit."""
     return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
-    """Copy every setting; return whether anything was different. Settings set in the source are set in the target."""
+    """Copy every setting; return whether anything was different.
+
+    Settings set in the source are set in the target.
+    """
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)

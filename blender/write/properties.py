@@ -87,8 +87,9 @@ ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
 
 @dataclass(frozen=True, eq=False)
 class StoredProperties:
-    """Stored results of an object, SI. body: in the object frame, or in the world after `in_world`. error_bound: as in
-    `Measurement`.
+    """Stored results of an object, SI.
+
+    body: in the object frame, or in the world after `in_world`. error_bound: as in `Measurement`.
     """
 
     density: float
@@ -98,7 +99,10 @@ class StoredProperties:
     error_bound: dict
 
     def in_world(self, matrix_world, unit: float) -> StoredProperties:
-        """Return the results in the world frame. matrix_world: of the object; unit: meters per Blender unit."""
+        """Return the results in the world frame.
+
+        matrix_world: of the object; unit: meters per Blender unit.
+        """
         location, turn, _ = matrix_world.decompose()
         to_object = rotation_matrix(turn).T
         origin = -to_object @ np.array(location, np.float64) * unit
@@ -106,7 +110,10 @@ class StoredProperties:
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
-    """Write all results on an object, a collection or a pose bone, or none. EditRefusedError if it cannot hold them."""
+    """Write all results on an object, a collection or a pose bone, or none.
+
+    EditRefusedError if it cannot hold them.
+    """
     require_storable(obj)
     body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
     bound = measurement.error_bound
@@ -199,7 +206,10 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
 
 
 def _replace(obj: Owner, values: dict) -> None:
-    """Make these the only results, or leave the earlier ones. The tensor is stored in two ways."""
+    """Make these the only results, or leave the earlier ones.
+
+    The tensor is stored in two ways.
+    """
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
     values = {key: values[key] for key in DESCRIPTIONS if key in values}
@@ -238,8 +248,9 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
 
 
 def _write(obj: Owner, values: dict, before: dict) -> None:
-    """Make these, by their keys, the only results of the object. before: the earlier ones, whose descriptions stay if
-    the kind of value does.
+    """Make these values, by their keys, the only results of the object.
+
+    before: the earlier ones, whose descriptions stay if the kind of value does.
     """
     for key in DESCRIPTIONS:
         if key not in values and key in obj:
@@ -263,8 +274,9 @@ def _description(key: str, owner: type) -> str:
 
 
 def store_reference(obj: Owner, values: dict) -> None:
-    """Write results about a reference, by their keys, beside the others. EditRefusedError if the owner cannot hold
-    them.
+    """Write results about a reference, by their keys, beside the others.
+
+    EditRefusedError if the owner cannot hold them.
     """
     require_storable(obj)
     for key in DESCRIPTIONS:
@@ -347,8 +359,9 @@ def findings_text(findings: Iterable[Finding]) -> str:
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:
-    """Return the findings in a stored text. Text that `findings_text` has not written gives none; a finding that this
-    version of the add-on cannot put into words is left out.
+    """Return the findings in a stored text, or none if `findings_text` did not write it.
+
+    A finding that this version of the add-on cannot put into words is left out.
     """
     return _findings_in(text) if isinstance(text, str) else ()
 

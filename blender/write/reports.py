@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings as operators show them: reports, reasons why a button is off, the status bar. Sentences are in the language
-of the interface and lengths in the scene's units.
+"""Findings as operators show them: reports, reasons why a button is off, the status bar.
+
+Sentences are in the language of the interface and lengths in the scene's units.
 """
 
 from __future__ import annotations

@@ -40,8 +40,9 @@ def save(
 
 
 def picture(name: str, values: NDArray[np.complex128], count: int, dimension: int = 3) -> bpy.types.Image:
-    """Return an image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³; of
-    one on a grid of count² all of it.
+    """Return an image of the slices z = 0, y = 0 and x = 0, from left to right, of a transform on a grid of count³.
+
+    With two dimensions, on a grid of count², the image shows all of it.
 
     Gray is log |F|: white at the maximum, black from six decades below on. The first of the axes left runs to the
     right, the other one upward.

@@ -52,8 +52,9 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of the results stored on `objects`; see `report_text`. The health of their meshes is not
-    stored.
+    """Return the document of the results stored on `objects`; see `report_text`.
+
+    The health of their meshes is not stored.
     """
     scene = context.scene
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
@@ -231,7 +232,10 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
-    """Return the sum of all stored results as one body, world frame. Axes are left out: signs need third moments."""
+    """Return the sum of all stored results as one body, world frame.
+
+    Axes are left out: signs need third moments.
+    """
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     if bodies:

@@ -58,12 +58,12 @@ def register_language(*_: Any) -> None:
 
 
 def localized(text: str) -> str:
-    """A text of the interface in the user's language, before it is filled."""
+    """Return an interface text in the user's language, before it is filled."""
     return bpy.app.translations.pgettext_iface(text, CONTEXT)
 
 
 def localized_sentence(finding: Finding, unit_settings: Any) -> str:
-    """The sentence of a finding in the user's language, lengths in a scene's units."""
+    """Return the sentence of a finding in the user's language, lengths in a scene's units."""
     return sentence(finding, localized, partial(Units.of(unit_settings).text, "length"))
 
 

@@ -80,8 +80,10 @@ MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
 
 @dataclass(frozen=True)
 class Units:
-    """A scene's unit settings. With system "NONE", lengths, areas and volumes are in the scene's own
-    units, without a name; whatever has mass in it is SI, with its name.
+    """A scene's unit settings.
+
+    With system "NONE", lengths, areas and volumes are in the scene's own units, without a name; quantities with mass
+    are SI, with its name.
     """
 
     system: str
@@ -104,8 +106,9 @@ class Units:
         return self.texts(quantity, (value,))[0]
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
-        """Return SI values of one quantity as a column: all in the unit that suits the largest of them, with as many
-        decimals. size: of the body that they belong to; rounding beside it is shown as 0.
+        """Return SI values of one quantity as a column, all in one unit with equally many decimals.
+
+        The largest value decides the unit. size: of the body that they belong to; rounding beside it is shown as 0.
         """
         largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
         noise = max(1e-12 * largest, 1e-7 * size)
@@ -175,9 +178,7 @@ def rounded_up(bound: float) -> float:
 
 
 def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
-    """Return a number as a person reads it: so many significant digits, no trailing zeros, powers of ten only if
-    needed.
-    """
+    """Return a readable number: `digits` significant digits, no trailing zeros, powers of ten only if needed."""
     return column((value,), digits, grouping)[0]
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Units in which densities are shown and entered. Pure data."""
+"""Pure data: units in which densities are shown and entered."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ SYSTEM_UNITS = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}  # The
 
 
 def density_unit(chosen: str, system: str) -> str:
-    """Return the unit to show densities in. chosen: one of `DENSITY_UNITS`, or "AUTO". system: a scene's unit system,
-    one of `SYSTEM_UNITS`. Returns one of `DENSITY_UNITS`.
+    """Return the unit to show densities in, one of `DENSITY_UNITS`.
+
+    chosen: one of `DENSITY_UNITS`, or "AUTO". system: a scene's unit system, one of `SYSTEM_UNITS`.
     """
     return SYSTEM_UNITS[system] if chosen == "AUTO" else chosen

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Densities of common materials, each with the source of its number. Pure data.
+"""Pure data: densities of common materials, each with the source of its number.
 
 Real materials vary: woods by a fifth, alloys and plastics by some percent. If the mass of a part matters, weigh the
 part and give its mass instead.

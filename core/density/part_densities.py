@@ -18,7 +18,9 @@ from ..solid.closed_parts import ClosedParts
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """density: (number,) of each part. has_several_materials: (number,) True if its own faces differ;
+    """Densities of parts, each from its faces.
+
+    density: (number,) of each part. has_several_materials: (number,) True if its own faces differ;
     has_foreign_cavity_material: (number,) cavities with faces of other densities than the part they are cut from.
     first_face: (number,) a part's first mesh face, -1 for none. range_by_area, most_by_area: (number,) how far its
     faces' densities are apart, and the largest of them, times its area.
@@ -33,8 +35,9 @@ class PartDensities:
 
 
 def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
-    """Return one density for each part. faces: (f,) the density of every mesh face. linear: (3, 3) the map under which
-    areas count.
+    """Return one density for each part.
+
+    faces: (f,) the density of every mesh face. linear: (3, 3) the map under which areas count.
     """
     of_mesh = parts.face >= 0
     part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]

@@ -49,7 +49,7 @@ def _degrees(order: int) -> NDArray[np.intp]:
 
 @lru_cache
 def _scales(order: int, more: int) -> NDArray[np.float64]:
-    """Return (K,) α! / (|α| + more)!"""
+    """Return (K,) the factors α! / (|α| + more)! of the monomials."""
     return np.array(
         [
             factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + more)
@@ -120,8 +120,9 @@ def solid_mass_moments(points: ArrayLike, triangles: ArrayLike, density: ArrayLi
 def sheet_mass_moments(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, stored: bool = False
 ) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dA, with a density for each triangle, (t,), or, linear between them, for each of
-    its corners, (t, 3); none negative.
+    """Return ∫ ρ x^p y^q z^r dA, with densities (t,) of triangles, or (t, 3) of their corners, linear between them.
+
+    No density may be negative.
 
     like: the area moments, to the order that is wanted. stored: the densities were float32, which goes into
     `input_error`. The result maps as an area does.
@@ -140,7 +141,10 @@ def sheet_mass_moments(
 def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
-    """Return (K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ. Weights are ρ det or, for sheets, ρ times doubled areas."""
+    """Return (K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ.
+
+    Weights are ρ det or, for sheets, ρ times doubled areas.
+    """
     order, step = like.order, _block_size(like.order)
     series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
     block_sums, sizes, tau = [np.zeros(monomial_count(order))], 0.0, np.zeros(3)
@@ -163,7 +167,10 @@ def _accumulate(
 
 
 def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K, k) ρ h_α of each triangle. corners: (3 axes, 3 corners, k)."""
+    """Return (K, k) ρ h_α of each triangle.
+
+    corners: (3 axes, 3 corners, k).
+    """
     table = np.zeros((monomial_count(order), corners.shape[2]))
     table[0] = density
     for corner in range(3):
@@ -172,7 +179,10 @@ def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDA
 
 
 def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K, k) h_(α,1) of each triangle. density: (3 corners, k)."""
+    """Return (K, k) h_(α,1) of each triangle.
+
+    density: (3 corners, k).
+    """
     table, linear = np.zeros((2, monomial_count(order), corners.shape[2]))
     table[0] = 1.0
     for corner in range(3):

@@ -57,7 +57,9 @@ CORNERS = tuple(product((0, -1), repeat=3))
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """A polynomial density, Σ c x^p y^q z^r, with exact coefficients. Call it with (n, 3) points for its values.
+    """A polynomial density, Σ c x^p y^q z^r, with exact coefficients.
+
+    Call it with (n, 3) points for its values.
 
     Parameters
     ----------

@@ -83,8 +83,9 @@ def polynomial_mass_of_images(
 def _mass_functional(
     moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return, (K, k) each: G, the bound of its rounding, the image of `moments.input_error`, and bounds of the
-    integrals of the same functions' magnitudes.
+    """Return, (K, k) each: G, its rounding bound, the image of `moments.input_error`, and bounds of magnitudes.
+
+    The last are bounds of the integrals of the same functions' magnitudes.
 
     forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) the error bounds of their constants.
     """
@@ -134,8 +135,9 @@ def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[ND
 
 
 def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes from its own origin, as placed by
-    `matrices`.
+    """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes from its own origin.
+
+    matrices: (k, 4, 4) the places of the body.
     """
     axes, _ = polar_rotation(matrices)
     fields = np.zeros((len(matrices), 4, 4))

@@ -25,8 +25,9 @@ MAX_LOCATED_POINTS = 24  # points that are located in the body
 def find_negative_point(
     density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
 ) -> tuple[tuple[float, NDArray] | None, bool]:
-    """Return a negative value and its place, (3,), in the body or on its surface, or None; and True if there may be one
-    although none was found.
+    """Return a negative value and its place, (3,), or None; and True if an unfound one may exist.
+
+    The place is in the body or on its surface.
 
     points: (n, 3) in the density's coordinates. triangles: (m, 3). solid: the inside counts too.
     """

@@ -128,7 +128,10 @@ class SplineAxis:
 
 
 def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
-    """Return (degree + 1, n) ∫ t^l B_i over full supports, by the closed form. Repeated knots are fine."""
+    """Return (degree + 1, n) ∫ t^l B_i over full supports, by the closed form.
+
+    Repeated knots are fine.
+    """
     knots = np.asarray(knots, np.float64)
     count = len(knots) - order
     h = np.zeros((degree + 1, count))

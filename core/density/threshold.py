@@ -167,8 +167,9 @@ def threshold_body(
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    """Yield planes of samples as float64, each slab with the first plane of the next, and its first index; with a layer
-    of the background on every side, if there is one.
+    """Yield slabs of planes of samples as float64, each with the first plane of the next, and its first index.
+
+    If there is a background, a layer of it is added on every side.
     """
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
@@ -316,7 +317,7 @@ class _Sums:
         turn: tuple,
         threshold: float,
     ) -> None:
-        """Add the masses of columns. The density is linear along them: Gauss's rule is exact."""
+        """Add the masses of columns with densities that are linear along them, for which Gauss's rule is exact."""
         first, size = column
         low, height = columns.low[kept], (columns.high - columns.low)[kept]
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):

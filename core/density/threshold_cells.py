@@ -43,7 +43,10 @@ class Cells:
         return Cells(self.corners[chosen], self.origin[chosen], self.size[chosen])
 
     def cut_in_eight(self) -> Cells:
-        """Cut each at the middle of its edges. A density that is linear along the axes stays so in every part."""
+        """Cut each at the middle of its edges.
+
+        A density that is linear along the axes stays so in every part.
+        """
         finer = self.corners
         for axis in (1, 2, 3):
             low, high = np.split(finer, 2, axis=axis)
@@ -137,9 +140,7 @@ def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.f
 
 
 def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], NDArray, NDArray]:
-    """Cut [0, 1] at the roots of linear functions with the values (n, k) at its ends: row, start and length of each
-    interval.
-    """
+    """Cut [0, 1] at the roots of linear functions with end values (n, k): row, start and length of each interval."""
     with np.errstate(divide="ignore"):
         roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
     edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)
@@ -160,9 +161,7 @@ def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
 def compare_rules(
     cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
 ) -> tuple[Columns, NDArray[np.float64]]:
-    """Return the columns by the last rule, and (2, n) the differences in volume and area of each cell from the
-    first.
-    """
+    """Return the columns by the last rule, and (2, n) each cell's differences in volume and area from the first."""
     metric = metric[np.ix_(turn, turn)]
     turned = cells.corners.transpose(0, *(1 + np.array(turn)))
     columns = [columns_of(turned, points, metric) for points in rules]

@@ -183,8 +183,9 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
 
 
 def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
-    """Return (m, 2) the directed edges of (k, 3) triangles over `count` points that no other triangle runs through the
-    other way: as often as one direction is more frequent.
+    """Return (m, 2) directed edges of (k, 3) triangles over `count` points without an opposite edge.
+
+    An edge is repeated as often as its direction is more frequent than the opposite one.
     """
     ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
     low, high = ahead.min(axis=1), ahead.max(axis=1)
@@ -197,8 +198,9 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
-    """Return (k,) the signed area of each outline, of one or more: negative ones are holes. Outlines that share a point
-    count as one.
+    """Return (k,) the signed areas of one or more outlines: negative ones are holes.
+
+    Outlines that share a point count as one.
     """
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
@@ -311,9 +313,10 @@ def _twice_the_area(points: NDArray, edges: NDArray) -> float:
 
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
-    """Count pairs of edges that cross by more than `touch`, and sum the length along which others run against each
-    other: each edge is entered into the cells of a grid that its box meets, and compared with edges that share a cell.
-    The last value is True if that was given up.
+    """Count pairs of edges that cross by more than `touch`, and sum the length of others against each other.
+
+    The length is that of edges that run against each other. Each edge is entered into the cells of a grid that its box
+    meets, and compared with edges that share a cell. The last value is True if that was given up.
     """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)

@@ -150,8 +150,9 @@ class Section:
 
 
 def principal_angle(second: NDArray, noise: float) -> float:
-    """Return the angle of axis 1, in (-π/2, π/2]; a product of inertia below `noise` is none, so that it cannot turn
-    the axis over.
+    """Return the angle of axis 1, in (-π/2, π/2].
+
+    A product of inertia below `noise` is none, so that it cannot turn the axis over.
     """
     first, last, mixed = second.tolist()
     if abs(mixed) <= noise:
@@ -236,8 +237,9 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[NDArray[np.intp], int]:
-    """Return (m, 2) the directed edges of the region that triangles near the plane cover, with points at one place
-    merged, and the number of faces that look against the plane and were turned.
+    """Return (m, 2) directed edges of the region covered by triangles near the plane, and the number of turned faces.
+
+    Points at one place are merged. Faces that look against the plane are turned.
 
     faces: (k,) the face of each triangle; a face is turned as a whole.
     """

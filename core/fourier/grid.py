@@ -179,7 +179,7 @@ class GridTransform(Transform):
         )
 
     def steps(self) -> Iterator[float]:
-        """Do the work. Yields after each part of it the fraction done, from 0 to 1, roughly."""
+        """Do the work and yield the rough fraction done, from 0 to 1, after each part of it."""
         expected = len(self.faces.triangles) * len(_trial_vectors(self.grid)) / PAIRS_PER_BLOCK
         for tried, _ in enumerate(self._assign_triangles()):
             yield SHARING_TIME * tried / (tried + expected)
@@ -237,8 +237,9 @@ class GridTransform(Transform):
 
 
 def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
-    """Return the least width of the kernel for an error of tolerance Σ |c|, divided by |k| at each wave vector k or
-    not.
+    """Return the least width of the kernel for an error of tolerance Σ |c|.
+
+    divided: the error is divided by |k| at each wave vector k.
     """
     k = np.arange(1, half + 1) if divided else np.ones(half)
     for width in WIDTHS:
@@ -248,8 +249,9 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """Return (m,) the number of points along a side that keeps each D within tolerance, for |q| times the diameters;
-    MAX_POINTS_PER_SIDE + 1 if none does.
+    """Return (m,) the points along a side that keep each D within tolerance, for |q| times the diameters.
+
+    It is MAX_POINTS_PER_SIDE + 1 if no number does.
     """
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
@@ -267,8 +269,9 @@ def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
 
 
 def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
-    """Return indices of sample places on a grid: the ends and beginnings of its axes and diagonals, at which faces
-    across them show most, and random ones.
+    """Return indices of sample places on a grid: the ends and beginnings of its axes and diagonals, and random ones.
+
+    Faces across these axes and diagonals show most there.
     """
     h, n = grid.half, grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Fourier transform at some wave vectors. Like moments, spectra of bodies add, and copies are factors."""
+"""A Fourier transform at some wave vectors.
+
+Like moments, spectra of bodies add, and copies are factors.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,9 @@ EXACT, APPROXIMATE = "exact", "approximate"
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """∫ exp(-i q·x) at wave vectors q. Spectra of bodies add (`+`).
+    """∫ exp(-i q·x) at wave vectors q.
+
+    Spectra of bodies add (`+`).
 
     Parameters
     ----------

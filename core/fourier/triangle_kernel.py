@@ -79,9 +79,7 @@ class SortedTriangles:
         self._sort(triangles)
 
     def _sort(self, triangles: NDArray) -> None:
-        """Sort by diameter to a factor of two, then along a space-filling curve, so that a block's triangles share
-        edges.
-        """
+        """Sort by diameter to a factor of two, then along a space-filling curve: a block's triangles share edges."""
         keys, diameters, heights, self.area = [], [], [], 0.0
         for start in range(0, len(triangles), TRIANGLES_PER_BATCH):
             a, b, c = (self.points[corner].T for corner in triangles[start : start + TRIANGLES_PER_BATCH].T)
@@ -223,8 +221,9 @@ class PhaseMeans:
 
 
 def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
-    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g: v / 2 + (1 + v) g, with v = exp(-i s0) - 1, which is
-    small if s0 is. All are overwritten.
+    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g.
+
+    It is v / 2 + (1 + v) g with v = exp(-i s0) - 1, which is small if s0 is. All arguments are overwritten.
     """
     np.multiply(cosine, sine, out=cosine)
     np.multiply(cosine, -2.0, out=cosine)  # The imaginary part of v.
@@ -268,8 +267,10 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
 
 
 def _series_terms(radius: float) -> int:
-    """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n. With the largest |d| at 1 the
-    others add up to -1 and have a product p from 0 to 1/4: h_n = (1-p) h_(n-2) + p h_(n-3), which is a mean.
+    """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n.
+
+    With the largest |d| at 1 the others add up to -1 and have a product p from 0 to 1/4: h_n = (1-p) h_(n-2) + p
+    h_(n-3), which is a mean.
     """
     n = 4
     while radius**n / factorial(n + 2) > 2e-17:

@@ -98,7 +98,10 @@ class FrequencyGrid:
 
 
 def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
-    """Return (M, dimension) wave vectors from a user. MeasureError if they are none."""
+    """Return (M, dimension) wave vectors from a user.
+
+    MeasureError if they are none.
+    """
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
         raise MeasureError(WAVE_VECTORS_SHAPE, dimension=dimension, shape=list(q.shape), type=str(q.dtype))
@@ -111,7 +114,10 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
 
 
 class ListWaves:
-    """A list of wave vectors (M, 3), by size, so that a block can be treated alike. Rows are single ones."""
+    """A list of wave vectors (M, 3), by size, so that a block can be treated alike.
+
+    Rows are single ones.
+    """
 
     columns = 1
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The JSON document of a file, and its formats: JSON, JSON lines and CSV. A public contract, `body-moments/1`.
+"""The JSON document of a file, and its formats: JSON, JSON lines and CSV.
+
+A public contract, `body-moments/1`.
 
 A document is the result of one file: one record for each object, their total, and the objects that could not be
 measured. Nothing here needs numpy or Blender: a process that only gathers results of others writes the same.
@@ -45,9 +47,10 @@ def document(
     frame: str = "world",
     status: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of one file. The objects are sorted by name; `file` is None for a scene that was never saved.
-    errors, left_out: names and reasons of objects that could not be measured, or were excluded. status: one of
-    `STATUSES`, by default according to the errors.
+    """Return the document of one file, with the objects sorted by name.
+
+    `file` is None for a scene that was never saved. errors, left_out: names and reasons of objects that could not be
+    measured, or were excluded. status: one of `STATUSES`, by default according to the errors.
     """
     errors = list(errors)
     if frame != "world":
@@ -101,8 +104,10 @@ def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield one row an object under one header. Unmeasured objects have a row too, with the reason under `error`, and
-    so do excluded ones, with the reason under `left_out`. documents: gone through twice.
+    """Yield one row an object under one header; documents is gone through twice.
+
+    Unmeasured objects have a row too, with the reason under `error`, and so do excluded ones, with the reason under
+    `left_out`.
 
     Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
     so does text that has one there already: whoever reads a text removes one apostrophe from its start.
@@ -115,8 +120,9 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield CSV with these columns: a row for each mapping; missing entries stay empty. Text is escaped as in
-    `to_csv`.
+    """Yield CSV with these columns, a row for each mapping; missing entries stay empty.
+
+    Text is escaped as in `to_csv`.
     """
     yield _line(header)
     for row in rows:
@@ -207,7 +213,10 @@ def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _line(cells: Iterable[Any]) -> str:
-    """Return a row of a table. Before Python 3.13 the csv module quotes only line breaks that it ends a row with."""
+    """Return a row of a table.
+
+    Before Python 3.13 the csv module quotes only line breaks that it ends a row with.
+    """
     text = io.StringIO()
     csv.writer(text, lineterminator="\r\n").writerow(cells)
     return text.getvalue().removesuffix("\r\n") + "\n"

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The record of a flat shape, one of a document's `flat`. SI units; x and y are the axes of its plane."""
+"""The record of a flat shape, one of a document's `flat`, in SI units; x and y are the axes of its plane."""
 
 from __future__ import annotations
 
@@ -88,8 +88,9 @@ def flat_record(
 
 
 def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
-    """Return bounds of the area, of each coordinate of the centroid and of each second moment. bounds: of the central
-    moments.
+    """Return bounds of the area, of each coordinate of the centroid and of each second moment.
+
+    bounds: of the central moments.
     """
     first, second = (
         float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows])) for rows in (_FIRST, _SECOND)
@@ -104,7 +105,10 @@ def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict
 def _point(
     about: str | Sequence[float] | None, centroid: NDArray, axes: NDArray, location: NDArray, own: NDArray
 ) -> NDArray[np.float64]:
-    """Return (3,) in the world the point that moments are about, before it is projected. own: the object's origin."""
+    """Return (3,) in the world the point that moments are about, before it is projected.
+
+    own: the object's origin.
+    """
     if about == "center":
         return centroid
     if about in ("origin", "world"):

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Text for terminals and pages. Names come from files: an escape sequence in one would be obeyed, a line break would
-make a line that nobody has written, and characters that set the direction of writing would show another name.
+"""Text for terminals and pages, made safe.
+
+Names come from files: an escape sequence in one would be obeyed, a line break would make a line that nobody has
+written, and characters that set the direction of writing would show another name.
 """
 
 from __future__ import annotations

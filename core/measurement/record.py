@@ -99,8 +99,9 @@ def record(
 
 
 def described(findings: Iterable[Finding]) -> dict[str, list]:
-    """Return a record's entries about findings: `findings` as data with their messages, and the messages alone, as
-    `warnings` from that severity on and as `notes` below it.
+    """Return a record's entries about findings: `findings` as data with their messages, `warnings` and `notes`.
+
+    `warnings` has the messages alone from that severity on, `notes` those below it.
     """
     entry = {"findings": [], "warnings": [], "notes": []}
     add_findings(entry, findings)
@@ -129,8 +130,9 @@ def _finding_record(finding: Finding) -> dict[str, Any]:
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
-    """Return the entry of all objects as one body, in the world frame: masses add, and inertia by the parallel-axis
-    theorem. findings: about the total.
+    """Return the entry of all objects as one body, in the world frame.
+
+    Masses add, and inertia by the parallel-axis theorem. findings: about the total.
     """
     entry = {
         "mass": math.fsum(measurement.mass_properties.mass for measurement in measurements),
@@ -145,9 +147,7 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
 
 
 def plain(value: Any) -> Any:
-    """Return the value as JSON can hold it: Python's own types, and None for every number that is not
-    finite.
-    """
+    """Return the value as JSON can hold it: Python's own types, and None for every number that is not finite."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, np.ndarray):

@@ -71,8 +71,9 @@ class BezierCells:
         ).about_anchor()
 
     def about_anchor(self) -> BezierCells:
-        """Return the cells about their own first control points: the summed numbers, and their rounding, are as small
-        as the cell then.
+        """Return the cells about their own first control points.
+
+        The summed numbers, and their rounding, are as small as the cell then.
         """
         net, first = np.empty_like(self.net), self.net[:3, 0, :, 0]
         if len(net) == 4:
@@ -157,8 +158,10 @@ def cells_of_nets(
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
-    """Return the Bézier patches of g control nets (g, count_s, count_t, 3 or 4), about points near them, (g, 3), for
-    some spans of s and t, in the order of nets, spans of s, spans of t.
+    """Return the Bézier patches of g control nets (g, count_s, count_t, 3 or 4), for some spans of s and t.
+
+    anchor: (g, 3) points near the nets; the patches are about them. They are in the order of nets, spans of s, spans of
+    t.
     """
     s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
     t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
@@ -186,8 +189,9 @@ def _join(parts: Sequence[BezierCells]) -> BezierCells:
 def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return Bernstein's polynomials and their derivatives (most + 1, n, order) at the points of one Gauss rule or of
-    several side by side, and the weights (n, rules); not to be written to.
+    """Return Bernstein polynomials and derivatives (most + 1, n, order) at Gauss points, and weights (n, rules).
+
+    The points are those of one Gauss rule or of several side by side. The arrays are read-only.
     """
     parts = [gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule]
     nodes = np.concatenate([nodes for nodes, _ in parts])

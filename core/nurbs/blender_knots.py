@@ -78,8 +78,9 @@ def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
 
 
 def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float64]:
-    """Return (count * resolution,) the parameters at which Blender's display mesh samples a direction, in its own
-    float32 steps, which drift.
+    """Return (count * resolution,) the parameters of Blender's display mesh along a direction.
+
+    They are in its own float32 steps, which drift.
     """
     cyclic = space.function_count > space.count
     total = space.count * resolution

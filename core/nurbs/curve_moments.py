@@ -78,8 +78,9 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
 
 
 def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
-    """Return the area moments of the region in a plane that closed curves bound, counter-clockwise seen from the
-    normal's tip.
+    """Return the area moments of the region in a plane that closed curves bound.
+
+    The curves run counter-clockwise seen from the normal's tip.
 
     normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
     clockwise bounds a hole. Of polynomial curves the moments are exact and `rounding_error` is rounding.
@@ -123,9 +124,10 @@ def _integrate(
     tolerance: float,
     kinks: bool = False,
 ) -> tuple[NDArray, float, float]:
-    """Return the integral of density times monomials, the estimate of its truncation by unit of reach to the degree,
-    and the curves' length. largest: the bound of the density, for each unit of length. kinks: True if it has kinks at
-    turns back.
+    """Return the integral of density times monomials, the estimate of its truncation, and the curves' length.
+
+    The estimate is by unit of reach to the degree. largest: the bound of the density, for each unit of length. kinks:
+    True if it has kinks at turns back.
 
     A piece is done when two rules agree to the tolerance of its own length, or of its share of the curve's.
     """
@@ -158,8 +160,10 @@ def _integrate(
 
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the Bézier curves of a curve: control points (c, order, 3), or (c, order, 4) points times weights, and the
-    weights, about an anchor (c, 3), itself about the point.
+    """Return control points of the Bézier curves of a curve, (c, order, 3 or 4), and anchors (c, 3).
+
+    The points are about their anchors, the anchors about the point `about`. With four columns they are points times
+    weights, and the weights.
     """
     space, origin = curve.space, curve.points[0]
     net = curve.points - origin
@@ -185,8 +189,9 @@ def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
 
 
 def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
-    """Return (c,) upper bounds of the lengths of pieces that heavy weights draw to a point but for their ends, 0 for
-    others.
+    """Return (c,) upper bounds of the lengths of pieces drawn to a point but for their ends; 0 for others.
+
+    Heavy weights draw them there.
     """
     if net.shape[2] == 3:
         return np.zeros(len(net))

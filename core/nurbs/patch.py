@@ -23,7 +23,9 @@ from .curve import Curve, checked_points
 
 @dataclass(frozen=True, eq=False)
 class Patch:
-    """A tensor-product B-spline patch, polynomial or rational. Its normal is ∂S/∂s x ∂S/∂t.
+    """A tensor-product B-spline patch, polynomial or rational.
+
+    Its normal is ∂S/∂s x ∂S/∂t.
 
     Parameters
     ----------
@@ -86,9 +88,7 @@ class Patch:
         return self.apply_weights(*(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t))))
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
-        """Return the (m, n, 3) points given by two tables, (m, count_s) and (n, count_t), of weights of its control
-        points.
-        """
+        """Return (m, n, 3) points by two tables, (m, count_s) and (n, count_t), of the control points' weights."""
         points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]

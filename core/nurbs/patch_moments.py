@@ -56,7 +56,9 @@ Integrand = Callable[[BezierCells, Rule], NDArray]
 
 @dataclass(frozen=True, eq=False)
 class Integral:
-    """values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment. converged:
+    """Values of an integral over cells.
+
+    values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment. converged:
     True if the estimate is below the tolerance.
     """
 
@@ -98,8 +100,9 @@ def volume_moments(
 
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
-    """Return (rules, K + 1, c) the flux of monomials times the place, and a size: the area, or its bound ∫ |S_s|
-    |S_t|.
+    """Return (rules, K + 1, c) the flux of monomials times the place, and a size: the area, or ∫ |S_s| |S_t|.
+
+    The latter is a bound of the area.
     """
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
@@ -109,7 +112,9 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """Return the area moments of patches by quadrature; `rounding_error` is an estimate. Otherwise as `volume_moments`.
+    """Return the area moments of patches by quadrature; `rounding_error` is an estimate.
+
+    Otherwise as `volume_moments`.
 
     If a patch turns over between two neighboring points, or a cell's side and its first point, the area between them
     counts as error, so that such a cell is cut.
@@ -134,9 +139,10 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """Return (c,) the areas between neighboring points of cells between which the patch turns over: its area has a kink
-    there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both
-    directions.
+    """Return (c,) the areas between neighboring points of cells at which the patch turns over.
+
+    Its area has a kink there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with
+    the ends of both directions.
     """
     total = np.zeros(normal.shape[2])
     for (points,), other_weights in zip(rule, weights[::-1]):
@@ -151,8 +157,9 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
 
 
 def area_slope(patches: Sequence[Patch]) -> float:
-    """Return the largest change of the area, to first order, for each unit that every control point moves: the sum of
-    the lengths of its gradients by them. By a fixed rule: an estimate.
+    """Return the largest change of the area, to first order, for each unit that every control point moves.
+
+    It is the sum of the lengths of the area's gradients by the points. By a fixed rule: an estimate.
     """
     total = 0.0
     for patch in patches:
@@ -173,8 +180,9 @@ def area_slope(patches: Sequence[Patch]) -> float:
 
 @lru_cache(maxsize=64)
 def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
-    """Return values and slopes (m, k) of the control points (k,) that act in a few spans at a time, and the steps (m,);
-    not to be written to.
+    """Return values and slopes (m, k) of control points (k,) and the steps (m,), a few spans at a time.
+
+    The control points are those that act in these spans. The arrays are read-only.
     """
     nodes, weights = gauss_legendre(SLOPE_POINTS)
     tiles = []
@@ -197,9 +205,7 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> NDArray[np.float64]:
-    """Return (3, k, k') the area's gradient by control points, of homogeneous ones by the product of weight and
-    place.
-    """
+    """Return (3, k, k') the area's gradient by control points; if rational, by the product of weight and place."""
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
@@ -227,8 +233,9 @@ def _slope_of_tile(
 def sheet_moments(
     patches: Sequence[Patch], inner: float, outer: float, order: int = 3, about: NDArray | None = None
 ) -> tuple[Moments, bool]:
-    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, n the patches' unit normal: a sheet with real
-    thickness.
+    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, a sheet with real thickness.
+
+    n is the patches' unit normal.
 
     Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
     MeasureError if the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
@@ -269,8 +276,9 @@ def sheet_moments(
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """Return (3,) the integral of the unit normals: of a flat patch its area along its normal. Exact along directions
-    in which the weights are the same, by a fixed rule along others.
+    """Return (3,) the integral of the unit normals: of a flat patch its area along its normal.
+
+    Exact along directions in which the weights are the same, by a fixed rule along others.
     """
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
@@ -281,9 +289,7 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
 
 
 def exact_points(order: int, degree: int) -> int:
-    """Return the Gauss points in a span of a polynomial direction of this order that make moments of this degree
-    exact.
-    """
+    """Return the Gauss points per span of a polynomial direction that make moments of this degree exact."""
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
 
 
@@ -352,9 +358,10 @@ def integrate_adaptively(
 
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """Return (c,) the area that may lie between the points of all rules: for cells with weights that differ by more
-    than the factor `steep`, so that all but their margin is drawn to a point, the squared diagonal of their control
-    points' box.
+    """Return (c,) the area that may lie between the points of all rules.
+
+    For cells with weights that differ by more than the factor `steep`, so that all but their margin is drawn to a
+    point, it is the squared diagonal of their control points' box.
     """
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
@@ -370,8 +377,9 @@ def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]
 def _rules(
     orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
 ) -> tuple[Rule, ...]:
-    """Return two rules to compare, of so many points along each direction, or fewer if exact; joined into one if they
-    differ along one direction only, which takes no more points.
+    """Return two rules to compare, of so many points along each direction, or fewer if exact.
+
+    They are joined into one if they differ along one direction only, which takes no more points.
     """
     coarse, fine = (
         tuple(
@@ -398,8 +406,9 @@ def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) ->
 
 
 def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
-    """Return (K + more, ...) the density times the monomials of points (3, ...), in the order of `monomials`, and rows
-    of zeros to be filled.
+    """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros to be filled.
+
+    The former are in the order of `monomials`.
     """
     terms = np.empty((monomial_count(order) + more, *density.shape))
     terms[monomial_count(order) :] = 0.0
@@ -418,8 +427,9 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
 
 
 def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """Return (rules, K, c) the sums of (K, m, c, n) over the points of each cell, by weights (m, rules) and (n, rules),
-    of which one has one column.
+    """Return (rules, K, c) sums of (K, m, c, n) over each cell's points, by weights (m, rules) and (n, rules).
+
+    One of the weights has one column.
     """
     count, m, c, n = terms.shape
     s_weights, t_weights = weights
@@ -447,7 +457,8 @@ def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
 
 
 def _offset_jacobian(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
-    """Return the jacobian of the sheet at a height: |S_s x S_t| (1 - 2 H h + K h²), by the offset surface's
-    derivatives.
+    """Return the jacobian of the sheet at a height, |S_s x S_t| (1 - 2 H h + K h²).
+
+    It is computed by the offset surface's derivatives.
     """
     return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

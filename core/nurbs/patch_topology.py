@@ -43,7 +43,10 @@ SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """One side of a patch. forward: True if the patch's boundary runs the way of its curve."""
+    """One side of a patch.
+
+    forward: True if the patch's boundary runs the way of its curve.
+    """
 
     patch: int
     curve: Curve
@@ -52,10 +55,11 @@ class Side:
 
 @dataclass(frozen=True, eq=False)
 class BoundaryLoop:
-    """Open sides that run round a hole. caps: the patches that close it and face as theirs do. patch: one of theirs.
-    is_planar: True if it lies in a plane; out_of_plane: its distance from one. zero_area: True if it has no area, so
-    that it is closed already. area: of the cap, an estimate. self_intersecting: True if it is flat and crosses
-    itself.
+    """Open sides that run round a hole.
+
+    caps: the patches that close it and face as theirs do. patch: one of theirs. is_planar: True if it lies in a plane;
+    out_of_plane: its distance from one. zero_area: True if it has no area, so that it is closed already. area: of the
+    cap, an estimate. self_intersecting: True if it is flat and crosses itself.
     """
 
     caps: tuple[Patch, ...]
@@ -69,12 +73,14 @@ class BoundaryLoop:
 
 @dataclass(frozen=True, eq=False)
 class PatchTopology:
-    """component: (n,) of each patch; number: of them. flipped: (n,) mask of patches that face against most of their
+    """Components, orientations, joined sides and holes of patches.
+
+    component: (n,) of each patch; number: of them. flipped: (n,) mask of patches that face against most of their
     component, or the first if as many face each way. loops: the holes. open_sides, non_manifold_sides,
     misoriented_sides: the numbers of sides that lie open, coincide with more than one other, or run the same way as the
     side that they coincide with, before anything was turned. seam_gap: the largest distance, times the length, of sides
-    that coincide. seams: (k, 2) joined sides, four to a patch in the order of `SIDES`. unclosable: (number,)
-    components with sides that cannot be joined to loops, or with one side only.
+    that coincide. seams: (k, 2) joined sides, four to a patch in the order of `SIDES`. unclosable: (number,) components
+    with sides that cannot be joined to loops, or with one side only.
     """
 
     component: NDArray[np.intp]
@@ -90,7 +96,9 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
-    """Find the seams, orientation and holes of patches. tolerance: the distance within which points are the same.
+    """Find the seams, orientation and holes of patches.
+
+    tolerance: the distance within which points are the same.
 
     MeasureError if knots may tear one: a gap within a patch is not one of its sides.
     """
@@ -152,8 +160,9 @@ def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
 def _coincident_sides(
     sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Return pairs of sides that coincide, the nearest first: distance, the two indices, and True if their curves run
-    the same way.
+    """Return pairs of coinciding sides, the nearest first: distance, the two indices, and True for equal direction.
+
+    The direction is that of the sides' curves.
     """
     middle = points.shape[1] // 2
     side_points = points[wide]
@@ -181,8 +190,10 @@ def _pair_sides(
     owner: NDArray[np.intp],
     forward: NDArray[np.bool_],
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
-    """Return the joined pairs of coinciding sides, (k,) and (k,); masks of curves that run the same way; distances; and
-    the number of sides that coincide with more than one other.
+    """Return the joined pairs of coinciding sides, masks, distances, and the number of non-manifold sides.
+
+    The pairs are (k,) and (k,). The masks are of curves that run the same way. Non-manifold sides coincide with more
+    than one other.
 
     If more than two meet, as for touching bodies, sides of patches already joined by other sides come first, then a
     patch by itself to one that it fits as it faces, then any that fit as they face: so no patch is turned needlessly.
@@ -248,8 +259,9 @@ def _pair_sides(
 
 
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return pairs of rows i < j of (n, d) that differ by no more than a limit in any column: their projections on a
-    line that is parallel to nothing are neighbors.
+    """Return pairs of rows i < j of (n, d) that differ by no more than a limit in any column.
+
+    Their projections on a line that is parallel to nothing are neighbors.
     """
     keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
@@ -268,9 +280,7 @@ def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray
 def _distance_between(
     points: NDArray, left: NDArray, right: NDArray, tolerance: float
 ) -> Iterator[tuple[float, int, int, bool]]:
-    """Yield pairs of sides that agree parameter by parameter: distance, the two indices, True if they run the same
-    way.
-    """
+    """Yield pairs of sides that agree by parameter: distance, the two indices, True if they run the same way."""
     for start in range(0, len(left), PAIRS_PER_BLOCK):
         i, j = left[start : start + PAIRS_PER_BLOCK], right[start : start + PAIRS_PER_BLOCK]
         reversed_distance, forward_distance = (

@@ -114,7 +114,10 @@ def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
 
 
 def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
-    """Return whether chords of polygons (n, 2) cross by more than a tolerance. touch: count coinciding corners too."""
+    """Return whether chords of polygons (n, 2) cross by more than a tolerance.
+
+    touch: count coinciding corners too.
+    """
     a = np.concatenate(loops)
     b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
     step = max(1, MAX_CHORD_PAIRS // len(a))

@@ -95,8 +95,10 @@ class PatchIntegrals:
 
 @dataclass(frozen=True, eq=False)
 class _PatchVerdict:
-    """Decisions about parts. solid, flipped, counted: (c,) masks of parts with a volume, to turn, and in the sum. caps:
-    (c, 3) numbers of capped flat and curved holes of each, and the caps' area. comparison: for several parts.
+    """Decisions about parts.
+
+    solid, flipped, counted: (c,) masks of parts with a volume, to turn, and in the sum. caps: (c, 3) numbers of capped
+    flat and curved holes of each, and the caps' area. comparison: for several parts.
     """
 
     solid: NDArray[np.bool_]
@@ -257,7 +259,10 @@ def _judge_parts(
 
 
 def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
-    """Return the verdict's method. misoriented: the number of patches that face against the rest of their part."""
+    """Return the verdict's method.
+
+    misoriented: the number of patches that face against the rest of their part.
+    """
     if is_open:
         return Verdict.OPEN
     if verdict.caps[verdict.solid].any():
@@ -377,8 +382,9 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
 def _classify_parts(
     parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
-    """Compare parts with each other by samples of their patches: `each` to a span. Unless `each` is the coarsest, parts
-    nearer than the gap between samples and patches do not cross.
+    """Compare parts with each other by samples of their patches: `each` to a span.
+
+    Unless `each` is the coarsest, parts nearer than the gap between samples and patches do not cross.
     """
     points, triangles, component = [], [], []
     count, off = 0, 0.0
@@ -408,8 +414,9 @@ def _sagitta(grid: NDArray, each: int) -> float:
 
 
 def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
-    """Return whether patches are too small to matter, as `_is_slight` of meshes; the area is taken from the box around
-    the control points of each group, at most twice the square of its diagonal.
+    """Return whether patches are too small to matter, as `_is_slight` of meshes.
+
+    The area is taken from the box around the control points of each group, at most twice the square of its diagonal.
     """
     return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
 
@@ -417,8 +424,9 @@ def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -
 def _orientation_findings(
     closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
 ) -> list[Finding]:
-    """Return findings about patches, and whole parts, that were turned. mixed: patches that face against the rest of
-    their part.
+    """Return findings about patches, and whole parts, that were turned.
+
+    mixed: patches that face against the rest of their part.
     """
     findings = []
     if mixed:
@@ -434,7 +442,10 @@ def _orientation_findings(
 def _closing_findings(
     closure: PatchTopology, solid: NDArray[np.bool_], area: float, volume: float, size: float
 ) -> list[Finding]:
-    """Return findings about open, flat and capped parts. solid: (c,) the parts with a volume."""
+    """Return findings about open, flat and capped parts.
+
+    solid: (c,) the parts with a volume.
+    """
     findings = []
     if closure.unclosable.any():
         findings.append(finding(OPEN_PATCH_SIDES))

@@ -150,8 +150,9 @@ def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> N
 def _cut_edges(
     count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return the boundary of each bone's triangles: (k,) bones, and the start and end vertices of the edges, each as
-    often as it is left over.
+    """Return the boundary of each bone's triangles: (k,) bones, and the start and end vertices of the edges.
+
+    Each edge occurs as often as it is left over.
     """
     start = triangles.ravel().astype(np.int64)
     stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)

@@ -138,9 +138,7 @@ def _scores(
 
 
 def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:
-    """Return (k,) for each row the bone of its face that is nearest, of equally near ones the first. Rows are by
-    face.
-    """
+    """Return (k,) for each row, sorted by face, the nearest bone of its face, the first of equally near ones."""
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)
     near = away <= least * (1.0 + NEAR_RTOL)

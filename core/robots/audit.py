@@ -41,7 +41,10 @@ RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
 
 @dataclass(frozen=True, eq=False)
 class LinkAudit:
-    """Findings about one link. repaired: its corrected inertial, None if it stays."""
+    """Findings about one link.
+
+    repaired: its corrected inertial, None if it stays.
+    """
 
     link: StatedLink
     findings: tuple[Finding, ...]
@@ -59,8 +62,9 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain. upright: the
-    rotation that its file asks for, if another axis than z is up.
+    """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain.
+
+    upright: the rotation that its file asks for, if another axis than z is up.
     """
 
     points: NDArray[np.float64]
@@ -68,7 +72,7 @@ class _Piece:
     upright: NDArray[np.float64] | None = None
 
     def turned(self) -> _Piece:
-        """It with the axis up that its file says."""
+        """Return the piece with the axis up that its file says."""
         if self.upright is None:
             return self
         moments = None if self.moments is None else self.moments.transform(_matrix(Pose(np.zeros(3), self.upright)))
@@ -80,7 +84,10 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its difference from that geometry filled evenly."""
+    """Comparison of an inertial with some geometry.
+
+    apart: its difference from that geometry filled evenly.
+    """
 
     findings: list[Finding]
     impossible: bool
@@ -164,7 +171,10 @@ class Auditor:
 
 
 def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
-    """Judge an inertial by its geometry. incomplete: True if some geometry could not be read, and shows nothing."""
+    """Judge an inertial by its geometry.
+
+    incomplete: True if some geometry could not be read, and shows nothing.
+    """
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()

@@ -35,8 +35,9 @@ def robot_name(file: str | None) -> str:
 
 
 def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[Robot, list[Finding]]:
-    """Return records as a robot, and findings about omitted ones. records: with their numbers in the frame "object" and
-    an entry `link`; others are left out.
+    """Return records as a robot, and findings about omitted ones.
+
+    records: with their numbers in the frame "object" and an entry `link`; others are left out.
     """
     usable = {record["name"]: record for record in records if record.get("link") and record["mass"]}
     links = [_link(record) for record in usable.values()]

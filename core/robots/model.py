@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links, joints and their contents, as the writers of robot formats take them and the readers give them. SI units."""
+"""Links, joints and their contents in SI units, as the writers of robot formats take and the readers give them."""
 
 from __future__ import annotations
 
@@ -203,7 +203,7 @@ class FreeAxis:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """The joint between a link and its parent. Its frame is the child's.
+    """The joint between a link and its parent; its frame is the child's.
 
     Attributes
     ----------
@@ -359,8 +359,9 @@ class Robot:
         return parts
 
     def rigid_inertial(self, link: Link) -> Inertial | None:
-        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes; None if
-        none of it has mass.
+        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes.
+
+        None if none of it has mass.
         """
         to_link = link.pose.inverse()
         parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]

@@ -110,8 +110,9 @@ class Hull:
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return the reasons why no body, or none within the hull, has an inertial. hull: None if the link's geometry is
-    unknown. The list is empty if no test excludes it.
+    """Return the reasons why no body, or none within the hull, has an inertial; empty if no test excludes it.
+
+    hull: None if the link's geometry is unknown.
     """
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not np.isfinite(numbers).all():

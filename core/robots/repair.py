@@ -22,8 +22,9 @@ _USD_ATTRIBUTE = re.compile(
 
 
 def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]) -> bytes:
-    """Return a description's file with other inertials. repairs: links with an inertial in the file, and its
-    replacement.
+    """Return a description's file with other inertials.
+
+    repairs: links with an inertial in the file, and its replacement.
     """
     data = description.source
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Statements of a robot description about its links, not yet judged. SI units, as the format means them."""
+"""Statements of a robot description about its links in SI units, as the format means them, not yet judged."""
 
 from __future__ import annotations
 
@@ -149,7 +149,10 @@ class Description:
 
 
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
-    """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF. roll, pitch, yaw: radians."""
+    """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF.
+
+    roll, pitch, yaw: radians.
+    """
     (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
     return np.array(
         [

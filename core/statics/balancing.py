@@ -149,8 +149,9 @@ def balance(
 def _newton_solve(
     problem: _Problem, start: tuple[NDArray, NDArray, NDArray], step_directions: NDArray, movable: NDArray, limit: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached. start:
-    as of `_Problem.evaluate`.
+    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached.
+
+    start: as of `_Problem.evaluate`.
     """
     points, (center, residual, gradient) = problem.start, start
     multiplier = np.zeros(len(step_directions))
@@ -195,7 +196,10 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (r, r) the derivative of the center by the multiplier. A move that is cut can still turn, not grow."""
+    """Return (r, r) the derivative of the center by the multiplier.
+
+    A move that is cut can still turn, not grow.
+    """
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -230,8 +234,9 @@ class _Problem:
         return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """Return (3,) the center, (r,) its distances from the target, and (r, n, 3) its derivatives; None if the body
-        has turned inside out.
+        """Return (3,) the center, (r,) its distances from the target, and (r, n, 3) its derivatives.
+
+        None if the body has turned inside out.
         """
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
@@ -246,8 +251,9 @@ class _Problem:
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
-        """Raise MeasureError if a triangle turns by a right angle or more on its way: N(s)·N(0), a quadratic in s, must
-        stay positive to s = 1.
+        """Raise MeasureError if a triangle turns by a right angle or more on its way.
+
+        N(s)·N(0), a quadratic in s, must stay positive to s = 1.
         """
         moved = np.zeros(len(points), bool)
         moved[movable] = True
@@ -319,9 +325,7 @@ class _Fans:
 
 
 def _face_boundaries(triangles: NDArray, faces: NDArray) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Return (k, 2) the sides of triangles that no other triangle of the same face runs along the other way, and (k,)
-    the face of each.
-    """
+    """Return (k, 2) sides of triangles without an opposite side in the same face, and (k,) the face of each."""
     start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     owner = np.repeat(faces, 3).astype(np.int64)
     first = first_occurrence(np.minimum(start, stop), np.maximum(start, stop), owner)

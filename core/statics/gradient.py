@@ -79,12 +79,16 @@ class Gradient:
         return self.scale[:, None] * (32.0 + 8.0 * exponents.sum(axis=1) + self.valence) * U * sizes
 
     def center(self, total: float) -> NDArray[np.float64]:
-        """Return ∂ center[i] / ∂ vertex[k], (n, 3, 3). `about` must be the center, `total` the volume or area."""
+        """Return ∂ center[i] / ∂ vertex[k], (n, 3, 3).
+
+        `about` must be the center, `total` the volume or area.
+        """
         return self.by_vertex[:, 1:4] / total
 
     def inertia(self) -> NDArray[np.float64]:
-        """Return the derivative of the tensor about the center, (n, 3, 3, 3), of unit density. `about` must be the
-        center.
+        """Return the derivative of the tensor about the center, (n, 3, 3, 3), of unit density.
+
+        `about` must be the center.
         """
         second = self.by_vertex[:, SECOND_MOMENT_INDEX]
         trace = np.einsum("niik->nk", second)
@@ -176,7 +180,10 @@ def _gradient(surface: Surface, about: ArrayLike, order: int, shares: Callable) 
 
 
 def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray, kinds: int) -> Iterator[NDArray]:
-    """Yield for each corner the (K, 3, m) that its triangles add. local: (3, 3, m) corners from the reference point."""
+    """Yield for each corner the (K, 3, m) that its triangles add.
+
+    local: (3, 3, m) corners from the reference point.
+    """
     total = local[0] + local[1] + local[2]
     pairs = PAIRS if kinds > 4 else []
     square = {(i, j): np.einsum("km,km->m", local[:, i], local[:, j]) + total[i] * total[j] for i, j in pairs}

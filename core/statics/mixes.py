@@ -79,8 +79,9 @@ def sample_count(shapes: int) -> int:
 
 
 def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
-    """Find the polynomials of a surface and the offsets that are mixed into it. surface: closed and outward; its quads
-    are cut as they are without any offset. offsets: (k, n, 3) of its points.
+    """Find the polynomials of a surface and the offsets that are mixed into it.
+
+    surface: closed and outward; its quads are cut as they are without any offset. offsets: (k, n, 3) of its points.
     """
     triangles, _ = surface.all_triangles()
     points, offsets = surface.points.astype(np.float64), np.asarray(offsets, np.float64)

@@ -68,9 +68,10 @@ class RestingPoses:
 
 @dataclass(frozen=True, eq=False)
 class _Faces:
-    """Faces of a hull, several triangles each: (m,) the face of each triangle, (f, 3) outward unit normals, (f,)
-    heights of the center, (f,) margins, and (f,) the face beyond the edge that the foot is nearest to or farthest
-    outside of.
+    """Faces of a hull, several triangles each.
+
+    (m,) the face of each triangle, (f, 3) outward unit normals, (f,) heights of the center, (f,) margins, and (f,) the
+    face beyond the edge that the foot is nearest to or farthest outside of.
     """
 
     face: NDArray[np.intp]
@@ -146,7 +147,10 @@ def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
 
 
 def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """Find the faces of a hull. points: from the center."""
+    """Find the faces of a hull.
+
+    points: from the center.
+    """
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
     face, count = _coplanar(points, triangles, neighbors, double, least)

@@ -59,7 +59,10 @@ class Support:
 
     @property
     def stands(self) -> bool:
-        """True if the foot is inside the polygon. A body balanced on an edge, a line or a point does not stand."""
+        """True if the foot is inside the polygon.
+
+        A body balanced on an edge, a line or a point does not stand.
+        """
         return self.margin > 0.0
 
     @property

@@ -64,8 +64,9 @@ def blocks(triangles: NDArray) -> Iterator[NDArray]:
 def offset_directions(
     points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0
 ) -> OffsetDirections:
-    """Return the direction of every vertex. points: (n, 3) float64, triangles: (m, 3), stored: the bound of the points'
-    displacement by storing them.
+    """Return the direction of every vertex.
+
+    points: (n, 3) float64, triangles: (m, 3), stored: the bound of the points' displacement by storing them.
     """
     count = len(points)
     normals, angles, noise, solid = (
@@ -96,8 +97,10 @@ def offset_directions(
     thinnest = 1.0 / np.sqrt(np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (n, 3) directions across the planes that the eigenvalues above `least` span, (n,) the mean deviation
-        of n·d from 1, and (n,) the movement of d per movement of the normals (Wedin, to first order).
+        """Return (n, 3) directions, (n,) the mean deviation of n·d from 1, and (n,) the sensitivity of d.
+
+        The directions lie across the planes spanned by the eigenvectors with eigenvalues above `least`. The sensitivity
+        is the movement of d per movement of the normals (Wedin, to first order).
         """
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
@@ -129,8 +132,9 @@ def offset_directions(
 
 
 def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
-    """Return the vectors, made even by conjugate gradients in the directions that the projections `free`, (n, 3, 3),
-    leave. Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
+    """Return the vectors, made even by conjugate gradients along the projections `free`, (n, 3, 3).
+
+    Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
     thickness.
     """
     edges = find_edges(triangles)
@@ -188,8 +192,9 @@ def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.fl
 def _maximin_direction(
     vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
 ) -> None:
-    """Replace the vectors of the vertices `behind` by ones that are more in front of all their faces, if there are
-    such. low: (n,) the least n·d of each vertex now.
+    """Replace the vectors of the vertices `behind` by ones farther in front of all their faces, if there are such.
+
+    low: (n,) the least n·d of each vertex now.
     """
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
@@ -215,8 +220,9 @@ def _maximin_direction(
 
 
 def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return, from (m, 3, 3) corners, (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' turns by
-    rounding and storing, and (m,) a mask of existing normals.
+    """Return unit normals (m, 3), angles (m, 3), turn bounds (m, 2), and an (m,) mask of existing normals.
+
+    They are those of (m, 3, 3) corners. The bounds are of the normals' turns by rounding and storing.
     """
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])

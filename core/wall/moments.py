@@ -85,9 +85,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
 
 
 def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], order: int) -> Moments:
-    """Return the moments of the cones from the origin on bilinear patches, (4, k, 3) about it: Gauss's rule is
-    exact.
-    """
+    """Return moments of the cones from the origin on bilinear patches, (4, k, 3) about it: Gauss's rule is exact."""
     table = monomials(order)
     sums = np.zeros((2, len(table)))
     nodes, weights = gauss_legendre((order + 4) // 2)

@@ -141,8 +141,9 @@ class OffsetSolid:
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
     def self_intersects(self, inward: float, outward: float) -> bool:
-        """Return whether the two sides of the wall go through each other, a moved side through itself, or the walls of
-        parts into one another, as far as is found within bounds of time.
+        """Return whether the wall's sides go through each other or themselves, or the walls of parts into one another.
+
+        Only a moved side is compared with itself. Intersections are found within bounds of time.
         """
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
@@ -155,8 +156,9 @@ class OffsetSolid:
         ) or self._overlaps(points, tolerance)
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
-        """Return whether the walls of parts reach into one another or themselves, even if no edge pierces a face: skins
-        that have moved past each other, or that are flush. Each wall is a closed body: both its sides and the strip
+        """Return whether the walls of parts reach into one another or themselves, even if no edge pierces a face.
+
+        Skins may have moved past each other, or be flush. Each wall is a closed body: both its sides and the strip
         along its boundary.
         """
         part, number = connected_components(
@@ -381,10 +383,11 @@ class _Prisms:
         return sums
 
     def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
-        """Return (3, 7) coefficients in s, summed over the prisms. First row: the sizes of J, three; the other four are
-        zero. Second row: the change of J if directions move by slide[0], (m,), and by lift[0] along the normals, three;
-        and the sizes of J times the move of x, four. Third row: the same if directions move by slide[1] and lift[1],
-        and points by `stored`.
+        """Return (3, 7) coefficients in s, summed over the prisms.
+
+        First row: the sizes of J, three; the other four are zero. Second row: the change of J if directions move by
+        slide[0], (m,), and by lift[0] along the normals, three; and the sizes of J times the move of x, four. Third
+        row: the same if directions move by slide[1] and lift[1], and points by `stored`.
         """
         sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
@@ -401,8 +404,9 @@ class _Prisms:
         return np.add.reduce(np.array(coefficients), axis=2) / 2.0
 
     def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
-        """Return (4,) coefficients in s of the volume swept by the triangles and their images at s, if points move by
-        `stored` and directions by `tangential_error` in all and `normal_error` along the normals.
+        """Return (4,) coefficients in s of the volume swept by the triangles and their images at s.
+
+        Points move by `stored` and directions by `tangential_error` in all and `normal_error` along the normals.
         """
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
@@ -424,8 +428,9 @@ class _Prisms:
 def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
 ) -> NDArray[np.float64]:
-    """Return (4,) coefficients in s of the volume swept by the strips along the boundary if points move by `stored` and
-    directions by `slide`.
+    """Return (4,) coefficients in s of the volume swept by the strips along the boundary.
+
+    Points move by `stored` and directions by `slide`.
     """
     boundary = find_edges(triangles).boundary_sides()
     start, stop = triangles.ravel()[boundary], np.roll(triangles, -1, axis=1).ravel()[boundary]
@@ -438,8 +443,9 @@ def _swept_by_strips(
 def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`, with every point
-    within reach[0] of the middle and every direction within reach[1], by axis.
+    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`.
+
+    Every point is within reach[0] of the middle and every direction within reach[1], by axis.
     """
     place, step = reach[0] + stored, reach[1]
 

@@ -27,8 +27,9 @@ Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
 def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
-    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up. Raises ValueError,
-    KeyError or FileError if there are none.
+    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up.
+
+    Raises ValueError, KeyError or FileError if there are none.
     """
     root = parse(data)
     for node in root.walk():

@@ -34,8 +34,10 @@ SUFFIXES = (".urdf", ".sdf", ".xml", ".usda", ".usd", ".world")
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return the description of a robot in a file. roots: places of files that it includes, by default the allowed
-    places of its meshes. Raises FileError if it is none, or is refused.
+    """Return the description of a robot in a file.
+
+    roots: places of files that it includes, by default the allowed places of its meshes. Raises FileError if it is
+    none, or is refused.
     """
     data = _bytes(path)
     description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.of(path))
@@ -85,8 +87,9 @@ def _narrow(data: bytes) -> bytes:
 
 
 def _include(root: Node, roots: Roots) -> None:
-    """Put the elements of the files that an MJCF model includes in the place of each `include`. They have no place in
-    the model's own file, so their inertials are judged and not repaired.
+    """Put the elements of the files that an MJCF model includes in the place of each `include`.
+
+    They have no place in the model's own file, so their inertials are judged and not repaired.
     """
     included, left = set(), MAX_DESCRIPTION
     waiting = [root]

@@ -35,8 +35,9 @@ Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 
 
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
-    """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up, if it
-    says that another axis is up, which readers obey or not.
+    """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up.
+
+    The rotation is given if the file says that another axis is up, which readers obey or not.
 
     Raises FileError if it cannot be read.
     """
@@ -106,8 +107,9 @@ def read_obj(data: bytes) -> Arrays:
 
 
 def read_glb(data: bytes) -> Arrays:
-    """Return triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers take
-    them.
+    """Return triangles of a binary glTF as its scene places them, in its own axes (y up).
+
+    Robots' readers take them so.
     """
     if data[:4] != b"glTF":
         raise ValueError("glb")

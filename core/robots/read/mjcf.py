@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""MJCF: the statements of its bodies. Defaults by class, the compiler's angles and Euler order, and mesh folders
-count.
+"""MJCF: the statements of its bodies.
+
+Defaults by class, the compiler's angles and Euler order, and mesh folders count.
 """
 
 from __future__ import annotations

@@ -32,7 +32,10 @@ _SPECIFIERS = {"def", "over", "class"}
 
 @dataclass(eq=False)
 class Prim:
-    """One prim. values: attributes as text. start, end: of the inside of its braces, in characters."""
+    """One prim.
+
+    values: attributes as text. start, end: of the inside of its braces, in characters.
+    """
 
     kind: str
     name: str
@@ -43,13 +46,19 @@ class Prim:
     children: list[Prim] = field(default_factory=list)
 
     def numbers(self, name: str) -> NDArray[np.float64] | None:
-        """Return the numbers of an attribute, None if it has none. Raises ValueError with a text that is none."""
+        """Return the numbers of an attribute, None if it has none.
+
+        Raises ValueError with a text that is none.
+        """
         if self.values.get(name, "None") == "None":
             return None
         return np.array([parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64)
 
     def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
-        """Return the numbers of an attribute, as many as its default has. Raises ValueError if the count differs."""
+        """Return the numbers of an attribute, as many as its default has.
+
+        Raises ValueError if the count differs.
+        """
         values, count = self.numbers(name), len(default)
         if values is None:
             return np.array(default, np.float64)
@@ -81,7 +90,10 @@ class _Parser:
         return self.tokens[self.index][0] if self.index < len(self.tokens) else ""
 
     def take(self) -> tuple[str, int]:
-        """Return the next token and its position. Raises IndexError if the text ends."""
+        """Return the next token and its position.
+
+        Raises IndexError if the text ends.
+        """
         self.index += 1
         return self.tokens[self.index - 1]
 
@@ -147,7 +159,10 @@ class _Parser:
 
 
 def read(data: bytes) -> Description:
-    """Return a description of a layer's bodies. Raises FileError if it is no text of USD."""
+    """Return a description of a layer's bodies.
+
+    Raises FileError if it is no text of USD.
+    """
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -263,7 +278,10 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
 
 
 def _collect(prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]) -> None:
-    """Collect the geometry of a body: the prims below it, up to the next body. matrix: the prim's in the world."""
+    """Collect the geometry of a body: the prims below it, up to the next body.
+
+    matrix: the prim's in the world.
+    """
     shape = _shape(prim, to_link @ matrix, unit)
     if shape is not None:
         shapes.append(shape)

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""XML from strangers: elements with their places in the file. Document types, and with them entities, are refused."""
+"""XML from strangers: elements with their places in the file.
+
+Document types, and with them entities, are refused.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,10 @@ _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # attributes may hold t
 
 @dataclass(eq=False)
 class Node:
-    """One element. start, end: of its bytes in the file, or NOWHERE. line: in its file."""
+    """One element.
+
+    start, end: of its bytes in the file, or NOWHERE. line: in its file.
+    """
 
     tag: str
     attributes: dict[str, str]
@@ -104,7 +110,10 @@ def _end_of_tag(data: bytes, start: int) -> int:
 
 
 def parse(data: bytes) -> Node:
-    """Return the root of a document. Raises FileError if it is none, or is refused."""
+    """Return the root of a document.
+
+    Raises FileError if it is none, or is refused.
+    """
     builder = _Builder(data)
     try:
         builder.parser.Parse(data, True)
@@ -114,7 +123,10 @@ def parse(data: bytes) -> Node:
 
 
 def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:
-    """Return so many numbers of a text, the defaults if it is empty. Raise ValueError with a wrong text."""
+    """Return so many numbers of a text, the defaults if it is empty.
+
+    Raise ValueError with a wrong text.
+    """
     values = parse_numbers(text) or default
     if len(values) != count:
         raise ValueError(text)
@@ -122,7 +134,10 @@ def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.
 
 
 def number(text: str, default: float | None = None) -> float:
-    """Return the number of a text, the default if it is empty. Raise ValueError with a wrong text."""
+    """Return the number of a text, the default if it is empty.
+
+    Raise ValueError with a wrong text.
+    """
     return float(numbers(text, 1, () if default is None else (default,))[0])
 
 

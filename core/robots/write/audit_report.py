@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Report of an audit as JSON, as a table and as a page. A public contract, `body-moments-audit/1`."""
+"""Report of an audit as JSON, as a table and as a page.
+
+A public contract, `body-moments-audit/1`.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +46,10 @@ def link_entry(
 
 
 def document(file: str, description: Description, links: Sequence[dict[str, Any]], repaired: str | None) -> dict:
-    """Return the report document of one file. repaired: the written copy."""
+    """Return the report document of one file.
+
+    repaired: the written copy.
+    """
     levels = {one["severity"] for link in links for one in link["findings"]}
     status = "ok" if not levels & {Severity.ERROR, Severity.WARNING} else "findings"
     head = {"schema": SCHEMA, "file": file, "status": status, "format": description.format, "robot": description.name}

@@ -30,8 +30,10 @@ _GLB, _JSON = 0x46546C67, 0x4E4F534A
 
 
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
-    """Return the entry `motion` of both extensions, in the axes of the file. inertial: along the axes of Blender's
-    object. scale: meters per unit of the node's own space along Blender's axes, for the center.
+    """Return the entry `motion` of both extensions, in the axes of the file.
+
+    inertial: along the axes of Blender's object. scale: meters per unit of the node's own space along Blender's axes,
+    for the center.
     """
     values: dict[str, Any] = {
         "mass": inertial.mass,
@@ -84,7 +86,10 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
 
 
 def read_json(data: bytes) -> dict[str, Any]:
-    """Return the document of a .gltf or .glb file that Blender has written. Raises FileError if it is none."""
+    """Return the document of a .gltf or .glb file that Blender has written.
+
+    Raises FileError if it is none.
+    """
     try:
         if data[:4] != b"glTF":
             return json.loads(data)

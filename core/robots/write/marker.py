@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Beginnings of the files about robots that we write. Standard library only."""
+"""Beginnings of the files about robots that we write.
+
+Standard library only.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""MJCF, for MuJoCo. The inertia is written as principal pair, `diaginertia` and `quat`: its test that no principal
-moment exceeds the sum of the others has no tolerance, and its moments of a `fullinertia` are off by rounding, which
-refuses thin plates.
+"""MJCF, for MuJoCo, with the inertia as principal pair, `diaginertia` and `quat`.
+
+MuJoCo's test that no principal moment exceeds the sum of the others has no tolerance, and its moments of a
+`fullinertia` are off by rounding, which refuses thin plates.
 """
 
 from __future__ import annotations
@@ -94,8 +95,9 @@ def _add_place(element: Element, pose: Pose) -> None:
 
 
 def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
-    """Add the joints of a link. A root with mass moves freely; several degrees of freedom are several joints of one
-    body.
+    """Add the joints of a link.
+
+    A root with mass moves freely; several degrees of freedom are several joints of one body.
     """
     if joint is None:
         if any(part.inertial is not None for part in robot.rigid_parts(link)):

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""SDF 1.9. The inertial frame has the principal axes, as a quaternion, and the tensor is diagonal in it: so the test
-of Gazebo for possible inertias meets numbers that rounding has not set apart.
+"""SDF 1.9, with a diagonal tensor in an inertial frame along the principal axes, as a quaternion.
+
+So the test of Gazebo for possible inertias meets numbers that rounding has not set apart.
 """
 
 from __future__ import annotations

@@ -31,8 +31,9 @@ def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
 
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
-    """Return a robot with surfaces in its meshes, and a finding about the links that have none. surface_of: returns a
-    link's surface by its name, in meters along the link's axes; None if it shows no faces.
+    """Return a robot with surfaces in its meshes, and a finding about the links that have none.
+
+    surface_of: returns a link's surface by its name, in meters along the link's axes; None if it shows no faces.
     """
     links, bare = [], []
     for link in robot.links:
@@ -45,8 +46,9 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 
 
 def with_primitives(robot: Robot, kind: str) -> Robot:
-    """Return a robot with one primitive in the place of each link's geometry. kind: "box", "ellipsoid", "capsule", or
-    "none" for no geometry.
+    """Return a robot with one primitive in the place of each link's geometry.
+
+    kind: "box", "ellipsoid", "capsule", or "none" for no geometry.
     """
     links = [
         replace(

@@ -25,8 +25,9 @@ _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def to_stl(surface: Surface) -> bytes:
-    """Return a surface as binary STL, with zero normals, which readers find from the corners. surface: in meters, along
-    the link's axes.
+    """Return a surface as binary STL, with zero normals, which readers find from the corners.
+
+    surface: in meters, along the link's axes.
     """
     triangles = surface.all_triangles()[0]
     rows = np.zeros(len(triangles), _TRIANGLE)
@@ -66,8 +67,9 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
 
 
 def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
-    """Return the file of each link's mesh, relative to the robot's own file `stem` plus suffix; names differ by more
-    than upper case.
+    """Return the file of each link's mesh, relative to the robot's own file `stem` plus suffix.
+
+    Names differ by more than upper case.
     """
     files = unique_names(names, _file_name)
     return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""URDF. The inertial frame has the link's axes (rpy 0) and the tensor is written along these, because readers exist
-that ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly; ixy and so on are entries of the
-tensor, -∫xy dm.
+"""URDF, with the inertial frame and the tensor along the link's axes (rpy 0).
+
+Readers exist that ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly. ixy and so on are
+entries of the tensor, -∫xy dm.
 """
 
 from __future__ import annotations
@@ -37,8 +38,9 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as URDF. remarks: comments at the beginning. inertial_only: only the links with their inertials,
-    which is no complete file.
+    """Return a robot as URDF.
+
+    remarks: comments at the beginning. inertial_only: only the links with their inertials, which is no complete file.
     """
     names = unique_names([link.name for link in robot.links], xml_text)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_text)
@@ -109,9 +111,7 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
 
 
 def _pieces(shape: Shape) -> list[Shape]:
-    """Return the URDF shapes of a shape: a capsule is a cylinder and two spheres, an ellipsoid the box of its
-    inertia.
-    """
+    """Return a shape as URDF shapes: a capsule is a cylinder and two spheres, an ellipsoid its inertia's box."""
     if shape.kind != "capsule":
         return [box_of_ellipsoid(shape)]
     radius, length = shape.size

@@ -133,8 +133,9 @@ def header(
 
 
 def identifier(name: str) -> str:
-    """Return the name of a prim, as Blender's exporter makes it of an object's name: an underscore for each other
-    character than letters and digits, and before a digit.
+    """Return the name of a prim, as Blender's exporter makes it of an object's name.
+
+    An underscore stands for each other character than letters and digits, and before a digit.
     """
     name = _NO_IDENTIFIER.sub("_", name)
     return name if name.isidentifier() else "_" + name
@@ -146,8 +147,9 @@ def quoted(text: str) -> str:
 
 
 def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)) -> list[str]:
-    """Return the lines that give a prim its mass, in the units of its stage. meters_per_unit: of the stage. scale: (3,)
-    scale of the prim; the center is in its local space.
+    """Return the lines that give a prim its mass, in the units of its stage.
+
+    meters_per_unit: of the stage. scale: (3,) scale of the prim; the center is in its local space.
     """
     center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
     inertia = inertial.inertia / meters_per_unit**2
@@ -163,6 +165,7 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
 
 def round_down(moments: NDArray) -> NDArray[np.float32]:
     """Return (3,) ascending principal moments in single precision, the largest one not above the sum of the others.
+
     moments: (3,) ascending, in float64.
     """
     rounded = np.asarray(moments, np.float64).astype(np.float32)
@@ -228,8 +231,9 @@ def _shape(shape: Shape, name: str) -> list[str]:
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """Return a mesh that collides as its convex hull. USD knows no files of other formats, so it stands in the
-    layer.
+    """Return a mesh that collides as its convex hull.
+
+    USD knows no files of other formats, so it stands in the layer.
     """
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
@@ -247,7 +251,7 @@ def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
-    """Return a joint in the child's frame. One of several degrees of freedom is a general one with limits."""
+    """Return a joint in the child's frame; several degrees of freedom make a general joint with limits."""
     child, parent = robot.link(joint.child), robot.link(joint.parent)
     place = parent.pose.inverse() @ child.pose
     turn = np.eye(3)
