@@ -40,8 +40,9 @@ from .request import with_object_settings
 
 @dataclass(frozen=True)
 class ObjectTransform:
-    """An object's transform, in SI units: `steps` does the work, `result` gives the outcome. factor: the thickness of
-    a shell, else 1. findings: as in `Measurement`.
+    """An object's transform, in SI units: `steps` does the work, `result` gives the outcome.
+
+    factor: the thickness of a shell, else 1. findings: as in `Measurement`.
     """
 
     name: str

@@ -291,9 +291,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 
 
 def _distinct_images(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:
-    """Yield the patches under each different linear map, facing as before, and the (k, 4, 4) translations to their
-    places.
-    """
+    """Yield the patches under each different linear map, facing as before, and (k, 4, 4) translations to the places."""
     for linear, members in distinct_linear_parts(matrices):
         turn = np.eye(4)
         turn[:3, :3] = linear

@@ -111,9 +111,7 @@ def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
 def with_object_settings(
     options: MeasureOptions, obj: bpy.types.Object, unit: float, scene: bpy.types.Scene
 ) -> ResolvedOptions:
-    """Return the options with every gap filled from the object's settings, and the density of one that has none from
-    the scene's.
-    """
+    """Return the options with every gap filled from the object's settings, or a missing density from the scene's."""
     settings = obj.body_moments
     density, mass = options.density, options.mass
     # volumes have no setting for it

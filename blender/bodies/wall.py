@@ -108,8 +108,9 @@ class Walls:
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
-        """Return the body with walls of a thickness, m. check_overlap: find walls that meet, which takes time.
-        ReadError if a wall folds over.
+        """Return the body with walls of a thickness, m.
+
+        check_overlap: find walls that meet, which takes time. Raises ReadError if a wall folds over.
         """
         if not thickness > 0.0:
             raise ReadError(NO_THICKNESS)
@@ -169,9 +170,7 @@ class Walls:
         return findings
 
     def _unevenness(self) -> float:
-        """Return the difference between the moments to second order of a very thin wall and of its surface, by its
-        size.
-        """
+        """Return the difference, by size, of the moments to second order between a very thin wall and its surface."""
         surface = self.thin.area
         center, degree = surface.center, monomials(2).sum(axis=1)
         wall = sum_moments([piece.per_thickness() for piece in self.pieces]).about_point(center).truncate(2).raw

@@ -115,9 +115,7 @@ class Reading:
 
 
 def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
-    """Return a finding about a surface of the object `whole`: with the name of the surface's own object, if
-    different.
-    """
+    """Return a finding about a surface of the object `whole`, naming the surface's own object if it is different."""
     return result if source in ("", whole) else result.of_sources([source])
 
 

@@ -102,8 +102,9 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
 
 
 def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
-    """Return how a bone may turn in its parent, about its own axes: the one that Blender's XYZ angles turn about last
-    comes first.
+    """Return how a bone may turn in its parent, about its own axes.
+
+    The axis about which Blender's XYZ angles turn last comes first.
 
     Parameters
     ----------

@@ -14,8 +14,10 @@ from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_BOOLEAN_OPERANDS, TOT
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
-    """Return the scene's objects that are no parts of the displayed body, each with the reason: operands of Boolean
-    modifiers that are drawn as mere wire or bounds, and objects that no view layer renders.
+    """Return the scene's objects that are no parts of the displayed body, each with the reason.
+
+    They are operands of Boolean modifiers that are drawn as mere wire or bounds, and objects that no view layer
+    renders.
     """
     # One that is switched off renders nothing; the open one is all there is where all are.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]

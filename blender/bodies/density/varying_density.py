@@ -253,8 +253,9 @@ class _FaceDensities:
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding], bool]:
-    """Return ∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume:
-    its volume moments, to the wanted order. values, names: of its mesh faces.
+    """Return ∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area.
+
+    volume: the surface's volume moments, to the wanted order. values, names: of its mesh faces.
     """
     components = solid.parts()
     moments, findings = [], []
@@ -277,9 +278,7 @@ def _solid_moments(
 
 
 def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
-    """Yield the (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's
-    places.
-    """
+    """Yield (k, 4, 4) maps in groups of equal area stretch: all similarities, then the places of each uneven map."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield matrices[even]
@@ -291,8 +290,9 @@ def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
 def _mixed_parts_notes(
     parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
 ) -> list[Finding]:
-    """Return a finding about components whose faces have several materials, with the first face of each. negligible: a
-    negligible density times area, anywhere in the body.
+    """Return a finding about components whose faces have several materials, with the first face of each.
+
+    negligible: a negligible density times area, anywhere in the body.
     """
     which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):

@@ -241,8 +241,9 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 def _curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
 ) -> tuple[tuple[Curve, ...], float] | None:
-    """Return the outlines as curves, along the plane's axes, and the largest effect of float32 on their control points;
-    None if Blender does not give them, or they touch.
+    """Return the outlines as curves along the plane's axes, and the largest float32 error of their control points.
+
+    Return None if Blender gives no outlines, or if they touch.
     """
     if reading.loops is None:
         return None

@@ -102,8 +102,9 @@ class FlatShape:
         )
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield a wall along the outline, across the plane, as high as the shape is large: in the plane it is as far
-        away as the outline.
+        """Yield a wall along the outline, across the plane, as high as the shape is large.
+
+        In the plane, the wall is as far away as the outline.
         """
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size

@@ -64,8 +64,9 @@ DRAWN_CODES = (SURFACE_DRAWN_AS_POLYGONS, CURVES_DRAWN_AS_POLYGONS)
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows; None if it has patches of one density, which are better. Raises
-    MeasureError if it shows none.
+    """Return the polygons that an object shows, or None if it has patches of one density, which are better.
+
+    Raises MeasureError if the object shows no polygons.
     """
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
@@ -78,8 +79,9 @@ def read(request: Request) -> Reading | None:
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the body that polygons bound, weighed and with walls as set. Raises MeasureError if there is nothing to
-    measure.
+    """Return the body that polygons bound, weighed and with walls as set.
+
+    Raises MeasureError if there is nothing to measure.
     """
     options = request.options
     shell = options.kind == "shell"

@@ -145,7 +145,8 @@ class Shape:
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
         """Return Zernike descriptors to `order`, by quadrature above 20 and if raw moments lose too many digits.
-        Needs a surface.
+
+        The shape needs a surface.
         """
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
@@ -256,8 +257,10 @@ class Registered(Protocol):
 
 
 class SurfaceDistance:
-    """A shape's surface, to hold points against, once it is grown. Lengths in meters, world axes; Blender's tree of
-    triangles keeps them as float32, so about the center and by its size.
+    """A shape's surface, to measure distances of points from after `build`.
+
+    Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its points are about the
+    center and in units of the size.
     """
 
     def __init__(self, shape: Registered):
@@ -278,9 +281,7 @@ class SurfaceDistance:
         self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
 
     def build(self) -> Iterator[float]:
-        """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
-        done.
-        """
+        """Build the tree, in steps of some tenths of a second for a million triangles; yield the share done."""
         points = _as_tuples(self._corners)
         yield 0.2
         triangles = _as_tuples(self._triangles)
@@ -324,8 +325,9 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a shape onto another one, about their centers, and the residual between their
-    surfaces. source_skin, target_skin: theirs. scale: applied to the source first.
+    """Return the motion that lays a shape onto another one, about their centers, and the residual of the surfaces.
+
+    source_skin, target_skin: the surfaces of the shapes. scale: applied to the source first.
     """
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:

@@ -182,9 +182,7 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
-    """Return (n, 3) the handles of the equal Bézier curve: a third of the slope, half of the way from neighbor to
-    neighbor.
-    """
+    """Return (n, 3) handles of the equal Bézier curve: a third of the slope, half the way from neighbor to neighbor."""
     around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
     return (around[2:] - around[:-2]) / 6.0
 

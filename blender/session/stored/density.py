@@ -52,8 +52,7 @@ def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Findin
 
 
 def follow_density(obj: Object, scene: Scene) -> None:
-    """Update stored results by the object's settings if these change them by a factor alone; else they stay, out of
-    date.
+    """Update stored results if the object's settings change them by a factor alone; else leave them out of date.
 
     Parameters
     ----------

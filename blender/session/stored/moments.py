@@ -219,8 +219,9 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
 
 
 def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant]:
-    """Return Hu's seven invariants and, from fourth order on, Flusser's. MeasureError if the object is not flat, or the
-    order is below 3.
+    """Return Hu's seven invariants and, from fourth order on, Flusser's.
+
+    Raises MeasureError if the object is not flat, or the order is below 3.
     """
     if of != "FLAT":
         raise ReadError(INVARIANTS_OF_FLAT)

@@ -133,8 +133,9 @@ def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
-    """Return the stable resting poses of an object, lengths in Blender's units, normals in the object's frame
-    (location and rotation).
+    """Return the stable resting poses of an object.
+
+    Lengths are in Blender's units, normals in the object's frame (location and rotation).
 
     Parameters
     ----------

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thickness of a measured wall as a slider: the last measured walls are kept in memory as polynomials in the
-thickness, and a change of the setting stores their values at once.
+"""The thickness of a measured wall as a slider.
+
+The last measured walls are kept in memory as polynomials in the thickness, and a change of the setting stores their
+values at once.
 
 This needs the geometry and transform of the stored numbers. Otherwise the numbers stay, and are reported as out of
 date.
