@@ -35,7 +35,7 @@ MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """All parts of an object together, in SI units and world axes. The base class knows moments to third order only.
+    """All parts of an object together, in SI units and world axes; the base class knows moments to third order only.
 
     Attributes
     ----------

@@ -52,7 +52,7 @@ class ObjectTransform:
     arrays: ClassVar[None] = None  # a `FlatTransform` has those of its plane
 
     def steps(self) -> Generator[float, None, None]:
-        """Do the work. Yields the fraction done. Raises MeasureError."""
+        """Do the work and yield the fraction done, or raise MeasureError."""
         try:
             yield from self.transform.steps()
         except MeasureError as error:

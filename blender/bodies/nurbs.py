@@ -121,12 +121,12 @@ def _stored(part: Part) -> float:
 
 
 def read(request: Request) -> Reading:
-    """Return the surfaces, at least one of them a patch, of an object of one density. Raises MeasureError."""
+    """Return the surfaces, at least one of them a patch, of an object of one density, or raise MeasureError."""
     return request.surfaces
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the body that patches bound, or their sheets or walls. Raises MeasureError if there is none."""
+    """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there is none."""
     options = request.options
     return nurbs_body(
         reading,

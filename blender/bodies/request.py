@@ -57,7 +57,7 @@ class Request:
         unit: float | None = None,
         opened: ExitStack | None = None,
     ) -> Request:
-        """Return the request for an object. unit: meters per Blender unit, by default the scene's."""
+        """Return the request for an object; `unit` is in meters per Blender unit, by default the scene's."""
         unit = unit or given.meters_per_unit(depsgraph.scene)
         return cls(
             with_object_settings(given, obj, unit, _scene(depsgraph)),
@@ -92,7 +92,7 @@ class Request:
 
     @cached_property
     def surfaces(self) -> Reading:
-        """The object's surfaces, polygons and patches, with the attributes for its density. Raises MeasureError."""
+        """The object's surfaces, polygons and patches, with the attributes for its density; may raise MeasureError."""
         density = self.density
         reading = read_object(
             self.obj,

@@ -54,7 +54,7 @@ SAME_SCALE_RTOL = 1e-6  # float32 matrices spread one scale by as much
 
 @dataclass(frozen=True)
 class WallPiece:
-    """One surface. offset: its polynomials. scale: m for each of its units. matrices: (k, 4, 4) maps to its places."""
+    """One surface: its offset polynomials, scale in m for each of its units, and (k, 4, 4) maps to its places."""
 
     offset: OffsetSolid
     scale: float
@@ -84,7 +84,7 @@ class WallPiece:
         return self.offset.self_intersects(*split_thickness(side, thickness / self.scale))
 
     def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return (k, 3) the middles and (k, 3) half the sides of boxes around the wall in its places, in m."""
+        """Return (k, 3) middles and (k, 3) half sides of boxes around the wall in its places, in m."""
         low, high = self.offset.box(*split_thickness(side, thickness / self.scale))
         linear = self.matrices[:, :3, :3]
         return linear @ ((low + high) / 2.0) + self.matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
@@ -200,7 +200,7 @@ class WallBody(Body):
 
 
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
-    """Return the walls of an object that was measured as a thin shell. MeasureError if a surface has no sides."""
+    """Return the walls of an object measured as a thin shell, or raise MeasureError if a surface has no sides."""
     if body.mass is not None:
         raise ReadError(WALL_NEEDS_ONE_DENSITY)
     pieces, findings = [], []

@@ -60,7 +60,7 @@ def transform_key(obj: bpy.types.Object) -> str:
 
 
 def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
-    """Return the `transform_key` of objects with bodies that move along. matrices: (n, 4, 4) their `matrix_world`."""
+    """Return the `transform_key` of objects with bodies that move along, from their (n, 4, 4) `matrix_world`."""
     columns = matrices[:, :3, :3].astype(np.float64)
     lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
     with np.errstate(invalid="ignore"):  # axes of no length, or an endless one, are no numbers, and so no right angles

@@ -68,7 +68,7 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
 
 
 def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | None:
-    """Return (n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
+    """Return (n, 3) vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
     if len(mesh.loops) != len(corners):
         return None
     if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
@@ -121,14 +121,14 @@ def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
 
 
 def face_slots(mesh) -> NDArray[np.int32]:
-    """Return (f,) the material slot that each face names; the mesh may have fewer."""
+    """Return the (f,) material slot that each face names; the mesh may have fewer."""
     if mesh.attributes.get("material_index") is None:  # then all of them name the first one
         return np.zeros(len(mesh.polygons), np.int32)
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
 
 
 def vertex_values(mesh, name: str) -> NDArray[np.float64]:
-    """Return (n,) the values of a float attribute on vertices. ReadError if there is none."""
+    """Return (n,) values of a float attribute on vertices, or raise ReadError if there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
         raise ReadError(ATTRIBUTE_MISSING, attribute=name)

@@ -120,7 +120,7 @@ def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
 
 
 def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """Return (k, 4, 4) world matrices in SI units. unit: meters per Blender unit."""
+    """Return (k, 4, 4) world matrices in SI units; `unit` is in meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled

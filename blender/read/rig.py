@@ -140,7 +140,7 @@ def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgra
 
 
 def require_armature(obj: Object | None) -> Object:
-    """Return the armature object. ReadError for anything else."""
+    """Return the armature object, or raise ReadError for anything else."""
     if obj is None or obj.type != "ARMATURE":
         raise ReadError(NO_ACTIVE_ARMATURE)
     if obj.mode == "EDIT":

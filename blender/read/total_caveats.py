@@ -92,7 +92,7 @@ def _operands(obj: Object) -> Iterator[Object]:
 
 
 def _rendered(layer: LayerCollection) -> Iterator[Object]:
-    """Yield the objects of the collections that are rendered. An excluded collection may hold others that are not."""
+    """Yield the objects of the collections that are rendered; an excluded collection may hold others that are not."""
     if not layer.collection.hide_render:
         if not layer.exclude:
             yield from layer.collection.objects

@@ -187,7 +187,7 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
 
 
 class _FaceDensities:
-    """The densities of all faces of a reading. values: for each part (f,) of its mesh faces."""
+    """The densities of all faces of a reading; `values` has (f,) densities of the mesh faces for each part."""
 
     def __init__(self, reading: Reading, default_density: float):
         self.default_density = default_density
@@ -232,7 +232,7 @@ class _FaceDensities:
             yield finding(OBJECT_DENSITY_USED, **values)
 
     def source(self, by_area: bool) -> Finding:
-        """Return the source of the densities. by_area: components of several materials took their mean by area."""
+        """Return the source of the densities; if `by_area`, components of several materials took their mean by area."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
         parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
@@ -326,7 +326,7 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
 def _sheet_moments(
     reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
-    """Yield ∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
+    """Yield ∫ρ dA of a part's images; `values` are of its mesh faces, or of its vertices and linear between them."""
     part = reading.parts[i]
 
     def measured(surface: Surface) -> Moments:

@@ -132,7 +132,7 @@ class FlatRegion:
         return moments
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """Return (3,) the foot of a point of the world on the plane, in the plane's axes."""
+        """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
         return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
 
 

@@ -122,7 +122,7 @@ def read(request: Request) -> VolumeReading | None:
 
 
 def body(reading: VolumeReading, request: Request) -> Body:
-    """Return the body of one grid. Raises MeasureError if there is none."""
+    """Return the body of one grid, or raise MeasureError if there is none."""
     obj, density, options = request.obj, request.given.density, request.options
     order = KNOWN_ORDER if options.order is None else options.order
     made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads, order)

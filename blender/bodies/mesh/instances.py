@@ -113,7 +113,7 @@ def instances_size(reading: Reading) -> float:
 
 
 def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k, 3) the middles and (k, 3) half the sides of the boxes around the places of parts."""
+    """Return (k, 3) middles and (k, 3) half sides of the boxes around the places of parts."""
     centers, extents = [], []
     for part in reading.parts:
         low, high = part.surface.box

@@ -162,7 +162,7 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
 
 
 def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, drawn: set[str]) -> list[Finding]:
-    """Return the findings about one surface. A sheet is not repaired."""
+    """Return the findings about one surface; a sheet is not repaired."""
     if shell:
         copies = solid.health.defective_elements.duplicate_faces
         return [_copies_of_shell(part.surface, copies)] if len(copies) else []

@@ -212,7 +212,7 @@ def _curve(
     points: NDArray[np.float64],
     weights: NDArray | None,
 ) -> Curve | None:
-    """Return a spline as a curve; None if it is too short. points: (n, 3), of a Bézier curve three for each point."""
+    """Return a spline as a curve, None if too short; `points` are (n, 3), three for each point of a Bézier curve."""
     if kind == "NURBS":
         space = blender_space(len(points), order, cyclic, bezier, endpoint)
         return None if space is None else Curve(space, points, weights)

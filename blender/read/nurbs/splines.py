@@ -99,7 +99,7 @@ def nonpositive_weights(splines) -> int:
 
 
 def weighted_points(spline) -> NDArray[np.float32]:
-    """Return (n, 4) the control points and weights of a spline that is not a Bézier one."""
+    """Return (n, 4) control points and weights of a spline that is not a Bézier one."""
     row = np.empty(4 * len(spline.points), np.float32)
     spline.points.foreach_get("co", row)
     return row.reshape(-1, 4)

@@ -45,7 +45,7 @@ def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
 
 
 def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
-    """Return findings with the note on an unset density, if none of them is about that. unset: the setting."""
+    """Return findings with the note on an unset density, if none of them is about that; `unset` is the setting."""
     if OF_DEFAULT_DENSITY.intersection([found.code for found in findings]):
         return findings
     return (*findings, DEFAULTS[unset])

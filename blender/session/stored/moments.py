@@ -67,7 +67,7 @@ class FlatMoments:
     plane: Plane
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """Return (3,) the foot of a point of the world on the plane, in the plane's axes."""
+        """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
         return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
 
 
@@ -172,7 +172,7 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
 
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
-    """Return the scene's chosen reference. MeasureError if there is none."""
+    """Return the scene's chosen reference, or raise MeasureError if there is none."""
     return ReferenceChoice.of(scene.body_moments_reference).resolve(obj, scene, computed.center)
 
 

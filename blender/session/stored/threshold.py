@@ -55,7 +55,7 @@ _pending: list[tuple[Object, Scene]] = []  # whose exact numbers are due
 
 
 def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the grid that an object was measured with. unit: meters per Blender unit."""
+    """Remember the grid that an object was measured with; `unit` is in meters per Blender unit."""
     mark, reading, body = marks.Mark(*measured.measurement.fingerprint.split(":")), measured.reading, measured.body
     assert isinstance(reading, VolumeReading) and isinstance(body, ThresholdGridBody)
     _cache[obj] = _CachedGrid(reading, body.grid, {mark.geometry}, mark.transform, unit)
@@ -108,7 +108,7 @@ def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, 
 
 
 def _finish() -> None:
-    """Store the exact numbers. A timer's function: it returns None, so that it is not called again."""
+    """Store the exact numbers as a timer's function: it returns None, so that it is not called again."""
     while _pending:
         obj, scene = _pending.pop()
         try:

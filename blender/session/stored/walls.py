@@ -46,7 +46,7 @@ _cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
 
 
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the walls that an object was measured with. unit: meters per Blender unit."""
+    """Remember the walls that an object was measured with; `unit` is in meters per Blender unit."""
     mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
     reading, body = measured.reading, measured.body
     assert isinstance(reading, Reading) and isinstance(body, WallBody) and body.walls is not None
