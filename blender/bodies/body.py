@@ -35,7 +35,7 @@ MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """All parts of an object together, in SI units and world axes. The base class knows moments to third order only.
+    """All parts of an object together, in SI units and world axes; the base class knows moments to third order only.
 
     Attributes
     ----------
@@ -105,8 +105,10 @@ class Body:
         return self.volume
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments of the volume, or the area, that axes are found by; of one surface in one place, mapped
-        evenly, in its own coordinates: wherever it stands, its axes are the same.
+        """Return the moments of the volume, or the area, that axes are found by.
+
+        The moments of one surface in one place, mapped evenly, are in its own coordinates: its axes do not depend on
+        the place.
         """
         volume, areas = self.moments(order, area)
         return volume if areas is None else areas
@@ -201,9 +203,7 @@ class MeshBody(Body):
 
 
 def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with the known lower orders about the same point in place of their own, so that axes get the
-    same bounds.
-    """
+    """Return moments with lower orders replaced by `known`, about the same point, so that axes get the same bounds."""
     if not np.array_equal(moments.about, known.about):
         return moments
     names = "raw", "rounding_error", "input_error"
@@ -215,9 +215,7 @@ def with_known(moments: Moments, known: Moments) -> Moments:
 
 
 def with_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments with the smaller of two input bounds: their own, or that of the known lower orders about the
-    same point.
-    """
+    """Return moments with the smaller input bound: their own, or that of `known`, lower orders about the same point."""
     if not np.array_equal(moments.about, known.about):
         return moments
     error = moments.input_error.copy()

@@ -40,8 +40,9 @@ from .request import with_object_settings
 
 @dataclass(frozen=True)
 class ObjectTransform:
-    """An object's transform, in SI units: `steps` does the work, `result` gives the outcome. factor: the thickness of
-    a shell, else 1. findings: as in `Measurement`.
+    """An object's transform, in SI units: `steps` does the work, `result` gives the outcome.
+
+    factor: the thickness of a shell, else 1. findings: as in `Measurement`.
     """
 
     name: str
@@ -51,7 +52,7 @@ class ObjectTransform:
     arrays: ClassVar[None] = None  # a `FlatTransform` has those of its plane
 
     def steps(self) -> Generator[float, None, None]:
-        """Do the work. Yields the fraction done. Raises MeasureError."""
+        """Do the work and yield the fraction done, or raise MeasureError."""
         try:
             yield from self.transform.steps()
         except MeasureError as error:

@@ -97,8 +97,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
 
 
 def extent(body: Body, options: ResolvedOptions) -> Moments:
-    """Return the moments that the density multiplies: the volume, of a shell that of its sheet or wall, of a wire its
-    length.
+    """Return the moments that the density multiplies: of the volume, a shell's sheet or wall, or a wire's length.
 
     Raises
     ------

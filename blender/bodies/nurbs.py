@@ -121,12 +121,12 @@ def _stored(part: Part) -> float:
 
 
 def read(request: Request) -> Reading:
-    """Return the surfaces, at least one of them a patch, of an object of one density. Raises MeasureError."""
+    """Return the surfaces, at least one of them a patch, of an object of one density, or raise MeasureError."""
     return request.surfaces
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the body that patches bound, or their sheets or walls. Raises MeasureError if there is none."""
+    """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there is none."""
     options = request.options
     return nurbs_body(
         reading,
@@ -291,9 +291,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 
 
 def _distinct_images(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:
-    """Yield the patches under each different linear map, facing as before, and the (k, 4, 4) translations to their
-    places.
-    """
+    """Yield the patches under each different linear map, facing as before, and (k, 4, 4) translations to the places."""
     for linear, members in distinct_linear_parts(matrices):
         turn = np.eye(4)
         turn[:3, :3] = linear

@@ -57,7 +57,7 @@ class Request:
         unit: float | None = None,
         opened: ExitStack | None = None,
     ) -> Request:
-        """Return the request for an object. unit: meters per Blender unit, by default the scene's."""
+        """Return the request for an object; `unit` is in meters per Blender unit, by default the scene's."""
         unit = unit or given.meters_per_unit(depsgraph.scene)
         return cls(
             with_object_settings(given, obj, unit, _scene(depsgraph)),
@@ -92,7 +92,7 @@ class Request:
 
     @cached_property
     def surfaces(self) -> Reading:
-        """The object's surfaces, polygons and patches, with the attributes for its density. Raises MeasureError."""
+        """The object's surfaces, polygons and patches, with the attributes for its density; may raise MeasureError."""
         density = self.density
         reading = read_object(
             self.obj,
@@ -111,9 +111,7 @@ def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
 def with_object_settings(
     options: MeasureOptions, obj: bpy.types.Object, unit: float, scene: bpy.types.Scene
 ) -> ResolvedOptions:
-    """Return the options with every gap filled from the object's settings, and the density of one that has none from
-    the scene's.
-    """
+    """Return the options with every gap filled from the object's settings, or a missing density from the scene's."""
     settings = obj.body_moments
     density, mass = options.density, options.mass
     # volumes have no setting for it

@@ -250,9 +250,7 @@ class _Measuring:
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
-        """Yield (bone, volume or area moments in SI and world, area, surface, map, verdict) of each piece of one
-        surface.
-        """
+        """Yield (bone, volume or area moments in SI and world, area, surface, map, verdict) per piece of a surface."""
         surface = part.surface
         if not len(surface.triangles) and not len(surface.quads):
             return

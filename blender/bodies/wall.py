@@ -54,7 +54,7 @@ SAME_SCALE_RTOL = 1e-6  # float32 matrices spread one scale by as much
 
 @dataclass(frozen=True)
 class WallPiece:
-    """One surface. offset: its polynomials. scale: m for each of its units. matrices: (k, 4, 4) maps to its places."""
+    """One surface: its offset polynomials, scale in m for each of its units, and (k, 4, 4) maps to its places."""
 
     offset: OffsetSolid
     scale: float
@@ -84,7 +84,7 @@ class WallPiece:
         return self.offset.self_intersects(*split_thickness(side, thickness / self.scale))
 
     def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return (k, 3) the middles and (k, 3) half the sides of boxes around the wall in its places, in m."""
+        """Return (k, 3) middles and (k, 3) half sides of boxes around the wall in its places, in m."""
         low, high = self.offset.box(*split_thickness(side, thickness / self.scale))
         linear = self.matrices[:, :3, :3]
         return linear @ ((low + high) / 2.0) + self.matrices[:, :3, 3], np.abs(linear) @ ((high - low) / 2.0)
@@ -108,8 +108,9 @@ class Walls:
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
-        """Return the body with walls of a thickness, m. check_overlap: find walls that meet, which takes time.
-        ReadError if a wall folds over.
+        """Return the body with walls of a thickness, m.
+
+        check_overlap: find walls that meet, which takes time. Raises ReadError if a wall folds over.
         """
         if not thickness > 0.0:
             raise ReadError(NO_THICKNESS)
@@ -169,9 +170,7 @@ class Walls:
         return findings
 
     def _unevenness(self) -> float:
-        """Return the difference between the moments to second order of a very thin wall and of its surface, by its
-        size.
-        """
+        """Return the difference, by size, of the moments to second order between a very thin wall and its surface."""
         surface = self.thin.area
         center, degree = surface.center, monomials(2).sum(axis=1)
         wall = sum_moments([piece.per_thickness() for piece in self.pieces]).about_point(center).truncate(2).raw
@@ -201,7 +200,7 @@ class WallBody(Body):
 
 
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
-    """Return the walls of an object that was measured as a thin shell. MeasureError if a surface has no sides."""
+    """Return the walls of an object measured as a thin shell, or raise MeasureError if a surface has no sides."""
     if body.mass is not None:
         raise ReadError(WALL_NEEDS_ONE_DENSITY)
     pieces, findings = [], []

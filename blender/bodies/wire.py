@@ -47,12 +47,12 @@ class WireBody(Body):
 
 
 def read(request: Request) -> Reading:
-    """Return the curves of an object that is measured as a wire. Raises MeasureError if it has none."""
+    """Return the curves of an object that is measured as a wire, or raise MeasureError if it has none."""
     return read_lines(request.obj, request.depsgraph)
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the curves as a wire. Raises MeasureError if they have no length."""
+    """Return the curves as a wire, or raise MeasureError if they have no length."""
     curves, stored = curves_in_world(reading.curves, reading.matrix, request.unit)
     length = length_moments(curves)
     if not length.total > 0.0:

@@ -153,7 +153,7 @@ class _Walk:
         return members
 
     def object(self, obj: Object, place: str, depth: int) -> list[Member]:
-        """Return the object as a member, none if it is no body. place: the name of its assembly."""
+        """Return the object as a member, none if it is no body; `place` is the name of its assembly."""
         if not measurable(obj) or instanced_by_parent(obj):
             return []
         kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT

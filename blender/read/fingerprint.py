@@ -42,9 +42,10 @@ def matrix_hash(obj: bpy.types.Object) -> str:
 
 
 def transform_key(obj: bpy.types.Object) -> str:
-    """Return a key of the transform as far as the object's numbers depend on it: scale and mirroring, but neither
-    location nor rotation. It is a digest of the whole transform if the object is sheared, or its body does not move
-    along with it.
+    """Return a key of the transform as far as the numbers of the object depend on it.
+
+    The key contains scale and mirroring, but neither location nor rotation. It is a digest of the whole transform if
+    the object is sheared, or its body does not move along with it.
 
     Returns
     -------
@@ -59,7 +60,7 @@ def transform_key(obj: bpy.types.Object) -> str:
 
 
 def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
-    """Return the `transform_key` of objects with bodies that move along. matrices: (n, 4, 4) their `matrix_world`."""
+    """Return the `transform_key` of objects with bodies that move along, from their (n, 4, 4) `matrix_world`."""
     columns = matrices[:, :3, :3].astype(np.float64)
     lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
     with np.errstate(invalid="ignore"):  # axes of no length, or an endless one, are no numbers, and so no right angles
@@ -89,8 +90,9 @@ def has_transform(obj: bpy.types.Object, key: str) -> bool:
 
 
 def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
-    """Return the sign of the determinant, and the lengths of the axes; None if the object is sheared or flat, or a
-    length is not finite.
+    """Return the sign of the determinant and the lengths of the axes.
+
+    Return None if the object is sheared or flat, or a length is not finite.
     """
     axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))  # in Python: a panel asks for many objects'
     lengths = [math.hypot(*axis) for axis in axes]
@@ -163,8 +165,9 @@ def effective_hash(
     wall: str = "THIN",
     varying: str = "",
 ) -> str:
-    """Return a digest of the used settings; settings without use for the kind do not count. varying: `density_key`, in
-    place of the density.
+    """Return a digest of the used settings; settings without use for the kind do not count.
+
+    varying: `density_key`, in place of the density.
     """
     density = None if varying else density
     # settings hold such decimals
@@ -184,8 +187,10 @@ def effective_hash(
 
 
 def shape_digest(obj, depsgraph) -> bytes | None:
-    """Return a digest of a mesh object's faces, independent of its transform, or None for other types, outside Object
-    Mode, for large meshes, for objects that show instances, and for meshes edited by way of another object.
+    """Return a digest of a mesh object's faces, independent of its transform.
+
+    Return None for other types, outside Object Mode, for large meshes, for objects that show instances, and for meshes
+    edited by way of another object.
     """
     if (
         obj.type != "MESH"

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Everything that an object shows, flattened to surfaces times matrices: its own mesh and all
-instances under it.
+"""Everything that an object shows, flattened to surfaces times matrices: its own mesh and all instances under it.
 
 The instances of geometry nodes are two arrays, a transform and a reference for each
 (`GeometrySet.instances_pointcloud`), and a reference is an object, a collection or again a geometry
@@ -325,8 +324,9 @@ def _needs_instance_list(obj) -> bool:
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
-    """Yield the objects of a collection and its children, each once, except for objects disabled in viewports, or with
-    `hide_render` in renders.
+    """Yield the enabled objects of a collection and its children, each once.
+
+    switch: the property that disables objects: in viewports, or in renders if it is `hide_render`.
     """
     visited = set()
     pending = [collection]

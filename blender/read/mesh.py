@@ -34,8 +34,9 @@ Read = TypeVar("Read")
 
 
 def plain_mesh(obj, depsgraph):
-    """Return the evaluated mesh of an object that shows its own mesh and nothing else, so that reading needs no
-    decision: `read_object` would give one part in one place and no findings. None if it has to look for itself.
+    """Return the evaluated mesh of an object that shows only its own mesh, so that reading needs no decision.
+
+    `read_object` would give one part in one place and no findings. Return None if `read_object` has to look for itself.
     """
     data, parent = obj.data, obj.parent
     if (
@@ -54,8 +55,7 @@ def plain_mesh(obj, depsgraph):
 
 
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
-    """Return the polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own
-    coordinates.
+    """Return the polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own coordinates.
 
     edges: with the edge at each corner, which takes a fifth of the time.
     """
@@ -68,7 +68,7 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
 
 
 def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | None:
-    """Return (n, 3) the vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
+    """Return (n, 3) vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
     if len(mesh.loops) != len(corners):
         return None
     if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
@@ -107,8 +107,7 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
-    """Return the result of `read` for a mesh in Edit Mode by its current BMesh, with edits that the mesh itself does
-    not have yet.
+    """Return the result of `read` for a mesh in Edit Mode, with edits that so far only its current BMesh has.
 
     A BMesh gives its elements one by one only, 5 s for a million faces; the copy into a mesh that
     lives for this call costs a fortieth of that and leaves the edit mesh as it is.
@@ -122,14 +121,14 @@ def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
 
 
 def face_slots(mesh) -> NDArray[np.int32]:
-    """Return (f,) the material slot that each face names; the mesh may have fewer."""
+    """Return the (f,) material slot that each face names; the mesh may have fewer."""
     if mesh.attributes.get("material_index") is None:  # then all of them name the first one
         return np.zeros(len(mesh.polygons), np.int32)
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
 
 
 def vertex_values(mesh, name: str) -> NDArray[np.float64]:
-    """Return (n,) the values of a float attribute on vertices. ReadError if there is none."""
+    """Return (n,) values of a float attribute on vertices, or raise ReadError if there is none."""
     attribute = mesh.attributes.get(name)
     if attribute is None:
         raise ReadError(ATTRIBUTE_MISSING, attribute=name)
@@ -152,7 +151,7 @@ def _array(data, member: str, shape: tuple[int, ...], dtype) -> NDArray:
 
 
 def _in_pairs(owners: NDArray[np.int32]) -> bool:
-    """Return whether these are 0, 0, 1, 1, 2, 2, …"""
+    """Return whether the owners are 0, 0, 1, 1, 2, 2 and so on."""
     # Two at once: the even places alone would accept a triangle followed by a pentagon.
     pairs, step = owners.view(np.int64), (1 << 32) + 1
     count = np.arange(min(FACES_PER_BLOCK, len(pairs))) * step

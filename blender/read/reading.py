@@ -115,14 +115,12 @@ class Reading:
 
 
 def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
-    """Return a finding about a surface of the object `whole`: with the name of the surface's own object, if
-    different.
-    """
+    """Return a finding about a surface of the object `whole`, naming the surface's own object if it is different."""
     return result if source in ("", whole) else result.of_sources([source])
 
 
 def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
-    """Return (k, 4, 4) world matrices in SI units. unit: meters per Blender unit."""
+    """Return (k, 4, 4) world matrices in SI units; `unit` is in meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit
     return scaled

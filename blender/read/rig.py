@@ -118,8 +118,9 @@ def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[O
 
 
 def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgraph) -> VertexWeights:
-    """Return the weights of the deforming bones on the vertices of an object's own surface; none for another object's
-    surface, or if its vertices are not the evaluated mesh's.
+    """Return the weights of the deforming bones on the vertices of an object's own surface.
+
+    There are none for another object's surface, or if its vertices are not the evaluated mesh's.
 
     Vertices give their groups one by one only, in 0.3 s for 100,000.
     """
@@ -139,7 +140,7 @@ def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgra
 
 
 def require_armature(obj: Object | None) -> Object:
-    """Return the armature object. ReadError for anything else."""
+    """Return the armature object, or raise ReadError for anything else."""
     if obj is None or obj.type != "ARMATURE":
         raise ReadError(NO_ACTIVE_ARMATURE)
     if obj.mode == "EDIT":

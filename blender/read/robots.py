@@ -56,7 +56,7 @@ def link_entry(
 def object_entry(
     obj: bpy.types.Object, measurement: Measurement, labels: Mapping[bpy.types.Object, str]
 ) -> dict[str, Any]:
-    """Return the entry `link` of an object's record. labels: of all that may be links."""
+    """Return the entry `link` of an object's record; `labels` are of all that may be links."""
     parents, above = [], obj.parent
     while above is not None:
         parents += [labels[above]] if above in labels else []
@@ -102,8 +102,9 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
 
 
 def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
-    """Return how a bone may turn in its parent, about its own axes: the one that Blender's XYZ angles turn about last
-    comes first.
+    """Return how a bone may turn in its parent, about its own axes.
+
+    The axis about which Blender's XYZ angles turn last comes first.
 
     Parameters
     ----------
@@ -137,7 +138,7 @@ def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
 
 
 def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[str]:
-    """Return the labels of a bone's parents, the nearest first. labels: by name, for bones that are links."""
+    """Return the labels of a bone's parents, the nearest first; `labels` are by name, for bones that are links."""
     return [labels[above.name] for above in bone.parent_recursive if above.name in labels]
 
 

@@ -105,8 +105,9 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
-    """Return the outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`. It has no
-    modifiers, and follows no curve.
+    """Return the outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`.
+
+    The object has no modifiers, and follows no curve.
 
     Raises ReadError if there are none.
     """
@@ -226,9 +227,7 @@ def _require_flat_outlines(obj) -> None:
 
 
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
-    """Return (n, 3) the points of the object's splines, the indices of each closed one's, and the number of open
-    ones.
-    """
+    """Return (n, 3) spline points, the indices of each closed spline's points, and the number of open splines."""
     data = obj.data.copy()
     data.dimensions, data.fill_mode = "2D", "NONE"
     if resolution is not None:

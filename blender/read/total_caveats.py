@@ -14,8 +14,10 @@ from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_BOOLEAN_OPERANDS, TOT
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
-    """Return the scene's objects that are no parts of the displayed body, each with the reason: operands of Boolean
-    modifiers that are drawn as mere wire or bounds, and objects that no view layer renders.
+    """Return the scene's objects that are no parts of the displayed body, each with the reason.
+
+    They are operands of Boolean modifiers that are drawn as mere wire or bounds, and objects that no view layer
+    renders.
     """
     # One that is switched off renders nothing; the open one is all there is where all are.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
@@ -90,7 +92,7 @@ def _operands(obj: Object) -> Iterator[Object]:
 
 
 def _rendered(layer: LayerCollection) -> Iterator[Object]:
-    """Yield the objects of the collections that are rendered. An excluded collection may hold others that are not."""
+    """Yield the objects of the collections that are rendered; an excluded collection may hold others that are not."""
     if not layer.collection.hide_render:
         if not layer.exclude:
             yield from layer.collection.objects

@@ -46,9 +46,7 @@ SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 
 
 def measurable(obj) -> bool:
-    """Return whether the object is of a kind that may show a surface: cheap enough for a poll, so it promises
-    nothing more.
-    """
+    """Return whether the object's kind may show a surface: cheap enough for a poll, so it promises nothing more."""
     if shows_collection(obj):
         return True
     if obj.type == "EMPTY":

@@ -62,9 +62,7 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the collection of that name, if given; else the selected objects, or all objects in
-    renders.
-    """
+    """Return the objects of the named collection, if any; else the selected objects, or all objects in renders."""
     if collection:
         return list(bpy.data.collections[collection].all_objects)
     if selected:
@@ -75,8 +73,9 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
 def object_links(
     context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
-    """Return a robot with a link for each object that can be measured. MeasureError if there is none. step: is called
-    with the number of finished objects.
+    """Return a robot with a link for each object that can be measured.
+
+    step: called with the number of finished objects. Raises MeasureError if no object can be measured.
     """
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
@@ -103,8 +102,9 @@ def object_links(
 def collection_links(
     context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
 ) -> SceneLinks:
-    """Return a robot with a link for each collection in one, or for the collection itself if it has none. Links are
-    assemblies, along the world's axes, with all that they hold. objects: of the displayed meshes.
+    """Return a robot with a link for each child collection of `root`, or for `root` itself if it has none.
+
+    Links are assemblies, along the world's axes, with all that they hold. objects: of the displayed meshes.
     """
     depsgraph = context.evaluated_depsgraph_get()
     records, failures, members = [], [], {}
@@ -127,8 +127,9 @@ def collection_links(
 
 
 def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
-    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with the bones' limits.
-    MeasureError if there is no character.
+    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with bone limits.
+
+    Raises MeasureError if there is no character.
     """
     records, findings, pieces = [], [], {}
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]

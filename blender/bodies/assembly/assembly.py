@@ -149,7 +149,7 @@ def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions =
 def measure_members(
     root: Member, depsgraph: Depsgraph, results: Results, options: MeasureOptions = AS_SET
 ) -> Generator[int, None, None]:
-    """Measure each object of an assembly once, into `results`; yield the number done. Refusals do not stop it."""
+    """Measure each object of an assembly once, into `results`, in spite of refusals; yield the number done."""
     objects = {member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)}
     for together in measure_many(list(objects), depsgraph, options):
         for obj, outcome in together:
@@ -158,14 +158,14 @@ def measure_members(
 
 
 def assemble(root: Member, results: Results, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
-    """Return the assembly of measured members. MeasureError if it has no mass."""
+    """Return the assembly of measured members, or raise MeasureError if it has no mass."""
     unit = options.meters_per_unit(depsgraph.scene)
     whole = member_body(root, results, unit)
     return Assembly(whole, assembly_measurement(whole, depsgraph, unit))
 
 
 def member_body(member: Member, results: Results, unit: float) -> MemberBody:
-    """Return the moments of a member. unit: meters per Blender unit."""
+    """Return the moments of a member; `unit` is in meters per Blender unit."""
     parts = tuple(member_body(part, results, unit) for part in member.members)
     if member.kind in (MemberKind.OBJECT, MemberKind.POINT):
         own = MemberBody(member) if member.left_out is not None else _object_body(member, results[member.data])
@@ -177,7 +177,7 @@ def member_body(member: Member, results: Results, unit: float) -> MemberBody:
 
 
 def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -> Measurement:
-    """Return the results of an assembly as one body. MeasureError if it has no mass."""
+    """Return the results of an assembly as one body, or raise MeasureError if it has no mass."""
     data, mass = whole.member.data, whole.mass
     if mass is None:
         raise ReadError(ASSEMBLY_WITHOUT_MEMBERS, subject=data.name)
@@ -209,7 +209,7 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
 
 
 def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
-    """Return a key of the results of all measured members. fingerprints: of the objects' results."""
+    """Return a key of the results of all measured members, from the fingerprints of the objects' results."""
     keys = []
     for member in root.walk():
         if member.kind == MemberKind.POINT:  # an empty with children carries those results, not its own

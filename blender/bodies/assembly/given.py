@@ -90,7 +90,7 @@ def given_moments(
 
 
 def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
-    """Return the central second moments of a tensor. ReadError if they are impossible."""
+    """Return the central second moments of a tensor, or raise ReadError if they are impossible."""
     second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
     values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
@@ -99,7 +99,7 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
 
 
 def with_given(body: Body, reading: Reading, request: Request) -> Body:
-    """Return the body with the center and the inertia that its settings give. ReadError if they are impossible."""
+    """Return the body with the center and inertia that its settings give, or raise ReadError if they are impossible."""
     if request.options.mass is None or request.obj.body_moments.mass_from != "MASS":
         return body
     given = GivenPart.of(request.obj.body_moments, request.unit)
@@ -134,14 +134,14 @@ def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
 
 
 def read_point(request: Request) -> Reading | None:
-    """Return the frame of a point mass; None for any other object. Raises MeasureError."""
+    """Return the frame of a point mass, or None for any other object; may raise MeasureError."""
     if not is_point_mass(request.obj):
         return None
     return locate(request.obj.original, request.depsgraph)
 
 
 def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
-    """Return the results of a part without geometry, and its body. ReadError if it has no mass."""
+    """Return the results of a part without geometry, and its body, or raise ReadError if it has no mass."""
     settings, options = request.obj.body_moments, request.options
     given = GivenPart.of(settings, request.unit)
     location = np.asarray(reading.location, np.float64) * request.unit
@@ -193,7 +193,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
 
 
 def properties_of(mass: Moments, preferred_axes: NDArray) -> MassProperties:
-    """Return mass properties of moments in kg. A point has no unique axes."""
+    """Return mass properties of moments in kg, without unique axes for a point."""
     if not mass.total > 0.0:  # a bone of flat faces alone: refused there
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
     central = mass.truncate(2).about_center()

@@ -36,8 +36,9 @@ MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A surface in its places: maps to the world and to the density's coordinates, (k, 4, 4) each, in meters. about:
-    the point that an open one is closed to.
+    """A surface in its places: (k, 4, 4) maps to the world and to the density's coordinates, in meters.
+
+    about: the point that an open surface is closed to.
     """
 
     surface: Surface

@@ -187,7 +187,7 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
 
 
 class _FaceDensities:
-    """The densities of all faces of a reading. values: for each part (f,) of its mesh faces."""
+    """The densities of all faces of a reading; `values` has (f,) densities of the mesh faces for each part."""
 
     def __init__(self, reading: Reading, default_density: float):
         self.default_density = default_density
@@ -232,7 +232,7 @@ class _FaceDensities:
             yield finding(OBJECT_DENSITY_USED, **values)
 
     def source(self, by_area: bool) -> Finding:
-        """Return the source of the densities. by_area: components of several materials took their mean by area."""
+        """Return the source of the densities; if `by_area`, components of several materials took their mean by area."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
         parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
@@ -253,8 +253,9 @@ class _FaceDensities:
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding], bool]:
-    """Return ∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area. volume:
-    its volume moments, to the wanted order. values, names: of its mesh faces.
+    """Return ∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area.
+
+    volume: the surface's volume moments, to the wanted order. values, names: of its mesh faces.
     """
     components = solid.parts()
     moments, findings = [], []
@@ -277,9 +278,7 @@ def _solid_moments(
 
 
 def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
-    """Yield the (k, 4, 4) maps in groups that stretch areas alike: similarities together, then each uneven map's
-    places.
-    """
+    """Yield (k, 4, 4) maps in groups of equal area stretch: all similarities, then the places of each uneven map."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield matrices[even]
@@ -291,8 +290,9 @@ def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
 def _mixed_parts_notes(
     parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
 ) -> list[Finding]:
-    """Return a finding about components whose faces have several materials, with the first face of each. negligible: a
-    negligible density times area, anywhere in the body.
+    """Return a finding about components whose faces have several materials, with the first face of each.
+
+    negligible: a negligible density times area, anywhere in the body.
     """
     which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):
@@ -326,7 +326,7 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
 def _sheet_moments(
     reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
-    """Yield ∫ρ dA of a part's images. values: of its mesh faces, or of its vertices and linear between them."""
+    """Yield ∫ρ dA of a part's images; `values` are of its mesh faces, or of its vertices and linear between them."""
     part = reading.parts[i]
 
     def measured(surface: Surface) -> Moments:

@@ -67,7 +67,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
-    """Return the body with the mass that the grid gives its inside, to an order. unit: meters per Blender unit.
+    """Return the body with the mass that the grid gives its inside, to an order; `unit` is in meters per Blender unit.
 
     name: of the object, which MeasureErrors are about that are not about the grid alone.
     """
@@ -121,7 +121,7 @@ def voxel_filled_body(
 
 
 def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3, 3) the triangles of the measured surface, in the grid's coordinates, outward."""
+    """Return (n, 3, 3) triangles of the measured surface, in the grid's coordinates, outward."""
     surface = solid.repaired_surface.transform(matrix[:3, :3], matrix[:3, 3])
     return surface.points[surface.all_triangles()[0]].astype(np.float64, copy=False)
 

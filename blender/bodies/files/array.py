@@ -63,8 +63,9 @@ def measure_array(
     options: MeasureOptions,
     progress: Callable[[int], None] = lambda samples: None,
 ) -> Measurement:
-    """Return the mass properties of the samples in a file. progress: called with the number of samples read since the
-    last time. Raises MeasureError.
+    """Return the mass properties of the samples in a file.
+
+    progress: called with the number of samples read since the last call. Raises MeasureError.
     """
     if options.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)

@@ -15,7 +15,7 @@ from ...read.reading import Reading
 
 
 def bare_reading(name: str, kind: str) -> Reading:
-    """Return the frame of a file: the world's origin and axes. kind: its type in the records."""
+    """Return the frame of a file: the world's origin and axes; `kind` is its type in the records."""
     return Reading(name, kind, np.eye(4), np.eye(3), np.zeros(3))
 
 

@@ -132,7 +132,7 @@ class FlatRegion:
         return moments
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """Return (3,) the foot of a point of the world on the plane, in the plane's axes."""
+        """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
         return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
 
 
@@ -241,8 +241,9 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 def _curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
 ) -> tuple[tuple[Curve, ...], float] | None:
-    """Return the outlines as curves, along the plane's axes, and the largest effect of float32 on their control points;
-    None if Blender does not give them, or they touch.
+    """Return the outlines as curves along the plane's axes, and the largest float32 error of their control points.
+
+    Return None if Blender gives no outlines, or if they touch.
     """
     if reading.loops is None:
         return None

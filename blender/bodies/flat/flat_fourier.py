@@ -31,7 +31,7 @@ class FlatTransform:
     findings: tuple[Finding, ...]
 
     def steps(self) -> Iterator[float]:
-        """Do the work. Yields the fraction done."""
+        """Do the work; yield the fraction done."""
         return self.transform.steps()
 
     def result(self) -> tuple[Spectrum, tuple[Finding, ...]]:

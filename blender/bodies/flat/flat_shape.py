@@ -40,7 +40,7 @@ POSE_ORDER = 12  # for moments of shapes that are laid onto each other
 
 @dataclass(frozen=True, eq=False)
 class FlatShape:
-    """A flat object, in SI units. moments: about the centroid, in the plane's axes. fingerprint: of the reading."""
+    """A flat object, in SI units: moments about the centroid, in the plane's axes, and the reading's fingerprint."""
 
     region: FlatRegion
     moments: Moments
@@ -102,8 +102,9 @@ class FlatShape:
         )
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield a wall along the outline, across the plane, as high as the shape is large: in the plane it is as far
-        away as the outline.
+        """Yield a wall along the outline, across the plane, as high as the shape is large.
+
+        In the plane, the wall is as far away as the outline.
         """
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size
@@ -115,14 +116,14 @@ class FlatShape:
         yield Surface.from_triangles(points, triangles)
 
     def match(self, target: FlatShape, residual: Residual) -> RigidMatch:
-        """Return the motion that lays this shape onto another one, front on front. residual: as for `match_flat`."""
+        """Return the motion that lays this shape onto another one, front on front; `residual` as for `match_flat`."""
         ratio = target.size / self.size  # turns are found between different sizes, too
         radius = max(target.radius, ratio * self.radius)
         turned = self.zernike(radius / ratio), target.zernike(radius)
         return match_flat(*turned, (self.axes, target.axes), residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry that the outline confirms, and the one that the moments allow. tolerance: by the size."""
+        """Return the symmetry that the outline confirms and the one that the moments allow; `tolerance` by the size."""
         zernike, near = self.zernike(self.radius), tolerance * self.size
 
         def distance(points: NDArray) -> NDArray[np.float64]:
@@ -156,7 +157,7 @@ def distance_from(shape: Shape | FlatShape) -> SurfaceDistance:
 
 
 def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: float | None = None) -> FlatShape:
-    """Return a flat object's shape. Raises MeasureError if it is not flat, or its outlines cross."""
+    """Return a flat object's shape, or raise MeasureError if it is not flat, or its outlines cross."""
     region = flat_region(obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit)
     mark = fingerprint(region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene))
     try:

@@ -64,8 +64,9 @@ class RegionBody(Body):
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the region that a curve object bounds, if it is a thin shell of one density and shows nothing else; None
-    if its curves bound none, but Blender fills them. Raises MeasureError if nothing is filled.
+    """Return the region that a curve object bounds, if it is a thin shell of one density and shows nothing else.
+
+    Return None if its curves bound no region, but Blender fills them. Raises MeasureError if nothing is filled.
     """
     obj, options = request.obj, request.options
     if obj.type != "CURVE" or options.wall != "thin":

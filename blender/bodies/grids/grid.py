@@ -122,7 +122,7 @@ def read(request: Request) -> VolumeReading | None:
 
 
 def body(reading: VolumeReading, request: Request) -> Body:
-    """Return the body of one grid. Raises MeasureError if there is none."""
+    """Return the body of one grid, or raise MeasureError if there is none."""
     obj, density, options = request.obj, request.given.density, request.options
     order = KNOWN_ORDER if options.order is None else options.order
     made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads, order)
@@ -134,8 +134,9 @@ def body(reading: VolumeReading, request: Request) -> Body:
 def grid_body(
     reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1, order: int = KNOWN_ORDER
 ) -> Body:
-    """Return the body of one grid. unit: meters per Blender unit. order: of the wanted mass moments. MeasureError if
-    there is none.
+    """Return the body of one grid.
+
+    unit: meters per Blender unit. order: of the wanted mass moments. Raises MeasureError if the grid has no body.
     """
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
@@ -165,8 +166,9 @@ def grid_body(
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
-    """Return the blocks of a grid whose box begins at 0 along the axes with positions: the thickness of the outer
-    samples depends on their neighbors.
+    """Return the blocks of a grid whose box begins at 0 along the axes with positions.
+
+    The thickness of the outer samples depends on their neighbors.
     """
     offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
 

@@ -111,7 +111,7 @@ class ThresholdGridBody(Body):
 
 
 def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
-    """Return the values of a grid as one array. unit: meters per Blender unit.
+    """Return the values of a grid as one array; `unit` is in meters per Blender unit.
 
     Raises
     ------
@@ -137,7 +137,7 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
 def threshold_grid_body(
     grid: ThresholdGrid, options: GridOptions, preview: bool = False, order: int = KNOWN_ORDER
 ) -> ThresholdGridBody:
-    """Return the body of grid values at or above a threshold. order: of the wanted mass moments.
+    """Return the body of grid values at or above a threshold; `order` is that of the wanted mass moments.
 
     Raises
     ------

@@ -49,8 +49,10 @@ def not_compared(reading: Reading) -> Finding:
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
-    """Return the findings of several parts, as (name of the surface's object, findings). Equal ones, about the same
-    elements, are one that names all their sources. Of a part that is all of the object `whole` they stay as they are.
+    """Return the findings of several parts, given as (name of the surface's object, findings).
+
+    Equal findings about the same elements become one that names all their sources. Findings of a part that is all of
+    the object `whole` stay as they are.
     """
     parts = list(parts)
     if len(parts) == 1 and parts[0][0] in ("", whole):
@@ -111,7 +113,7 @@ def instances_size(reading: Reading) -> float:
 
 
 def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k, 3) the middles and (k, 3) half the sides of the boxes around the places of parts."""
+    """Return (k, 3) middles and (k, 3) half sides of the boxes around the places of parts."""
     centers, extents = [], []
     for part in reading.parts:
         low, high = part.surface.box
@@ -124,8 +126,10 @@ def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def area_of_instances(
     surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
 ) -> Iterator[Moments]:
-    """Yield the area moments of a surface's images. They do not follow a map that stretches unevenly, so there the
-    mapped surface is `measured`, once for each different map; with None, only the area itself is wanted.
+    """Yield the area moments of a surface's images.
+
+    Area moments do not follow a map that stretches unevenly, so the mapped surface is `measured`, once for each
+    different map. If `measured` is None, only the area itself is wanted.
     """
     if measured is None:
         even = are_similarities(matrices[:, :3, :3])
@@ -139,8 +143,10 @@ def area_of_instances(
 
 
 def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
-    """Yield a surface's images as images under similarities: the surface itself or mapped ones, one for each different
-    uneven map, with the (j, 4, 4) maps that are left and which of `matrices` they stand for, (j,).
+    """Yield a surface's images as images under similarities, of the surface itself or of mapped surfaces.
+
+    There is one mapped surface for each different uneven map. Each comes with the (j, 4, 4) maps that are left and the
+    (j,) indices of `matrices` that they stand for.
     """
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
@@ -153,8 +159,9 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """Return one verdict for all parts, each with the number of its instances and the area of all of them: counts add;
-    faults are named only if there is a single part.
+    """Return one verdict for all parts, each with the number of its instances and the area of all of them.
+
+    Counts add; faults are named only if there is a single part.
     """
     healths = list(healths)
     first, copies, _ = healths[0]

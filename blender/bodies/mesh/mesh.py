@@ -64,8 +64,9 @@ DRAWN_CODES = (SURFACE_DRAWN_AS_POLYGONS, CURVES_DRAWN_AS_POLYGONS)
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows; None if it has patches of one density, which are better. Raises
-    MeasureError if it shows none.
+    """Return the polygons that an object shows, or None if it has patches of one density, which are better.
+
+    Raises MeasureError if the object shows no polygons.
     """
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
@@ -78,8 +79,9 @@ def read(request: Request) -> Reading | None:
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the body that polygons bound, weighed and with walls as set. Raises MeasureError if there is nothing to
-    measure.
+    """Return the body that polygons bound, weighed and with walls as set.
+
+    Raises MeasureError if there is nothing to measure.
     """
     options = request.options
     shell = options.kind == "shell"
@@ -160,7 +162,7 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
 
 
 def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, drawn: set[str]) -> list[Finding]:
-    """Return the findings about one surface. A sheet is not repaired."""
+    """Return the findings about one surface; a sheet is not repaired."""
     if shell:
         copies = solid.health.defective_elements.duplicate_faces
         return [_copies_of_shell(part.surface, copies)] if len(copies) else []

@@ -87,7 +87,7 @@ class Shape:
 
     @cached_property
     def moments(self) -> Moments:
-        """Moments about the center, to the order that a pose needs. ReadError if they exceed the range of numbers."""
+        """Moments about the center, to the order that a pose needs; ReadError if they exceed the range of numbers."""
         with np.errstate(over="ignore", invalid="ignore"):
             volume, area = self.body.moments(MAX_ORDER, self._sheets)
         found = volume if area is None else area
@@ -145,7 +145,8 @@ class Shape:
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
         """Return Zernike descriptors to `order`, by quadrature above 20 and if raw moments lose too many digits.
-        Needs a surface.
+
+        The shape needs a surface.
         """
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
@@ -175,11 +176,11 @@ class Shape:
         return replace(result, size=scale * result.size)
 
     def match(self, target: Shape, residual: Residual) -> RigidMatch:
-        """Return the motion that lays this shape onto another one. residual: as for `match`."""
+        """Return the motion that lays this shape onto another one; `residual` is as for `match`."""
         return match(self.moments, target.moments, residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry that the surface confirms, and the one that the moments allow. tolerance: by the size."""
+        """Return the symmetry that the surface confirms and the one that the moments allow; `tolerance` by the size."""
         moments = self.piece_moments()
         # Moments are looked at as loosely as the surface.
         allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
@@ -187,7 +188,7 @@ class Shape:
         return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
     def points_about_center(self) -> NDArray[np.float64]:
-        """Return (n, 3) the corners of all faces."""
+        """Return (n, 3) corners of all faces."""
         points = []
         for piece in self.pieces():
             triangles = piece.all_triangles()[0]
@@ -224,13 +225,13 @@ def surface_shape(measured: Measured) -> Shape:
 
 
 def shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions | None = None) -> Shape:
-    """Measure an object for its shape. Raises MeasureError, and its subclass NoShapeError if it has none."""
+    """Measure an object for its shape, or raise MeasureError: its subclass NoShapeError if there is no shape."""
     options = replace(options or MeasureOptions(), pose=True)
     return _shape_of_measured(measure_body(obj, depsgraph, options), options.threads)
 
 
 def _shape_of_measured(measured: Measured, threads: int) -> Shape:
-    """Return the shape of a measured body. Raises NoShapeError if it has none."""
+    """Return the shape of a measured body, or raise NoShapeError if it has none."""
     measurement, body = measured.measurement, measured.body
     if body.mass is not None and not body.has_surface:
         raise NoShapeError(SHAPE_OF_GRID, measurement)
@@ -256,8 +257,10 @@ class Registered(Protocol):
 
 
 class SurfaceDistance:
-    """A shape's surface, to hold points against, once it is grown. Lengths in meters, world axes; Blender's tree of
-    triangles keeps them as float32, so about the center and by its size.
+    """A shape's surface, to measure distances of points from after `build`.
+
+    Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its points are about the
+    center and in units of the size.
     """
 
     def __init__(self, shape: Registered):
@@ -278,9 +281,7 @@ class SurfaceDistance:
         self.points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
 
     def build(self) -> Iterator[float]:
-        """Build the tree, in steps of some tenths of a second for a million triangles. Yields the share that is
-        done.
-        """
+        """Build the tree, in steps of some tenths of a second for a million triangles; yield the share done."""
         points = _as_tuples(self._corners)
         yield 0.2
         triangles = _as_tuples(self._triangles)
@@ -324,8 +325,9 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a shape onto another one, about their centers, and the residual between their
-    surfaces. source_skin, target_skin: theirs. scale: applied to the source first.
+    """Return the motion that lays a shape onto another one, about their centers, and the residual of the surfaces.
+
+    source_skin, target_skin: the surfaces of the shapes. scale: applied to the source first.
     """
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:

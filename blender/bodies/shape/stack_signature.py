@@ -26,8 +26,9 @@ from .shape import EXACT_DISTANCE, SURFACE_OPTIONS, Shape, surface_shape, surfac
 def signed_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
 ) -> Callable[[bpy.types.Object], Signature | Shape]:
-    """Find the signatures, to an order, of objects that are asked for one after the other, as `measured_in_turn`
-    measures them.
+    """Return a function that finds the signatures, to an order, of objects one after the other.
+
+    The objects are measured as by `measured_in_turn`.
 
     Returns
     -------
@@ -91,9 +92,7 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 def _signatures(
     stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
 ) -> tuple[list[Signature], NDArray[np.float64]]:
-    """Return the signatures of some surfaces after linear maps, in units of a length of their own, and these
-    lengths.
-    """
+    """Return the signatures of surfaces after linear maps, in units of a length of each, and these lengths."""
     points, triangles, first = [], [], 0
     for row, linear, center in zip(rows.tolist(), maps, centers):
         start, begin = stack.first_point[row], stack.first_triangle[row]

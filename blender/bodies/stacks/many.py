@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many objects at once: solids that show one mesh each are measured as stacks, all others one by one, with the same
-numbers.
+"""Many objects at once: solids that show one mesh each are measured as stacks, all others one by one.
+
+Both ways give the same numbers.
 
 An object joins no stack if it shows more than one mesh in one place, is no solid, is large, or has a varying density:
 `measure_body` measures it. Refused objects go there, too, for the reason.
@@ -193,9 +194,7 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """Return the stacked measurements by number; none if the stack fails, so that each object is measured by
-        itself.
-        """
+        """Return the stacked measurements by number; none if the stack fails: each object is then measured alone."""
         try:
             stack = measure_members(self.members, self.shapes, self.unit, self.options.axes) if self.members else None
         except Exception as error:

@@ -92,9 +92,7 @@ class MeshShape:
 
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
-    """Measure shapes, with finite points, in their own coordinates: volumes to third order and areas, stacked by
-    row.
-    """
+    """Measure shapes of finite points in their own coordinates: volumes to third order and areas, stacked by row."""
     small = [shape for shape in shapes if can_be_stacked(shape.surface)]
     volumes: list[Moments] = []
     areas: list[Moments] = []
@@ -281,8 +279,9 @@ class Stacked:
 def measure_members(
     members: list[StackMember], shapes: list[MeshShape], unit: float, axes: bool = True
 ) -> MeasuredStack | None:
-    """Measure objects together if their shapes can be measured and their numbers are certain; None if there are none.
-    unit: meters per Blender unit. axes: as in `MeasureOptions`.
+    """Measure objects together if their shapes can be measured and their numbers are certain.
+
+    Return None if there are no such objects. unit: meters per Blender unit. axes: as in `MeasureOptions`.
     """
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])

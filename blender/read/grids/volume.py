@@ -77,8 +77,9 @@ class VolumeReading:
 
 @contextmanager
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
-    """Yield one grid of the object, by default "density" or else the first possible one, as long as the context lasts;
-    None if the object shows polygons, or no volume.
+    """Yield one grid of the object, as long as the context lasts; None if the object shows polygons or no volume.
+
+    The default grid is "density", or else the first possible one.
 
     Raises ReadError, and attaches the object's name to errors inside the context.
     """

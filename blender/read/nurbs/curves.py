@@ -182,9 +182,7 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
-    """Return (n, 3) the handles of the equal Bézier curve: a third of the slope, half of the way from neighbor to
-    neighbor.
-    """
+    """Return (n, 3) handles of the equal Bézier curve: a third of the slope, half the way from neighbor to neighbor."""
     around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
     return (around[2:] - around[:-2]) / 6.0
 
@@ -214,7 +212,7 @@ def _curve(
     points: NDArray[np.float64],
     weights: NDArray | None,
 ) -> Curve | None:
-    """Return a spline as a curve; None if it is too short. points: (n, 3), of a Bézier curve three for each point."""
+    """Return a spline as a curve, None if too short; `points` are (n, 3), three for each point of a Bézier curve."""
     if kind == "NURBS":
         space = blender_space(len(points), order, cyclic, bezier, endpoint)
         return None if space is None else Curve(space, points, weights)

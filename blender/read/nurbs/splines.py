@@ -94,14 +94,12 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
 
 
 def nonpositive_weights(splines) -> int:
-    """Return the number of control points with weights that are not positive, for which the display mesh is
-    measured.
-    """
+    """Return the number of control points with nonpositive weights, for which the display mesh is measured."""
     return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
 
 
 def weighted_points(spline) -> NDArray[np.float32]:
-    """Return (n, 4) the control points and weights of a spline that is not a Bézier one."""
+    """Return (n, 4) control points and weights of a spline that is not a Bézier one."""
     row = np.empty(4 * len(spline.points), np.float32)
     spline.points.foreach_get("co", row)
     return row.reshape(-1, 4)
@@ -146,9 +144,7 @@ def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, toler
 
 
 def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
-    """Return the patch of the same spaces and weights that goes through the samples; None if they do not determine
-    it.
-    """
+    """Return the patch of the same spaces and weights through the samples; None if they do not determine it."""
     inverses = []
     for table in sample:
         acting = table.any(axis=0)

@@ -128,9 +128,7 @@ def lag(obj: Object) -> Lag:
 
 
 def is_stale(obj: Object, scene: Scene) -> bool:
-    """Return whether settings were changed since the live numbers were measured: Blender does not report every such
-    change.
-    """
+    """Return whether settings changed since the live measurement: Blender does not report every such change."""
     now = current_numbers(obj)
     return now is not None and now.settings != settings_hash(obj, scene)
 
@@ -171,8 +169,9 @@ def _is_of_another_scale(obj: Object, followed: _Followed) -> bool:
 
 
 def _linear_map(obj: Object, followed: _Followed, measured: Measurement) -> NDArray | None:
-    """Return the linear map from the measured object to its current state; None for shells and wires, or if either
-    is singular.
+    """Return the linear map from the measured object to its current state.
+
+    Return None for shells and wires, or if one of the matrices is singular.
     """
     before, now = followed.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
     if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():

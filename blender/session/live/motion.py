@@ -140,8 +140,10 @@ def _coordinates(data) -> NDArray[np.float64]:
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
 ) -> tuple[float, NDArray[np.float64]] | None:
-    """Return mass and center; None if a measurement is needed: if faces are cut otherwise than in the mixes, or if keys
-    or matrix make the mesh flat or turn it inside out.
+    """Return mass and center, or None if a measurement is needed.
+
+    It is needed if faces are cut otherwise than in the mixes, or if keys or matrix make the mesh flat or turn it inside
+    out.
     """
     assert followed.mixes is not None and followed.triangles is not None
     triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()

@@ -87,7 +87,7 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
 
 
 def clear(root: Root) -> bool:
-    """Remove the results of an assembly; return whether there were any. EditRefusedError if it cannot be changed."""
+    """Remove the results of an assembly; return whether there were any; EditRefusedError if it cannot be changed."""
     properties.require_storable(root)
     settings_of(root).rows.clear()
     return properties.clear(root)

@@ -45,15 +45,14 @@ def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
 
 
 def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
-    """Return findings with the note on an unset density, if none of them is about that. unset: the setting."""
+    """Return findings with the note on an unset density, if none of them is about that; `unset` is the setting."""
     if OF_DEFAULT_DENSITY.intersection([found.code for found in findings]):
         return findings
     return (*findings, DEFAULTS[unset])
 
 
 def follow_density(obj: Object, scene: Scene) -> None:
-    """Update stored results by the object's settings if these change them by a factor alone; else they stay, out of
-    date.
+    """Update stored results if the object's settings change them by a factor alone; else leave them out of date.
 
     Parameters
     ----------

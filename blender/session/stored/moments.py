@@ -67,7 +67,7 @@ class FlatMoments:
     plane: Plane
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """Return (3,) the foot of a point of the world on the plane, in the plane's axes."""
+        """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
         return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
 
 
@@ -172,7 +172,7 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
 
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
-    """Return the scene's chosen reference. MeasureError if there is none."""
+    """Return the scene's chosen reference, or raise MeasureError if there is none."""
     return ReferenceChoice.of(scene.body_moments_reference).resolve(obj, scene, computed.center)
 
 
@@ -219,8 +219,9 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
 
 
 def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant]:
-    """Return Hu's seven invariants and, from fourth order on, Flusser's. MeasureError if the object is not flat, or the
-    order is below 3.
+    """Return Hu's seven invariants and, from fourth order on, Flusser's.
+
+    Raises MeasureError if the object is not flat, or the order is below 3.
     """
     if of != "FLAT":
         raise ReadError(INVARIANTS_OF_FLAT)

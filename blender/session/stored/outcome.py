@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refusals and warnings of the last action, for panels to show until the next action: a status line is cut off and gone
-with the next click.
+"""Refusals and warnings of the last action, for panels to show until the next action.
+
+A status line is cut off and gone with the next click.
 """
 
 from __future__ import annotations

@@ -65,8 +65,9 @@ _totals: SessionCache[tuple[tuple, Total]] = SessionCache()  # a scene's last on
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write a measurement on the object, and remember the data for its sliders. EditRefusedError if the object cannot
-    hold results.
+    """Write a measurement on the object, and remember the data for its sliders.
+
+    Raises EditRefusedError if the object cannot hold results.
     """
     measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
     staleness.note_edits(obj)
@@ -83,8 +84,9 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
 def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of many objects as `store` does; yield each with the error if it cannot hold results, or
-    None.
+    """Store the results of many objects as `store` does; yield each with its error or None.
+
+    An object has an error if it cannot hold results.
     """
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
@@ -150,9 +152,7 @@ def failure(obj: Object) -> Finding | None:
 
 
 def of_object(obj: Object, scene: Scene) -> properties.StoredProperties | None:
-    """Return the results in the displayed frame: the live ones if Live is on, else the stored ones; None if any are
-    missing.
-    """
+    """Return the results in the displayed frame, live if Live is on, else stored; None if any are missing."""
     return _of_object(obj, scene, scene.body_moments.frame == "OBJECT")
 
 

@@ -61,8 +61,9 @@ def store(rig: Rig) -> list[tuple[str, Finding]]:
 
 
 def clear(armature: Object) -> bool:
-    """Remove the results of all bones and of the whole; return whether there were any. EditRefusedError if they cannot
-    be changed.
+    """Remove the results of all bones and of the whole; return whether there were any.
+
+    Raises EditRefusedError if the results cannot be changed.
     """
     properties.require_storable(armature)
     cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]

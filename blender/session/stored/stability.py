@@ -59,7 +59,7 @@ def down(scene: Scene) -> NDArray[np.float64]:
 
 
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
-    """Compute and remember the hull of an object as it is evaluated. MeasureError if it has none."""
+    """Compute and remember the hull of an object as it is evaluated, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
     _remembered[obj] = _Remembered(hull, updates.last_change_of_geometry(obj), shape_digest(obj, depsgraph))
     handlers.count_change()
@@ -133,8 +133,9 @@ def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
-    """Return the stable resting poses of an object, lengths in Blender's units, normals in the object's frame
-    (location and rotation).
+    """Return the stable resting poses of an object.
+
+    Lengths are in Blender's units, normals in the object's frame (location and rotation).
 
     Parameters
     ----------

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The threshold of a measured grid as a slider: the values of the grid are kept in memory, and a change of the setting
-stores the numbers of the new body at once.
+"""The threshold of a measured grid as a slider.
+
+The values of the grid are kept in memory, and a change of the setting stores the numbers of the new body at once.
 
 While the slider moves they come from every second or third value of a large grid, by an unchecked rule, and are out of
 date; a moment after the last change the exact ones take their place. This needs the geometry and transform of the
@@ -37,8 +38,9 @@ COARSE = "coarse"  # no key of settings: what is measured with it is out of date
 
 @dataclass(frozen=True, eq=False)
 class _CachedGrid:
-    """One object's grid, and the marks stored with it since: of the geometry at every threshold, as undo goes back to
-    any, and of the transform.
+    """One object's grid, and the marks stored with it since.
+
+    The marks are of the geometry at every threshold, as undo goes back to any, and of the transform.
     """
 
     reading: VolumeReading
@@ -53,7 +55,7 @@ _pending: list[tuple[Object, Scene]] = []  # whose exact numbers are due
 
 
 def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the grid that an object was measured with. unit: meters per Blender unit."""
+    """Remember the grid that an object was measured with; `unit` is in meters per Blender unit."""
     mark, reading, body = marks.Mark(*measured.measurement.fingerprint.split(":")), measured.reading, measured.body
     assert isinstance(reading, VolumeReading) and isinstance(body, ThresholdGridBody)
     _cache[obj] = _CachedGrid(reading, body.grid, {mark.geometry}, mark.transform, unit)
@@ -106,7 +108,7 @@ def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, 
 
 
 def _finish() -> None:
-    """Store the exact numbers. A timer's function: it returns None, so that it is not called again."""
+    """Store the exact numbers as a timer's function: it returns None, so that it is not called again."""
     while _pending:
         obj, scene = _pending.pop()
         try:

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thickness of a measured wall as a slider: the last measured walls are kept in memory as polynomials in the
-thickness, and a change of the setting stores their values at once.
+"""The thickness of a measured wall as a slider.
+
+The last measured walls are kept in memory as polynomials in the thickness, and a change of the setting stores their
+values at once.
 
 This needs the geometry and transform of the stored numbers. Otherwise the numbers stay, and are reported as out of
 date.
@@ -44,7 +46,7 @@ _cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
 
 
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
-    """Remember the walls that an object was measured with. unit: meters per Blender unit."""
+    """Remember the walls that an object was measured with; `unit` is in meters per Blender unit."""
     mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
     reading, body = measured.reading, measured.body
     assert isinstance(reading, Reading) and isinstance(body, WallBody) and body.walls is not None

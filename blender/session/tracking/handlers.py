@@ -23,8 +23,9 @@ from . import cache
 
 @dataclass(frozen=True, eq=False)
 class Updates:
-    """Data-blocks that the window's dependency graph has evaluated anew: session uids, for a frame may have thousands
-    of them.
+    """Data-blocks that the window's dependency graph has evaluated anew.
+
+    They are kept as session uids, for a frame may have thousands of them.
 
     Attributes
     ----------

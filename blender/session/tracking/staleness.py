@@ -329,7 +329,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Stop noting edits. Write the existing notes first, for the file may outlive the add-on."""
+    """Stop noting edits, but write the existing notes first, for the file may outlive the add-on."""
     _write_notes()
     for subscribers, function in reversed(SUBSCRIPTIONS):
         subscribers.remove(function)
