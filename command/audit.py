@@ -70,9 +70,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[str, int, int]:
-    """Return the report, the number of files with warnings, errors or a failure, and the number of our own
-    faults.
-    """
+    """Return the report, the number of files with warnings, errors or a failure, and that of our own faults."""
     documents, faults, internal = [], 0, 0
     copies: set[str] = set()
     for path in options.files:

@@ -20,8 +20,9 @@ _requested = False
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Raise KeyboardInterrupt on Ctrl+C within the block, also in `blender -b`, which would only note it. An ignored
-    signal, as in the background of a shell, stays ignored.
+    """Raise KeyboardInterrupt on Ctrl+C within the block, also in `blender -b`, which would only note it.
+
+    An ignored signal, as in the background of a shell, stays ignored.
     """
     global _requested
     _requested = False
@@ -39,17 +40,16 @@ def interruptible() -> Iterator[None]:
 
 
 def check_interruption() -> None:
-    """Raise KeyboardInterrupt if it was requested: importers written in Python turn the exception into their own
-    error.
-    """
+    """Raise KeyboardInterrupt if it was requested: importers in Python turn the exception into their own error."""
     if _requested:
         raise KeyboardInterrupt
 
 
 @contextmanager
 def stopped_by_signals() -> Iterator[None]:
-    """Raise KeyboardInterrupt within the block on every signal that asks a process to end. Only the first counts:
-    nothing disturbs the cleanup after it.
+    """Raise KeyboardInterrupt within the block on every signal that asks a process to end.
+
+    Only the first signal counts: nothing disturbs the cleanup after it.
     """
     names = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
     numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
@@ -78,8 +78,9 @@ def _interrupt(_number: int, _frame: object) -> None:
 
 
 class Progress:
-    """A counter of samples or faces read from a file, which reports their number every `PERIOD` seconds by the message
-    of that code.
+    """A counter of samples or faces read from a file.
+
+    It reports their number every `PERIOD` seconds by the message of the given code.
     """
 
     def __init__(self, file: str, code: str = PROGRESS_SAMPLES) -> None:

@@ -15,9 +15,7 @@ class HelpRequested(Exception):
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that escapes control characters, as names of files may have, and leaves the output of help to its
-    caller.
-    """
+    """A parser that escapes control characters, as in file names, and leaves the output of help to its caller."""
 
     def print_help(self, file: object = None) -> NoReturn:
         raise HelpRequested(self.format_help())

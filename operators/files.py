@@ -20,8 +20,9 @@ def ask_for_table(operator: Operator, context: Context) -> set[str]:
 
 
 def ensure_suffix(operator: Operator, suffix: str, others: Collection[str] = ()) -> bool:
-    """Give the path the suffix, unless it has one of the others or no name at all. Return whether the path was changed,
-    as `check` does.
+    """Give the path the suffix, unless it has one of the others or no name at all.
+
+    Return whether the path was changed, as `check` does.
     """
     path, name = operator.filepath, os.path.basename(operator.filepath)
     if name and os.path.splitext(name)[1].lower() not in others:

@@ -48,8 +48,9 @@ def progress(count: float) -> Iterator[Callable[[float], None]]:
 
 
 class ModalSteps:
-    """Base of operators with a generator `_steps`, which does the work and yields the completed part, and with
-    `_finish`, which alone changes anything.
+    """Base of operators that work in steps.
+
+    The generator `_steps` does the work and yields the completed part; `_finish` alone changes anything.
 
     PROGRESS: for the status bar; it gets the value `share`, the completed share. CANCELED: the report after Esc.
     """

@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Common parts of all operators on the selection: choice of objects, polls with reasons, progress, and one report a
-run.
-"""
+"""Common parts of all operators on the selection: choice of objects, polls with reasons, progress, one report a run."""
 
 from __future__ import annotations
 
@@ -21,8 +19,9 @@ from .modal import progress
 
 
 def selected_measurable(context: Context) -> list[Object]:
-    """Return the measurable selected objects, parents before children. Works in background
-    too. A scene that is used for the first time gets its defaults.
+    """Return the measurable selected objects, parents before children.
+
+    Works in background too. A scene that is used for the first time gets its defaults.
     """
     copy_defaults(context.scene)
     objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
@@ -53,8 +52,9 @@ def summarize(
     findings: Sequence[Finding] = (),
     idle: Finding | None = None,
 ) -> set[str]:
-    """Report the run once, and return the result of `execute`. All failures and warnings stay in the panel until the
-    next action.
+    """Report the run once, and return the result of `execute`.
+
+    All failures and warnings stay in the panel until the next action.
 
     done: the action on `changed` of `total` objects. failures: the reasons for objects left unchanged. findings: other
     observations. idle: the reason if nothing had to be done.
@@ -73,9 +73,10 @@ def summarize(
 def iterate_objects(
     objects: Iterable[Object], action: Callable[[Object], Iterator[float] | None], failures: list[Finding]
 ) -> Generator[float, None, None]:
-    """Run `action` on one object after the other: it does the work, or returns an iterator that does it in steps and
-    yields its share that is done. Yields how many objects are done. Why an object was refused, or that the work on it
-    failed, is added to `failures`: none of them ends the others.
+    """Run `action` on one object after the other, and yield the number of completed objects.
+
+    `action` does the work, or returns an iterator that does it in steps and yields its completed share. Refusals and
+    failures are added to `failures`: none of them ends the work on the other objects.
     """
     for done, obj in enumerate(objects, 1):
         try:
@@ -89,8 +90,9 @@ def iterate_objects(
 def apply_to_all(
     objects: Sequence[Object], action: Callable[[Object], bool | None]
 ) -> tuple[list[Object], list[Finding]]:
-    """Run `action` on each object. Return the objects for which it returned True or None, and the reasons for refusals
-    and failures.
+    """Run `action` on each object.
+
+    Return the objects for which it returned True or None, and the reasons for refusals and failures.
     """
     changed: list[Object] = []
     failures: list[Finding] = []

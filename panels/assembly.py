@@ -34,7 +34,7 @@ LINES = 8  # height of the tree, before it scrolls
 
 
 class BODY_MOMENTS_UL_assembly(UIList):
-    """The members of an assembly with their masses and shares"""
+    """The members of an assembly with their masses and shares."""
 
     def draw_item(self, context, layout, _data, row, _icon, _active_data, _active_property, index) -> None:
         line = layout.row(align=True)

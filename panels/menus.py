@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus, under users' names and in their usual places. Blender's search finds entries of
-menus.
+"""Entries in Blender's own menus, under users' names and in their usual places.
+
+Blender's search finds entries of menus.
 """
 
 from __future__ import annotations

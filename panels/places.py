@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The two places of every panel: the 3D Viewport's sidebar, and the object's properties, which stay open beside other
-settings.
+"""The two places of every panel: the 3D Viewport's sidebar, and the object's properties.
+
+The object's properties stay open beside other settings.
 
 To add a sub-panel: a class with `bl_label`, `draw` and, if needed, `poll`, made into panels by `in_both_places`, in a
 module that `panels/__init__.py` names. Sub-panels of the main panel follow `ORDER`.

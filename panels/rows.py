@@ -108,8 +108,10 @@ def text(layout: UILayout, label: str, shown: str, exact: str, unit: str) -> Non
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
-    """Draw rows of label, text to the right, copy button, all in one form: labels are above their texts if rows are too
-    narrow for both, and units beside the labels if rows are too narrow for the texts.
+    """Draw rows of label, text to the right, copy button, all in one form.
+
+    Labels are above their texts if rows are too narrow for both, and units beside the labels if rows are too narrow for
+    the texts.
     """
     if not cells:
         return

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that Blender does not open: arrays and scans, and meshes that are larger than memory. Each is one body, called
-like its file.
+"""Files that Blender does not open: arrays and scans, and meshes that are larger than memory.
+
+Each file is one body, called like the file.
 """
 
 from __future__ import annotations
@@ -40,8 +41,10 @@ _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 
 @dataclass
 class BareFile:
-    """A file measured without Blender. options: of the command line. measured: name and measurement, if any. refusal:
-    the reason if there is none.
+    """A file measured without Blender.
+
+    options: the options of the command line. measured: name and measurement, if any. refusal: the reason if there is
+    none.
     """
 
     path: str

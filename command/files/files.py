@@ -126,8 +126,9 @@ def _open_blend(path: str) -> None:
 
 
 def _saved_by(path: str) -> tuple[int, int] | None:
-    """Return the version of Blender in the header of a .blend file not compressed with zstd: (0, 0) for big-endian
-    numbers, (99, 0) for a file format of the future; None if there is no such header.
+    """Return the version of Blender in the header of a .blend file not compressed with zstd.
+
+    Return (0, 0) for big-endian numbers, (99, 0) for a file format of the future, and None if there is no such header.
     """
     with open(path, "rb") as file:
         head = file.read(20)
@@ -193,8 +194,9 @@ def _check_usdz(path: Path, size: int) -> None:
 
 
 def _check_stl(head: bytes, tail: bytes, size: int) -> None:
-    """Raise FileError if an STL file is cut short. Blender reads a file of exactly the promised size as binary, any
-    other as text, and does not report lost data.
+    """Raise FileError if an STL file is cut short.
+
+    Blender reads a file of exactly the promised size as binary, any other as text, and does not report lost data.
     """
     if len(head) == 84 and size == 84 + 50 * struct.unpack_from("<I", head, 80)[0]:
         return
@@ -205,8 +207,9 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
 
 
 def reason(error: Exception) -> str:
-    """Return an error of the system or of Blender as one line: the first line of a report, or the exception of a
-    traceback, which Blender may follow with its location.
+    """Return an error of the system or of Blender as one line.
+
+    The line is the first of a report, or the exception of a traceback, which Blender may follow with its location.
     """
     if isinstance(error, OSError):
         return system_reason(error)
@@ -222,8 +225,9 @@ def reason(error: Exception) -> str:
 
 
 def requested_file() -> str | None:
-    """Return the .blend file that Blender was started with. Blender runs a command on its start-up scene if it cannot
-    open the file.
+    """Return the .blend file that Blender was started with.
+
+    Blender runs a command on its start-up scene if it cannot open the file.
     """
     for word in sys.argv[1:]:
         if word in ("-c", "--command", "--"):

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files of B-spline surfaces as objects of the open scene: IGES, for which Blender has no importer, and .obj files with
-``surf``, which its own importer leaves out without a word.
+"""Files of B-spline surfaces as objects of the open scene: IGES, and .obj files with ``surf``.
+
+Blender has no importer for IGES, and its importer of .obj files leaves ``surf`` out without a word.
 """
 
 from __future__ import annotations
@@ -28,8 +29,9 @@ def import_iges(path: str) -> Opened:
 
 
 def import_obj(path: str) -> Opened:
-    """Add the objects of a file to the scene: faces by Blender's importer, surfaces by ours. Raises FileError and
-    OSError.
+    """Add the objects of a file to the scene: faces by Blender's importer, surfaces by ours.
+
+    Raises FileError and OSError.
     """
     if not has_surfaces(path):
         bpy.ops.wm.obj_import(filepath=path)

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files read together with the named ones: the samples of a detached NRRD, buffers and textures of a glTF, the
-libraries of a .blend, layers of USD. No result may replace one of them.
+"""Files read together with the named ones; no result may replace one of them.
+
+They are the samples of a detached NRRD, buffers and textures of a glTF, the libraries of a .blend, and layers of USD.
 """
 
 from __future__ import annotations
@@ -26,8 +27,9 @@ _CRATE = b"PXR-USDC"  # start of a binary USD layer
 
 
 def files_read(paths: Iterable[str]) -> Iterator[Path]:
-    """Yield the existing files that the named files, or else the open scene, refer to directly or indirectly. Opens the
-    named files in Blender. Unreadable files refer to nothing.
+    """Yield the existing files that the named files, or else the open scene, refer to directly or indirectly.
+
+    Opens the named files in Blender. Unreadable files refer to nothing.
     """
     paths = list(paths)
     waiting = [Path(path) for path in paths] or _open_files()
@@ -41,8 +43,9 @@ def files_read(paths: Iterable[str]) -> Iterator[Path]:
 
 
 def references(path: str, is_open: bool) -> Iterator[Path]:
-    """Yield the files, existing or not, that a file refers to and that may change its measurements. is_open: whether it
-    is the open scene.
+    """Yield the files, existing or not, that a file refers to and that may change its measurements.
+
+    is_open: whether the file is the open scene.
     """
     first = Path(path)
     waiting = [first, *(_open_files(packed=False) if is_open else ())]
@@ -161,7 +164,7 @@ def _unpacked(packed: bytes) -> bytes:
 
 
 def _lz4(block: bytes) -> bytes:
-    """Unpack an LZ4 block: https://github.com/lz4/lz4/blob/dev/doc/lz4_Block_format.md"""
+    """Unpack an LZ4 block (https://github.com/lz4/lz4/blob/dev/doc/lz4_Block_format.md)."""
     text = bytearray()
     at = 0
 

@@ -12,7 +12,9 @@ from ...core.verdict.finding import Finding
 
 @dataclass(frozen=True)
 class Opened:
-    """errors: parts of the file, or references, that are missing now. notes: about the whole file. by_object: about one
+    """Findings about an opened file.
+
+    errors: parts of the file, or references, that are missing now. notes: about the whole file. by_object: about one
     object, by its name.
     """
 

@@ -25,9 +25,7 @@ _STDOUT = {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}  # its descriptor may 
 
 
 def claim_stdout() -> int:
-    """Return a descriptor of the standard output that nothing else in this process reaches any more, or -1 if it is
-    closed.
-    """
+    """Return a descriptor of the standard output, unreachable to the rest of this process, or -1 if it is closed."""
     silent = not _is_open(2)
     try:
         channel = os.dup(1)

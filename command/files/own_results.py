@@ -24,8 +24,9 @@ _LAST = 2  # columns at the end, behind optional ones
 
 
 def replaceable(path: Path, option: str) -> bool:
-    """Return whether a result may replace `path` without loss: there is nothing, no regular file, or an older result.
-    option: "output" or "fourier". Raises OSError.
+    """Return whether a result may replace `path` without loss.
+
+    It may if there is nothing, no regular file, or an older result. option: "output" or "fourier". Raises OSError.
     """
     return not path.exists() or not path.is_file() or _is_result(path, option)
 
@@ -36,8 +37,9 @@ def is_empty(path: Path) -> bool:
 
 
 def guard(option: str, forced: bool) -> Callable[[Path], None]:
-    """Return a check that raises FileExistsError if a file has appeared that is not `replaceable`. forced: it may be
-    replaced all the same, because it existed when --force was given.
+    """Return a check that raises FileExistsError if a file has appeared that is not `replaceable`.
+
+    forced: the file may be replaced all the same, because it existed when --force was given.
     """
 
     def check(path: Path) -> None:

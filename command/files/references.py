@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Missing references of files, and scripts that did not run: Blender opens the rest, and reports them on the standard
-error at most.
+"""Missing references of files, and scripts that did not run.
+
+Blender opens the rest, and reports them on the standard error at most.
 """
 
 from __future__ import annotations
@@ -23,8 +24,9 @@ _ASSET = re.compile(r"@([^@]+)@(<[^>]*>)?")
 
 
 def unresolved_references(import_file: Callable[[], object]) -> list[str]:
-    """Import a file, and return the names of the layers, references and payloads that were not found. Output to the
-    standard error meanwhile appears there afterwards.
+    """Import a file, and return the names of the layers, references and payloads that were not found.
+
+    Output to the standard error meanwhile appears there afterwards.
     """
     sys.stderr.flush()
     try:
@@ -57,9 +59,7 @@ def names_in(printed: str) -> list[str]:
 
 
 def missing_links() -> Iterator[Finding]:
-    """Yield a finding if Blender opened a file but replaced missing links by empty data, or lacks the caches of
-    modifiers.
-    """
+    """Yield a finding if Blender replaced missing links of the file by empty data, or lacks caches of modifiers."""
     data = bpy.data
     groups = (data.objects, data.meshes, data.curves, data.metaballs, data.collections)
     missing = {item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing}

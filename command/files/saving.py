@@ -99,8 +99,9 @@ def reserved(path: str, opened: bool, at_start: bool) -> Iterator[Place]:
 
 
 def _digest(path: Path) -> bytes:
-    """Return a digest of the content: sizes and times do not change if two programs save within one tick of a file
-    system's clock.
+    """Return a digest of the content.
+
+    Sizes and times do not change if two programs save within one tick of a file system's clock.
     """
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "blake2b").digest()

@@ -23,8 +23,10 @@ _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
 
 
 def write(measured: Mapping[Root, Measurement], path: str, where: str) -> tuple[bool, list[Finding]]:
-    """Put numbers into the metadata of the measured assets of the open file. where: "copy" saves a copy beside it.
-    Return whether the file itself is to be saved, and findings about assets without numbers. Raises FileError.
+    """Put numbers into the metadata of the measured assets of the open file.
+
+    Return whether the file itself is to be saved, and findings about assets without numbers. where: "copy" saves a copy
+    beside the file. Raises FileError.
     """
     stored = [root for root in measured if root.asset_data is not None and root.library is None]
     for root in stored:

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several bodies as one in a document: the assemblies and bones with results or given masses in a file, and with asset
-metadata also collections that are assets.
+"""Several bodies as one in a document: assemblies and bones with results or given masses in a file.
+
+With asset metadata, collections that are assets are included.
 """
 
 from __future__ import annotations

@@ -34,8 +34,9 @@ def record_of(
     refusal: MeasureError,
     findings: tuple[Finding, ...],
 ) -> dict[str, Any]:
-    """Return the record of an object as a flat shape. refusal: why it is no body. findings: about its file. Raises
-    MeasureError.
+    """Return the record of an object as a flat shape.
+
+    refusal: the reason why it is no body. findings: about its file. Raises MeasureError.
     """
     try:
         return _record(label, obj, options, unit, findings)

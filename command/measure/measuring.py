@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of the objects of a file: together if mass properties are all that is requested, else each with its
-shape.
-"""
+"""Measurement of a file's objects: together if only mass properties are requested, else each with its shape."""
 
 from __future__ import annotations
 
@@ -27,8 +25,9 @@ from ..findings import SIGNATURE_OF_DISPLAY_MESH
 def measured_together(
     objects: Sequence[bpy.types.Object], options: Namespace, measure_options: MeasureOptions
 ) -> Callable[[bpy.types.Object], Measured | Stacked] | None:
-    """Return a function that measures objects in batches, or None if something is done between two objects, or more
-    than mass properties is requested.
+    """Return a function that measures objects in batches, or None if they have to be measured one by one.
+
+    They have to be if something is done between two objects, or more than mass properties is requested.
     """
     if options.order is not None or options.pose or options.signature or options.thumbnails:
         return None
@@ -40,8 +39,9 @@ def measured_together(
 def measure_shape(
     obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions
 ) -> tuple[Measurement, dict[str, Any], tuple[Finding, ...]]:
-    """Return an object's measurement, its pose and signature if requested, and findings about these. Pose and signature
-    are None for objects without a shape of their own, which are still measured.
+    """Return an object's measurement, its pose and signature if requested, and findings about these.
+
+    Pose and signature are None for objects without a shape of their own, which are still measured.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
     requested = [name for name in ("pose", "signature") if getattr(options, name)]

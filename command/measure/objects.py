@@ -18,7 +18,7 @@ from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, OBJECT_NOT_IN_SCE
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:
-    """An entry of `errors`, or of `left_out`."""
+    """Return an entry of `errors`, or of `left_out`."""
     return {"name": name, "reason": str(reason)}
 
 
@@ -30,8 +30,10 @@ def why_nothing(left_out: int) -> Finding:
 def objects_to_measure(
     names: list[str] | None, everything: bool
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
-    """Return the objects to measure, each under a unique name; the objects left out, with the reason; and an error for
-    each unknown name. everything: nothing is left out.
+    """Return the objects to measure, the objects left out, and the errors.
+
+    The objects to measure have unique names, the objects left out a reason; each unknown name is an error. everything:
+    nothing is left out.
 
     Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
     """
@@ -56,8 +58,9 @@ def objects_to_measure(
 
 
 def _excluded(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> set[bpy.types.Object]:
-    """Return the scene's measurable objects outside of its view layer, but for the members of instanced collections,
-    which the instancers' records hold.
+    """Return the scene's measurable objects outside of its view layer.
+
+    Members of instanced collections are left out, because the instancers' records hold them.
     """
     instanced = {obj.instance_collection for obj in scene.objects if shows_collection(obj)}
     members = {member for collection in instanced for member in collection.all_objects}

@@ -43,10 +43,10 @@ def complete(
     *,
     is_opened: bool,
 ) -> dict[str, Any]:
-    """Return a document with its records as links and the entry `robot`, if such a format is asked for; print the
-    findings of the format to the standard error.
+    """Return a document with its records as links and the entry `robot`, if such a format is requested.
 
-    measure_options: of the measurements. is_opened: whether the file is the open scene, with its collections and bones.
+    Prints the findings of the format to the standard error. measure_options: the options of the measurements.
+    is_opened: whether the file is the open scene, with its collections and bones.
     """
     if options.format not in ROBOT_FORMATS:
         return document

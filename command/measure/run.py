@@ -206,8 +206,9 @@ class Run:
         opened: Opened,
         errors: list[dict[str, Any]],
     ) -> tuple[list[dict[str, Any]], list[tuple[str, bpy.types.Object, Measurement]], list[dict[str, Any]]]:
-        """Return the records and measurements of bodies, and the records of flat shapes. Failures are added to the
-        errors. of_file: findings about the file.
+        """Return the records and measurements of bodies, and the records of flat shapes.
+
+        Failures are added to `errors`. of_file: findings about the file.
         """
         objects, measured, flats = [], [], []
         operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
@@ -239,9 +240,11 @@ class Run:
         findings: tuple[Finding, ...],
         errors: list[dict[str, Any]],
     ) -> tuple[Measurement | None, dict[str, Any]]:
-        """Return an object's measurement and its record; of a flat shape the record alone. A body with a mass but
-        without moments of the requested order gets a record without them, and an error is added. in_turn: measures the
-        objects together; None if each has to be measured by itself. findings: about its file.
+        """Return an object's measurement and its record, or None and the record of a flat shape.
+
+        A body with a mass but without moments of the requested order gets a record without them, and an error is added.
+        in_turn: measures the objects together; None if each has to be measured by itself. findings: about the object's
+        file.
         """
         order = self.options.order
         density_options.apply(obj, self.options)
@@ -321,8 +324,9 @@ class Run:
         measured: list[tuple[str, bpy.types.Object, Measurement]],
         wanted: MeasureOptions,
     ) -> Iterator[dict[str, Any]]:
-        """Store the results, once all of them are there: drivers may read them and change later measurements. The given
-        settings are stored too, or the results would be out of date.
+        """Store the results, once all of them are there: drivers may read them and change later measurements.
+
+        The given settings are stored too, or the results would be out of date.
         """
         if path is not None and file_suffix(path) != BLEND:
             raise FileError(RESULTS_NEED_BLEND)

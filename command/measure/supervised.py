@@ -249,9 +249,7 @@ class _Supervised:
         progress.finish()
 
     def _recorded(self, outcome: TaskOutcome, blender: str) -> tuple[str, Finding | None, bytes]:
-        """Return the status of a file, the reason for a missing answer or None, and the document, which always
-        exists.
-        """
+        """Return a file's status, the reason for a missing answer or None, and the document, which always exists."""
         if outcome.status == "answered":
             with suppress(ValueError, KeyError, TypeError):
                 return json.loads(outcome.data)["status"], None, outcome.data
@@ -268,8 +266,9 @@ class _Supervised:
         return outcome.status, reason, json.dumps(document).encode()
 
     def _report(self, progress: Progress, outcome: TaskOutcome, reason: Finding | None) -> None:
-        """Print the reason for a failed file, else the messages of its child; after an internal error all output of the
-        child.
+        """Print the reason for a failed file, else the messages of its child.
+
+        After an internal error, print all output of the child.
         """
         faults = outcome.head.get("faults", 0)
         self._faults += faults

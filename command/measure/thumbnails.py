@@ -15,8 +15,9 @@ from ...core.verdict.finding import MeasureError
 
 
 def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | None) -> str | None:
-    """Return the picture of a measured object, or None if it shows no faces. unit: meters per unit, else the
-    scene's.
+    """Return the picture of a measured object, or None if it shows no faces.
+
+    unit: meters per unit, else the scene's.
     """
     depsgraph = bpy.context.evaluated_depsgraph_get()
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of output places before anything is measured: they must be writable, and no input and nobody else's file.
-Standard library only.
+"""Checks of output places before anything is measured; standard library only.
+
+The places must be writable, and neither an input nor somebody else's file.
 """
 
 from __future__ import annotations
@@ -58,9 +59,10 @@ def _check_place(option: str, target: Path, fail: Fail) -> None:
 def files_to_replace(
     options: Namespace, read: Iterable[str | Path], fail: Fail = fail_measure
 ) -> list[tuple[Path, str]]:
-    """Return the existing targets that are no results of ours, each with its option. Ends with a message if a target is
-    among the files that are `read`, or without --force if it is somebody else's and not empty. `options.forced`: the
-    targets that need --force.
+    """Return the existing targets that are no results of ours, each with its option.
+
+    Ends with a message if a target is among the files that are `read`, or without --force if it is somebody else's and
+    not empty. `options.forced`: the targets that need --force.
     """
     options.forced = []
     read, replaced = list(read), []

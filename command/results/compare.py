@@ -57,9 +57,7 @@ def differences(
 
 
 def _bodies(document: dict[str, Any]) -> dict[str, dict[str, Any]]:
-    """Return the records of a document by their names: objects, assemblies, flat shapes, and bones with their
-    armatures.
-    """
+    """Return a document's records by name: objects, assemblies, flat shapes, and bones with their armatures."""
     found = {entry["name"]: entry for entry in document["objects"]}
     found |= {"assembly {}".format(entry["name"]): entry for entry in document.get("assemblies", ())}
     found |= {"flat {}".format(entry["name"]): entry for entry in document.get("flat", ())}

@@ -71,8 +71,9 @@ class Results:
 
 
 def _documents(path: Path) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-    """Read the documents of one file: an object, an array, or one a line. Raises ValueError, KeyError, TypeError and
-    OSError.
+    """Read the documents of one file: an object, an array, or one object a line.
+
+    Raises ValueError, KeyError, TypeError and OSError.
     """
     with open(path, encoding="utf-8", errors="surrogateescape") as file:
         begin = file.read(2)

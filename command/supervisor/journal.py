@@ -24,8 +24,9 @@ _BEYOND = {"timeout": "seconds", "memory": "memory"}  # statuses that a higher l
 
 @dataclass(frozen=True)
 class Entry:
-    """One file's line without its document. refers: whether the file refers to others. offset, length: position of the
-    line.
+    """One file's line without its document.
+
+    refers: whether the file refers to others. offset, length: position of the line.
     """
 
     key: dict[str, Any]
@@ -74,8 +75,9 @@ class Journal:
         document: bytes,
         reads: dict[str, Any] | None = None,
     ) -> None:
-        """Append the line of a finished file. document: as JSON on one line. reads: the files that it refers to, each
-        with its `state`. Raises OSError.
+        """Append the line of a finished file.
+
+        document: JSON on one line. reads: the files that the file refers to, each with its `state`. Raises OSError.
         """
         head = {
             "schema": SCHEMA,

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A child's end of the pipes to its supervisor. It ends when the supervisor does, however that ended, also within a
-file that Blender never comes back from.
+"""A child's end of the pipes to its supervisor.
 
-On Linux the system itself sends a signal when the other end of a pipe closes, which nothing needs to run for.
-Elsewhere a thread waits for that. Either way, a file that takes longer than it may ends the process.
+The child ends when the supervisor does, however that ended, also within a file that Blender never comes back from.
+
+On Linux the system itself sends a signal when the other end of a pipe closes, which nothing needs to run for. Elsewhere
+a thread waits for that. Either way, a file that takes longer than it may ends the process.
 """
 
 from __future__ import annotations

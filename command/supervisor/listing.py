@@ -41,8 +41,9 @@ def expand(names: Iterable[str]) -> Iterator[str]:
 
 
 def _walk(top: str) -> Iterator[str]:
-    """Yield the measurable files in a folder and its subfolders. Each folder counts once, so that links in a circle
-    end. Hidden entries and unreadable folders are left out.
+    """Yield the measurable files in a folder and its subfolders.
+
+    Each folder counts once, so that links in a circle end. Hidden entries and unreadable folders are left out.
     """
     known: set[tuple[int, int]] = set()
     waiting = [iter([top])]

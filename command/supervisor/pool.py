@@ -69,9 +69,10 @@ class TaskOutcome:
 
 @dataclass(eq=False)
 class _Child:
-    """A process. started: time of its start, or of its task. deadline: for being ready, or done. task: its current
-    file. base: its memory when it was ready. measured: the number of files it was given. doomed: why it was ended by
-    us.
+    """A child process.
+
+    started: time of its start, or of its task. deadline: for being ready, or done. task: its current file. base: its
+    memory when it was ready. measured: the number of files it was given. doomed: the reason if we ended it.
     """
 
     process: subprocess.Popen[bytes]

@@ -27,9 +27,7 @@ _WORD = "child"  # the command that serves a supervisor
 
 
 def child_command(blender: str | None) -> list[str] | None:
-    """Return the command that starts a child: a Blender, or without one this Python, which must have the bpy module
-    (else None).
-    """
+    """Return the command that starts a child: Blender if given, else this Python, or None without the bpy module."""
     return run_command(blender, [_WORD])
 
 
@@ -46,9 +44,10 @@ def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
 
 
 def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.Popen[bytes], int | None]:
-    """Start a child with temporary and user files in `folder` and its standard error in `log`. Messages go to its
-    standard input, answers come from its standard output. Also return the descriptor that keeps it alive: the child
-    ends as soon as this is closed, by whatever. Raises OSError.
+    """Start a child with temporary and user files in `folder` and its standard error in `log`.
+
+    Messages go to its standard input, answers come from its standard output. Also return the descriptor that keeps it
+    alive: the child ends as soon as this is closed, by whatever. Raises OSError.
     """
     folder.mkdir(parents=True)
     watched, kept = (None, None) if _WINDOWS else os.pipe()

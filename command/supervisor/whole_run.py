@@ -18,8 +18,10 @@ _STOP = 5.0  # seconds that a run may take to stop
 
 
 class WholeRun:
-    """`measure` with these words under way. output: its result. blender: the Blender to start; None for this Python,
-    which must have the bpy module then. Raises OSError.
+    """A running `measure` with the given words.
+
+    output: its result. blender: the Blender to start; None for this Python, which must have the bpy module then. Raises
+    OSError.
     """
 
     def __init__(self, words: Sequence[str], output: Path, blender: str | None) -> None:

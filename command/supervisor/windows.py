@@ -13,7 +13,7 @@ _Size = ctypes.c_size_t
 
 
 class _Counters(ctypes.Structure):
-    """PROCESS_MEMORY_COUNTERS_EX"""
+    """The structure PROCESS_MEMORY_COUNTERS_EX."""
 
     _fields_ = (
         *(("cb", ctypes.c_uint32), ("PageFaultCount", ctypes.c_uint32)),
@@ -25,7 +25,7 @@ class _Counters(ctypes.Structure):
 
 
 class _Status(ctypes.Structure):
-    """MEMORYSTATUSEX"""
+    """The structure MEMORYSTATUSEX."""
 
     _fields_ = (
         *(("dwLength", ctypes.c_uint32), ("dwMemoryLoad", ctypes.c_uint32)),

@@ -109,7 +109,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
 
 
 class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
-    """Put the origin of the assembly at its center of mass"""
+    """Put the origin of the assembly at its center of mass."""
 
     bl_idname = "object.body_moments_assembly_origin"
     bl_label = "Origin to Center of Assembly"

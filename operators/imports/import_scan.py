@@ -190,8 +190,9 @@ def _read_positions(files: dict[str, str], scan: Scan) -> Positions:
 
 
 def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
-    """Write the scan as a grid, whole or not at all, and return its least value. The background differs from every
-    sample's value, so that none is lost, but is zero if no sample is negative.
+    """Write the scan as a grid, whole or not at all, and return its least value.
+
+    The background differs from every sample's value, so that none is lost, but is zero if no sample is negative.
     """
     least, exact = np.inf, True
     for _, slab in _slabs(scan):

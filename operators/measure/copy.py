@@ -71,7 +71,7 @@ def selected_document(context: Context) -> dict[str, Any]:
 
 
 class OBJECT_OT_body_moments_copy_report(Operator):
-    """Copy the stored mass properties of the selected objects"""
+    """Copy the stored mass properties of the selected objects."""
 
     bl_idname = "object.body_moments_copy_report"
     bl_label = "Copy Report"

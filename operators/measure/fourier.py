@@ -81,7 +81,7 @@ class _Settings:
 
 
 class OBJECT_OT_body_moments_fourier(_Settings, Operator):
-    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object"""
+    """Ask for a file and a grid of frequencies, then write the Fourier transform of the active object."""
 
     bl_idname = "object.body_moments_fourier"
     bl_label = "Fourier Transform"
@@ -180,8 +180,9 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         self._steps = (done for done in self._work.steps())
 
     def _grid(self, size: float) -> FrequencyGrid:
-        """Return the grid for a body of this size in m. Without a given largest frequency, its step is π over the
-        size.
+        """Return the grid for a body of this size in m.
+
+        Without a given largest frequency, its step is π over the size.
         """
         largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
         return FrequencyGrid(self.count, largest, self._dimension)

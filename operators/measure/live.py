@@ -17,7 +17,7 @@ from ..modal import redraw
 
 
 class OBJECT_OT_body_moments_live(Operator):
-    """Let the numbers of the selected objects follow what happens to them"""
+    """Let the numbers of the selected objects follow what happens to them."""
 
     bl_idname = "object.body_moments_live"
     bl_label = "Live"

@@ -46,7 +46,7 @@ def _active(cls: type[Operator], context: Context) -> Object | None:
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):
-    """Compute all moments of the active object up to the chosen order"""
+    """Compute all moments of the active object up to the chosen order."""
 
     bl_idname = "object.body_moments_compute_moments"
     bl_label = "Compute Moments"
@@ -82,8 +82,9 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 def _compute(
     context: Context, obj: Object, order: int, key: tuple[str, str, int]
 ) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
-    """Return the moments of a body, of a flat shape, or of both, or None for a wire that bounds nothing. MeasureError
-    if the object is neither.
+    """Return the moments of a body, of a flat shape, or of both, or None for a wire that bounds nothing.
+
+    Raises MeasureError if the object is neither.
     """
     depsgraph = context.evaluated_depsgraph_get()
     region, flat, not_flat = None, None, None

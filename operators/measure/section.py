@@ -34,10 +34,9 @@ from .copy import copy_text
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:
-    """Return the section of one object in SI units and world axes, a description of the measured part, and the
-    findings.
+    """Return an object's section in SI units and world axes, a description of the measured part, and the findings.
 
-    Raises MeasureError if there is none.
+    Raises MeasureError if there is no section.
     """
     found = flat_region(obj, depsgraph, exact=False)
     section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
@@ -52,7 +51,7 @@ def stale_reason(obj: Object, scene: bpy.types.Scene, stored: record.StoredSecti
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
-    """Compute the section properties of the selection"""
+    """Compute the section properties of the selection."""
 
     bl_idname = "object.body_moments_measure_section"
     bl_label = "Measure Section"

@@ -56,7 +56,7 @@ DEFORMING_MODIFIERS = {
 
 
 class OBJECT_OT_body_moments_select_faults(Operator):
-    """Measure the selected meshes and select their defects in Edit Mode"""
+    """Measure the selected meshes and select their defects in Edit Mode."""
 
     bl_idname = "object.body_moments_select_faults"
     bl_label = "Select Defects"
@@ -168,9 +168,7 @@ def _show_defects(context: Context, faults: dict[Object, dict[str, np.ndarray]])
 
 
 def _select_elements(obj: Object, elements: dict[str, np.ndarray]) -> None:
-    """Select exactly the faults. (k, 2) arrays are edges by their vertices, (k,) arrays are
-    faces.
-    """
+    """Select exactly the faults: (k, 2) arrays are edges by their vertices, (k,) arrays are faces."""
     edges = [indices for indices in elements.values() if indices.ndim == 2]
     faces = [indices for indices in elements.values() if indices.ndim == 1]
     mesh = bmesh.from_edit_mesh(obj.data)

@@ -30,7 +30,7 @@ CENTER_OF = "center_of_mass_of"  # ID property of what is made: the armature obj
 
 
 class OBJECT_OT_body_moments_rig_center(Operator):
-    """Add an empty that stays at the center of mass of the posed character"""
+    """Add an empty that stays at the center of mass of the posed character."""
 
     bl_idname = "object.body_moments_rig_center"
     bl_label = "Add Center of Mass"
@@ -78,7 +78,7 @@ def _add_center(context: Context, rig: Rig) -> None:
 
 
 def _follower(context: Context, made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
-    """An empty that is parented to a bone, at the center of its part."""
+    """Add an empty that is parented to a bone, at the center of its part."""
     bone = armature.data.bones[part.name]
     empty = bpy.data.objects.new("{:s} {:s} Center".format(armature.name, part.name), None)
     empty.empty_display_size = 0.1 * bone.length

@@ -29,7 +29,7 @@ MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min
 
 
 class OBJECT_OT_body_moments_physics_rig(Operator):
-    """Create rigid bodies with the exact masses of the bones' parts, joined at the bones"""
+    """Create rigid bodies with the exact masses of the bones' parts, joined at the bones."""
 
     bl_idname = "object.body_moments_physics_rig"
     bl_label = "Create Physics Rig"

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Center of Mass as a node group of geometry nodes: it follows modifiers and animation, renders, and works without the
-add-on.
+"""Center of Mass as a node group of geometry nodes.
+
+It follows modifiers and animation, renders, and works without the add-on.
 
 Over the triangles (a, b, c), with corners relative to the middle of the bounding box, the volume is Σ a·(b×c) / 6 and
 the center of mass Σ a·(b×c) (a + b + c) / 4 over Σ a·(b×c). Both sums change their sign together in a mirrored object
@@ -31,7 +32,7 @@ MARKER_SHARE = 0.04  # radius of the marker beside the object's largest side
 
 
 class OBJECT_OT_body_moments_add_nodes(Operator):
-    """Add a node group that computes the center of mass in geometry nodes"""
+    """Add a node group that computes the center of mass in geometry nodes."""
 
     bl_idname = "object.body_moments_add_nodes"
     bl_label = "Center of Mass Node Group"

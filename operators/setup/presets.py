@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials for all selected objects at once, presets of one's own, and settings from one object
-to the others.
-"""
+"""Materials for all selected objects at once, presets of one's own, and settings from one object to the others."""
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -39,7 +37,7 @@ def _targets(context: Context) -> list[Object]:
 
 
 class OBJECT_OT_body_moments_set_material(Operator):
-    """Set the density of the selected objects to that of a material"""
+    """Set the density of the selected objects to that of a material."""
 
     bl_idname = "object.body_moments_set_material"
     bl_label = "Set Material"
@@ -128,7 +126,7 @@ class MATERIAL_OT_body_moments_set_density(Operator):
 
 
 class OBJECT_OT_body_moments_copy_settings(Operator):
-    """Copy the settings of the active object to the other selected objects"""
+    """Copy the settings of the active object to the other selected objects."""
 
     bl_idname = "object.body_moments_copy_settings"
     bl_label = "Copy Settings to Selected"

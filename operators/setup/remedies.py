@@ -115,7 +115,7 @@ class OBJECT_OT_body_moments_measure_as_shell(Operator):
 
 
 class OBJECT_OT_body_moments_recalculate_outside(Operator):
-    """Reverse the faces of the active mesh that were measured as reversed, and measure it again"""
+    """Reverse the faces of the active mesh that were measured as reversed, and measure it again."""
 
     bl_idname = "object.body_moments_recalculate_outside"
     bl_label = "Recalculate Outside"

@@ -70,7 +70,7 @@ class Measured:
 
 
 class OBJECT_OT_body_moments_rigid_bodies(Operator):
-    """Make the selected objects rigid bodies with their exact mass, center of mass and principal axes"""
+    """Make the selected objects rigid bodies with their exact mass, center of mass and principal axes."""
 
     bl_idname = "object.body_moments_rigid_bodies"
     bl_label = "Make Rigid Bodies"

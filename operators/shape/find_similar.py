@@ -87,8 +87,9 @@ class _SearchMixin:
         return True
 
     def measure_active(self, context: Context) -> Iterator[float]:
-        """Measure the active object: `shape`, and `wanted`, its signature, which stays None with a report if there is
-        none.
+        """Measure the active object: `shape`, and `wanted`, its signature.
+
+        `wanted` stays None with a report if there is no signature.
         """
         self.wanted: Signature | None = None
         try:
@@ -127,7 +128,7 @@ class _SearchMixin:
 
 
 class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
-    """Find the visible objects most similar in shape to the active object"""
+    """Find the visible objects most similar in shape to the active object."""
 
     bl_idname = "object.body_moments_find_similar"
     bl_label = "Find Similar"
@@ -226,7 +227,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
 
 
 class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
-    """Find the bodies of a library most similar in shape to the active object"""
+    """Find the bodies of a library most similar in shape to the active object."""
 
     bl_idname = "object.body_moments_find_in_library"
     bl_label = "Find in Library"

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Find Symmetry: the rotation axes and mirror planes of the selected objects, by their moments and confirmed on their
-surfaces. They are kept with each object, in its own axes, for the panel.
+"""Find Symmetry: the rotation axes and mirror planes of the selected objects.
+
+They are found by the moments and confirmed on the surfaces, and kept with each object, in its own axes, for the panel.
 """
 
 from __future__ import annotations
@@ -86,7 +87,7 @@ class BodyMomentsSymmetry(PropertyGroup):
 
 
 class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
-    """Find the rotation axes and mirror planes of the selected objects"""
+    """Find the rotation axes and mirror planes of the selected objects."""
 
     bl_idname = "object.body_moments_find_symmetry"
     bl_label = "Find Symmetry"

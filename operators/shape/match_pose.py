@@ -35,7 +35,7 @@ from ..snap import base as snapping
 
 
 class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
-    """Move the other selected objects onto the active object"""
+    """Move the other selected objects onto the active object."""
 
     bl_idname = "object.body_moments_match_pose"
     bl_label = "Match Pose"

@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Align Object to World: turn the object, and with it its children, until its principal axes lie
-along the world's.
-"""
+"""Align Object to World: turn the object and its children until its principal axes lie along the world's."""
 
 import numpy as np
 from bpy.props import EnumProperty
@@ -29,7 +27,7 @@ def directions(order: str) -> NDArray[np.float64]:
 
 
 class OBJECT_OT_body_moments_align_to_world(Operator):
-    """Rotate the object so that its principal axes align with the world axes"""
+    """Rotate the object so that its principal axes align with the world axes."""
 
     bl_idname = "object.body_moments_align_to_world"
     bl_label = "Align Object to World"

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The common parts of the snapping operators: the current place of the body, in Blender units, and updates of stored
-results.
+"""Common parts of the snapping operators.
+
+They find the current place of the body, in Blender units, and update stored results.
 
 Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured again they turn, by
 about rounding over the gap between the moments. Whether axes are principal is therefore decided by the tensor, which
@@ -76,8 +77,9 @@ class SnapTarget:
         return float(self.gyration.max())
 
     def is_principal(self, frame: NDArray) -> bool:
-        """Return whether the columns of `frame` are this body's principal axes, in this order and with these signs, as
-        far as its coordinates can show.
+        """Return whether the columns of `frame` are this body's principal axes, as far as its coordinates can show.
+
+        The axes must be in this order and with these signs.
         """
         tensor = frame.T @ self.inertia @ frame
         limit = DIAGONAL_RTOL * np.trace(tensor)
@@ -92,9 +94,7 @@ class SnapTarget:
         )
 
     def _matches_shape_axes(self, frame: NDArray) -> bool:
-        """Return whether the axes of equal moments lie as the shape requires: a cube's sides along any of its own
-        axes.
-        """
+        """Return whether axes of equal moments lie as the shape requires: a cube's sides along any of its own axes."""
         cosines = (frame.T @ self.axes)[:, self.shape_axes]
         expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
@@ -103,16 +103,19 @@ class SnapTarget:
 def targets_in_turn(
     context: Context, objects: Sequence[Object], strict: bool = False
 ) -> Callable[[Object], SnapTarget]:
-    """Return a function that gives the `snap_target` of one object at a time, measured in batches. The scene must not
-    change meanwhile.
+    """Return a function that gives the `snap_target` of one object at a time, measured in batches.
+
+    The scene must not change meanwhile.
     """
     measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
     return lambda obj: target_of(context, obj, measured(obj), strict)
 
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
-    """Measure an object; EditRefusedError if its numbers depend on a reference point. strict: use the axes of Zhang and
-    Chen's rule, or refuse the object if it has none.
+    """Measure an object for snapping.
+
+    Raises EditRefusedError if its numbers depend on a reference point. strict: use the axes of Zhang and Chen's rule,
+    or refuse the object if it has none.
     """
     return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict)
 
@@ -148,8 +151,9 @@ def target_of(context: Context, obj: Object, measured: Measured | Stacked, stric
 def remeasure(
     context: Context, objects: Sequence[Object], known: Mapping[Object, Measured | Stacked] = NOTHING
 ) -> None:
-    """Measure and store again the objects with stored results, after an operator has moved them. known: measurements of
-    objects that have not moved since.
+    """Measure and store again the objects with stored results, after an operator has moved them.
+
+    known: measurements of objects that have not moved since.
     """
     stored = [obj for obj in objects if properties.is_stored(obj)]
     if not stored:
@@ -223,8 +227,9 @@ def reframe_selected(
     move_only: bool,
     strict: bool = False,
 ) -> set[str]:
-    """Give each selected object the matrix that `target_matrix` returns for it, while nothing visible moves, and report
-    it. `target_matrix` returns None if the object is in place already. done: the report; it gets the value `count`.
+    """Give each selected object the matrix that `target_matrix` returns, while nothing visible moves, and report it.
+
+    `target_matrix` returns None if the object is in place already. done: the report; it gets the value `count`.
     """
     objects = selection.selected_measurable(context)
     changed, failures = reframe_objects(context, objects, target_matrix, move_only, strict)

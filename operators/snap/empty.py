@@ -31,7 +31,7 @@ RESTORED_PROPERTIES = ("parent", "parent_type", "parent_bone", "empty_display_si
 
 
 class OBJECT_OT_body_moments_add_empty(Operator):
-    """Add an empty at the center of mass, along the principal axes"""
+    """Add an empty at the center of mass, along the principal axes."""
 
     bl_idname = "object.body_moments_add_empty"
     bl_label = "Add Empty at Principal Frame"
@@ -105,8 +105,9 @@ class OBJECT_OT_body_moments_add_empty(Operator):
     def _place(
         self, existing: Object | None, context: Context, body: snapping.SnapTarget
     ) -> Generator[None, Depsgraph, bool]:
-        """Move the empty, or a new one, to the body's frame; return whether it was elsewhere. EditRefusedError if it
-        cannot be there: then nothing has changed.
+        """Move the empty, or a new one, to the body's frame; return whether it was elsewhere.
+
+        Raises EditRefusedError if the empty cannot be there: then nothing has changed.
         """
         parent = body.obj if self.parent else None
         if existing is not None:

@@ -66,9 +66,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
 
 
 def _view_3d(context: Context) -> dict | None:
-    """Return a 3D view to create orientations from: the one that the operator was called from, or the first that is
-    open.
-    """
+    """Return a 3D view to create orientations from: the operator's own, or the first that is open."""
     windows = [context.window] if context.window else []
     windows += [window for window in context.window_manager.windows if window not in windows]
     for window in windows:

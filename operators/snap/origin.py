@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Origin to Center of Mass. Blender's own operator ignores modifiers and moves other users of
-the data.
+"""Origin to Center of Mass.
+
+Blender's own operator ignores modifiers and moves other users of the data.
 """
 
 import numpy as np
@@ -16,7 +17,7 @@ from . import base as snapping
 
 
 class OBJECT_OT_body_moments_origin_to_center(Operator):
-    """Move the origin to the exact center of mass of the evaluated object"""
+    """Move the origin to the exact center of mass of the evaluated object."""
 
     bl_idname = "object.body_moments_origin_to_center"
     bl_label = "Origin to Center of Mass"

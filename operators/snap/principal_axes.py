@@ -20,7 +20,7 @@ UNIT_SCALE = 1e-6  # by how much the products of an object's axes may differ fro
 
 
 class OBJECT_OT_body_moments_axes_to_principal(Operator):
-    """Make the principal frame the frame of the object"""
+    """Make the principal frame the frame of the object."""
 
     bl_idname = "object.body_moments_axes_to_principal"
     bl_label = "Axes to Principal Axes"

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Set Rigid Body Mass, in kilograms. Blender's own Calculate Mass weighs the collision shape,
-not the object.
+"""Set Rigid Body Mass, in kilograms.
 
-Bullet, Blender's physics engine, takes the object's origin as the center of mass and a diagonal
-inertia along the object's axes; Axes to Principal Axes makes that right.
+Blender's own Calculate Mass weighs the collision shape, not the object.
+
+Bullet, Blender's physics engine, takes the object's origin as the center of mass and a diagonal inertia along the
+object's axes; Axes to Principal Axes makes that right.
 """
 
 import bpy
@@ -37,7 +38,7 @@ from .principal_axes import matrix_along_axes
 
 
 class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
-    """Set the mass of rigid bodies to the measured mass in kilograms"""
+    """Set the mass of rigid bodies to the measured mass in kilograms."""
 
     bl_idname = "object.body_moments_set_rigid_body_mass"
     bl_label = "Set Rigid Body Mass"

@@ -64,7 +64,7 @@ ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported a
 
 
 class OBJECT_OT_body_moments_sculpt_balance(Operator):
-    """Move vertices as little as possible to bring the center of mass over a point"""
+    """Move vertices as little as possible to bring the center of mass over a point."""
 
     bl_idname = "object.body_moments_sculpt_balance"
     bl_label = "Sculpt Balance"

@@ -41,7 +41,7 @@ REACH = 0.01  # contact with the ground within this distance, relative to the co
 
 
 class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
-    """Follow the center of mass of several objects over the frame range"""
+    """Follow the center of mass of several objects over the frame range."""
 
     bl_idname = "object.body_moments_balance_group"
     bl_label = "Balance Group"

@@ -25,7 +25,7 @@ from .stability import check_stability
 
 
 class OBJECT_OT_body_moments_rest_on_ground(Operator):
-    """Lay the selected objects on the ground in a pose in which they stay"""
+    """Lay the selected objects on the ground in a pose in which they stay."""
 
     bl_idname = "object.body_moments_rest_on_ground"
     bl_label = "Rest on Ground"

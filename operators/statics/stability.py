@@ -21,7 +21,7 @@ from ..modal import redraw
 
 
 class OBJECT_OT_body_moments_stability(Operator):
-    """Compute whether the selected objects stand on the ground below them, and in which poses they rest"""
+    """Compute whether the selected objects stand on the ground below them, and in which poses they rest."""
 
     bl_idname = "object.body_moments_stability"
     bl_label = "Check Stability"
@@ -55,8 +55,10 @@ class OBJECT_OT_body_moments_stability(Operator):
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[Finding]:
-    """Remember the hull of an object, and measure it if its numbers are out of date; it is then added to `measured`.
-    Return the findings. MeasureError if it has no certain center or no surface.
+    """Remember the hull of an object, and return the findings.
+
+    If the object's numbers are out of date, it is measured and added to `measured`. Raises MeasureError if it has no
+    certain center or no surface.
     """
     depsgraph = context.evaluated_depsgraph_get()
     if properties.numbers(obj) is None or staleness.stale_reason(obj, context.scene):

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of the density, and its row in the main panel: given mass, one value, materials, polynomial, attribute,
-Volume object.
+"""The sub-panel of the density, and its row in the main panel.
+
+The density is a given mass, one value, materials, a polynomial, an attribute or a Volume object.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of rarely needed numbers: error bounds, the display mesh, the Fourier transform. The moments to a
-chosen order, sections and shapes are sub-panels of it.
+"""The sub-panel of rarely needed numbers: error bounds, the display mesh, the Fourier transform.
+
+The moments to a chosen order, sections and shapes are sub-panels of it.
 """
 
 from __future__ import annotations

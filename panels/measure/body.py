@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The main panel: the object's name and a verdict, warnings and their remedies, mass, volume and center. The rest is in
-sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
+"""The main panel: the object's name and a verdict, warnings and their remedies, mass, volume and center.
+
+The rest is in sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Warnings right under the verdict, each with the buttons that apply its remedy or accept it; the refusals of the last
-action; and the question whether a unit is a millimeter.
+"""Warnings right under the verdict, each with the buttons that apply its remedy or accept it.
+
+The refusals of the last action, and the question whether a unit is a millimeter, are here too.
 """
 
 from __future__ import annotations

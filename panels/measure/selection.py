@@ -30,7 +30,7 @@ LINES = 5  # height of the list, before it scrolls
 
 
 class BODY_MOMENTS_UL_measured(UIList):
-    """The measured objects of the view layer with mass and verdict"""
+    """The measured objects of the view layer with mass and verdict."""
 
     sort_by: EnumProperty(
         name="Sort By",

@@ -78,8 +78,9 @@ NOTHING = Collected(NO_BODIES, [], {})
 
 
 def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
-    """Yield the objects with numbers to draw in a view: visible and, if not all, selected. In Pose Mode an armature
-    represents its meshes.
+    """Yield the objects with numbers to draw in a view: visible and, if not all, selected.
+
+    In Pose Mode an armature represents its meshes.
     """
     layer, space = context.view_layer, context.space_data
     for obj in layer.objects if show_all else layer.objects.selected:
@@ -89,9 +90,7 @@ def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
 
 
 def collect(context: Context) -> Collected:
-    """Gather the displayed bodies of the objects, of the selected pose bones, and if enabled of the selection as one
-    body.
-    """
+    """Gather the displayed bodies: of objects, of selected pose bones, and if enabled of the selection as one."""
     scene = context.scene
     settings = scene.body_moments.overlay
     bodies, objects, alone = [], [], {}

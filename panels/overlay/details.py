@@ -49,9 +49,7 @@ def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> I
 
 
 def _path(path: balance_groups.Path) -> Detail:
-    """Return a line from frame to frame, orange if the center is outside the support polygon, with a tick at each
-    frame.
-    """
+    """Return a line from frame to frame with a tick at each, orange if the center is outside the support polygon."""
     starts, ends = path.centers[:-1], path.centers[1:]
     outside = np.zeros(len(starts), bool) if path.inside is None else ~(path.inside[:-1] & path.inside[1:])
     colors = np.where(outside[:, None], look.TIPS, look.PATH)

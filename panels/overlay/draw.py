@@ -129,8 +129,9 @@ def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> View:
 
 
 def _made(before: _Drawn | None, context: Context, key: tuple, generation: int) -> _Drawn:
-    """Rebuild the batches that changed, or all of them if the key is new. Moving bodies are in their own layer, so that
-    the others' batches stay.
+    """Rebuild the batches that changed, or all of them if the key is new.
+
+    Moving bodies are in their own layer, so that the others' batches stay.
     """
     settings, collected, resting = context.scene.body_moments.overlay, None, None
     if before is not None and not settings.show_sum:

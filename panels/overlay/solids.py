@@ -37,8 +37,9 @@ def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArr
 
 
 def _spread(gyration: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration: twice the mean square distance along axis
-    i.
+    """Return (n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration.
+
+    The values are twice the mean square distance along axis i.
     """
     squares = gyration**2
     return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
@@ -52,8 +53,9 @@ def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.
 
 
 def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """Return the ellipsoid with the same mass and inertia, semi-axes a_i² = 5 (I_j + I_k - I_i) / (2 m): three
-    ellipses.
+    """Return the ellipsoid with the same mass and inertia as three ellipses.
+
+    Its semi-axes are a_i² = 5 (I_j + I_k - I_i) / (2 m).
     """
     half = np.sqrt(2.5 * _spread(gyration))
     circles = np.zeros((3, len(CIRCLE), 3))

@@ -31,8 +31,9 @@ class View:
         return -(points @ self.view[2, :3] + self.view[2, 3])
 
     def pixels(self, points: NDArray) -> NDArray[np.float64]:
-        """Return (n, 2) screen positions of (n, 3) points, from the lower left corner. Meaningless for points behind
-        the eye.
+        """Return (n, 2) screen positions of (n, 3) points, from the lower left corner.
+
+        Positions of points behind the eye are meaningless.
         """
         seen = points @ self.view[:3, :3].T + self.view[:3, 3]
         clip = seen @ self.projection[:, :3].T + self.projection[:, 3]
