@@ -36,18 +36,11 @@ TOUCH_RTOL = 1e-9  # Relative to the polygon's size: edges that pass each other 
 class OutlineDefects:
     """Defects that make the inside of edges ambiguous.
 
-    Attributes
-    ----------
-    crossings : int
-        Pairs of edges that cross.
-    too_many_pairs : bool
-        True if there were too many pairs to compare all of them.
-    overlapping : bool
-        True if an edge has more than one region beside it somewhere, or less than none.
-    negative : bool
-        True if less than none.
-    shared_length : float
-        The length along which edges run against each other, which does not belong to the region's boundary.
+    `crossings`: pairs of edges that cross.
+    `too_many_pairs`: True if there were too many pairs to compare all of them.
+    `overlapping`: True if an edge has more than one region beside it somewhere, or less than none.
+    `negative`: True if an edge has less than no region beside it somewhere.
+    `shared_length`: the length along which edges run against each other, which is not part of the region's boundary.
     """
 
     crossings: int

@@ -73,22 +73,10 @@ def polygon_transform(loops: Sequence[ArrayLike], q: ArrayLike) -> Spectrum:
 class RegionTransform:
     """The transform of a plane region under way: `steps` does the work, `result` returns the spectrum.
 
-    Parameters
-    ----------
-    points : (n, 2) array
-    edges : (m, 2) integer array
-        Closed; the inside lies to the left of each.
-    q : (M, 2) array_like, or FrequencyGrid
-        Wave vectors, rad per unit of length; the grid one of two dimensions.
-    rounded, stored : float
-        How far rounding, and storing the points as float32, may have moved each coordinate.
-
-    Raises
-    ------
-    MeasureError
-        If the wave vectors are not finite (M, 2).
-    ValueError
-        If coordinates are not finite.
+    The (m, 2) edges are closed; the inside lies to the left of each. `q` are (M, 2) wave vectors, rad per unit of
+    length, or a grid of two dimensions. `rounded` and `stored` bound the shift of each coordinate by rounding and
+    by storing as float32.
+    MeasureError if the wave vectors are not finite (M, 2), ValueError if coordinates are not finite.
     """
 
     def __init__(

@@ -120,18 +120,7 @@ def run_to_completion(transform: Transform) -> Spectrum:
 class Transform:
     """A transform under way: `steps` does the work, `result` returns the spectrum.
 
-    Parameters
-    ----------
-    surface : Surface
-    q : (M, 3) array_like, or FrequencyGrid
-    of : Measure
-        Volume or area.
-    threads : int
-
-    Raises
-    ------
-    MeasureError, ValueError
-        As `solid_transform`.
+    `q` are (M, 3) wave vectors or a grid; `of` is volume or area. MeasureError and ValueError as `solid_transform`.
     """
 
     def __init__(self, surface: Surface, q: ArrayLike | FrequencyGrid, of: Measure, threads: int = 1):

@@ -16,25 +16,11 @@ from .principal_frames import PrincipalFrame
 def affine_image(
     properties: MassProperties, linear: ArrayLike, center: ArrayLike, mass: float, preferred_axes: ArrayLike
 ) -> MassProperties:
-    """Return the mass properties of a body that is stretched, sheared and turned.
+    """Return the mass properties of a body that is stretched, sheared and turned by the (3, 3) part of a map.
 
-    Parameters
-    ----------
-    properties : MassProperties
-    linear : (3, 3) array_like
-        The linear part of the map.
-    center : (3,) array_like
-        The center of mass of the image.
-    mass : float
-        The mass of the image.
-    preferred_axes : (3, 3) array_like
-        Directions near the principal axes, as columns: each axis points the way of one.
-
-    Returns
-    -------
-    MassProperties
-        With the bounds of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
-        second moments alone leave the signs open.
+    `center` and `mass` are those of the image; each principal axis points the way of a column of `preferred_axes`.
+    The bounds are those of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
+    second moments alone leave the signs open.
 
     Examples
     --------

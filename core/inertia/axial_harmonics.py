@@ -37,13 +37,8 @@ class AxialHarmonics:
     """Harmonics about an axis, as shares of the largest possible ones.
 
     The largest is that of a body of that radius and height, or of one that is not as flat.
-
-    Attributes
-    ----------
-    frame : (3, 3) array
-        The axes x, y, z as columns, a rotation; z is the axis.
-    values : (2, n + 1) complex array
-        ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
+    `frame`: a rotation with the axes x, y, z as columns; z is the axis.
+    `values`: (2, n + 1) ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
     """
 
     frame: NDArray[np.float64]
@@ -72,24 +67,10 @@ class AxialHarmonics:
 def axial_harmonics(
     surfaces: Iterable[Surface], center: NDArray, frame: NDArray, *, area: bool, order: int = MAX_AXIAL_ORDER
 ) -> AxialHarmonics:
-    """Find the harmonics of the body that surfaces bound, or of the surfaces themselves.
+    """Find the harmonics of the body that surfaces bound, or of the surfaces themselves if `area`.
 
-    Parameters
-    ----------
-    surfaces : iterable of Surface
-        Closed, outward; in the same coordinates.
-    center : (3,) array
-        A point of the axis.
-    frame : (3, 3) array
-        As in `AxialHarmonics`.
-    area : bool
-        True for the surfaces themselves.
-    order : int
-        The largest m.
-
-    Returns
-    -------
-    AxialHarmonics
+    The surfaces are closed, outward, and in the same coordinates. `center` is a point of the axis, `frame` as in
+    `AxialHarmonics`, `order` the largest m.
     """
     pieces = [((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0]) for piece in surfaces]
     reach = max(float(np.hypot(points[:, 0], points[:, 1]).max()) for points, _ in pieces)
@@ -139,22 +120,10 @@ def axis_last(alike: EquivalentFrames) -> NDArray[np.float64]:
 def turn_by_harmonics(
     alike: EquivalentFrames, harmonics: AxialHarmonics, noise: float = NOISE_LEVEL
 ) -> EquivalentFrames:
-    """Turn the frames of a body of revolution, as it seemed, as its harmonics ask.
+    """Turn the frames of a body with one apparent axis of revolution to suit its harmonics about that axis.
 
-    Parameters
-    ----------
-    alike : EquivalentFrames
-        With one axis of revolution.
-    harmonics : AxialHarmonics
-        About that axis.
-    noise : float
-        Harmonics below this are noise.
-
-    Returns
-    -------
-    EquivalentFrames
-        Frames in which the body is the same, to the harmonics' order; `alike` if no harmonic is more than noise, or the
-        axis itself is not known well.
+    Return frames in which the body is the same, to the harmonics' order; `alike` if no harmonic is more than noise,
+    or the axis itself is not known well.
     """
     (axis,) = alike.revolution_axes
     if alike.tilt > MAX_TILT:

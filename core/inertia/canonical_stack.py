@@ -32,20 +32,9 @@ HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.
 
 
 def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Choose, for bodies without axes of equal moments, the half turns of their axes that `canonical_frames` chooses.
+    """Choose the half turns of `canonical_frames` for bodies without axes of equal moments.
 
-    Parameters
-    ----------
-    moments : Moments
-        Of n bodies, to sixth order.
-    fixed : ThirdMomentFrames
-    bodies : (n,) int
-        Their indices.
-
-    Returns
-    -------
-    (n, 4) bool
-        Mask of `third_moment_frames.HALF_TURN_SIGNS`.
+    Return an (n, 4) mask of `third_moment_frames.HALF_TURN_SIGNS`. The moments are to sixth order, `bodies` indices.
     """
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
@@ -56,19 +45,8 @@ def choose_about_axis(
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Choose the half turns that `canonical_frames` chooses for bodies with two axes of equal moments.
 
-    They hold if no moment fixes the directions of these axes.
-
-    Parameters
-    ----------
-    moments, fixed, bodies
-        As for `choose_half_turns`.
-
-    Returns
-    -------
-    is_round : (n,) bool
-        True if no moment fixes them; the others have to be looked at one by one.
-    allowed : (n, 4) bool
-        One half turn for one direction of the axis, or for both.
+    Return an (n,) mask of the bodies whose moments do not fix the directions of these axes, and the (n, 4) half turns:
+    one for one direction of the axis, or for both. They hold for the masked bodies; look at the others one by one.
     """
     values, least, raw = _along_axes(moments, fixed, bodies)
     is_round, allowed = np.ones(len(bodies), bool), fixed.allowed[bodies]

@@ -123,15 +123,10 @@ class PrincipalFrame:
 class OwnMoments:
     """The moments to higher order of m bodies, each of them one of u shapes in coordinates of its own.
 
-    Attributes
-    ----------
-    moments : Moments
-        Of the shapes, (u, K): to order 6.
-    shape : (m,) int
-        The shape of each body.
-    rotation : (m, 3, 3) array, optional
-        Turns the shape into the body, but for its size; None if they have the same coordinates, and each body is a
-        shape of its own.
+    `moments`: (u, K) of the shapes, to order 6.
+    `shape`: (m,) the shape of each body.
+    `rotation`: (m, 3, 3) turns the shape into the body, but for its size; None if they have the same coordinates, and
+    each body is a shape of its own.
     """
 
     moments: Moments
@@ -200,21 +195,10 @@ def principal_frames(
     preferred_axes: NDArray,
     higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
 ) -> PrincipalFrame:
-    """Return the principal frames of a stack of bodies, as `principal_frame` does for one.
+    """Return the principal frames of a stack of n bodies, as `principal_frame` does for one.
 
-    Parameters
-    ----------
-    fixed : ThirdMomentFrames
-        Of the n bodies.
-    preferred_axes : (n, 3, 3) array
-    higher : callable, optional
-        Returns the moments of the bodies that it is given, to order `canonical_frame.MAX_ORDER`; called once, if third
-        order leaves a choice.
-
-    Returns
-    -------
-    PrincipalFrame
-        With a leading axis; symmetry, finding and undetermined_axes are arrays of objects.
+    The result has a leading axis; symmetry, finding and undetermined_axes are arrays of objects. `higher` returns the
+    moments of given bodies to order `canonical_frame.MAX_ORDER`; called once, if third order leaves a choice.
     """
     count = len(fixed.moments)
     symmetry = np.array(SYMMETRIES, object)[fixed.symmetry]

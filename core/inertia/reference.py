@@ -188,16 +188,9 @@ class Reference:
 class ReferredInertia:
     """Inertia about a reference, along its axes.
 
-    Attributes
-    ----------
-    reference : Reference
-    mass : float
-    center : (3,) array
-        The center of mass from the reference's origin, along its axes. Mass times this is the first moment.
-    inertia : (3, 3) array
-        The tensor about the reference's origin.
-    rounding_error, input_error : dict of str to float
-        Absolute bounds of "mass", "center" and "inertia", as in `MassProperties`.
+    `center`: the center of mass from the reference's origin, along its axes; mass times this is the first moment.
+    `inertia`: the (3, 3) tensor about the reference's origin.
+    `rounding_error`, `input_error`: absolute bounds of "mass", "center" and "inertia", as in `MassProperties`.
 
     Examples
     --------

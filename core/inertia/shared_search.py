@@ -49,25 +49,9 @@ BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # for a
 
 
 def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
-    """Find the frames of `canonical_frames` for bodies with two or three equal second moments.
+    """Find the frames of `canonical_frames`, without values, for bodies with two or three equal second moments.
 
-    Parameters
-    ----------
-    moments : Moments
-        Of n bodies, to order MAX_ORDER.
-    fixed : ThirdMomentFrames
-    bodies : (n,) int
-        Their indices.
-
-    Returns
-    -------
-    list of EquivalentFrames
-        Without values.
-
-    Raises
-    ------
-    MeasureError
-        If the size of one is beyond the range of numbers.
+    The moments are to order MAX_ORDER; `bodies` are indices. MeasureError if a size is beyond the range of numbers.
     """
     with np.errstate(over="ignore", under="ignore"):
         reach = moments.raw[:, 0] * fixed.size[bodies].max(axis=1) ** moments.order

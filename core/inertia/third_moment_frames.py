@@ -38,26 +38,14 @@ IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for nam
 class ThirdMomentFrames:
     """Frames of n bodies, as far as second and third moments fix them.
 
-    Attributes
-    ----------
-    is_body : (n,) bool
-        True if the second moments can belong to a body at all.
-    moments : (n, 3) array
-        Principal moments of inertia, ascending.
-    axes : (n, 3, 3) array
-        The axes as columns, determinant 1, largest second moment first.
-    size : (n, 3) array
-        The extents (standard deviations) along them.
-    symmetry : (n,) int
-        Of `SYMMETRIES`.
-    step, tilt : (n,) array
-        As in `SecondMomentAxes`.
-    noise : float
-        Likewise.
-    allowed : (n, 4) bool
-        Which of HALF_TURN_SIGNS times the axes third moments allow.
-    skewness, skewness_error : (n, 3) array
-        Along the axes, and its noise.
+    `is_body`: True if the second moments can belong to a body at all.
+    `moments`: (n, 3) principal moments of inertia, ascending.
+    `axes`: (n, 3, 3) the axes as columns, determinant 1, largest second moment first.
+    `size`: (n, 3) the extents (standard deviations) along them.
+    `symmetry`: (n,) members of `SYMMETRIES`.
+    `step`, `tilt`, `noise`: as in `SecondMomentAxes`.
+    `allowed`: (n, 4) mask of the HALF_TURN_SIGNS that third moments allow on the axes.
+    `skewness`, `skewness_error`: (n, 3) along the axes, and its noise.
     """
 
     is_body: NDArray[np.bool_]
@@ -90,16 +78,10 @@ class ThirdMomentFrames:
 def third_moment_frames(
     moments: Moments, refine: Callable[[NDArray[np.intp]], Moments] | None = None, noise_factor: float = 1.0
 ) -> ThirdMomentFrames:
-    """Find the frames, as far as second and third moments fix them.
+    """Find the frames, as far as second and third moments fix them, of n bodies with positive totals.
 
-    Parameters
-    ----------
-    moments : Moments
-        Of n bodies with positive totals, to order 3 at least.
-    refine : callable, optional
-        Returns the moments with exact third order of the bodies that it is given; called if bounds do not decide.
-    noise_factor : float
-        Noise level as a multiple of NOISE_LEVEL.
+    The moments are to order 3 at least. `refine` returns the moments with exact third order of given bodies; it is
+    called if bounds do not decide. `noise_factor` multiplies NOISE_LEVEL.
     """
     total = moments.raw[:, 0]
     shift = moments.raw[:, 1:4] / total[:, None]

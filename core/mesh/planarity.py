@@ -171,13 +171,8 @@ class PlanarityAccumulator:
 class StackPlanarity:
     """Flatness of the faces of n surfaces.
 
-    Attributes
-    ----------
-    non_planar_counts : (n,) int
-    volume_spread : (n,) array
-        As in `Planarity`, of each.
-    has_degenerate : (n,) bool
-        True if it has faces without area.
+    `volume_spread`: as in `Planarity`, of each surface.
+    `has_degenerate`: True if a surface has faces without area.
     """
 
     non_planar_counts: NDArray[np.intp]

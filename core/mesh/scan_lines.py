@@ -36,20 +36,13 @@ MAX_CROSSINGS = 16384, 0.5  # pairs of lines and triangles; likewise
 
 @dataclass(frozen=True, eq=False)
 class LineGrids:
-    """The lines through each of some bodies.
+    """The lines through each of b bodies.
 
-    Attributes
-    ----------
-    axes : (b, 3) int
-        Of the points' axes the one from row to row, that along a row, and that along the lines.
-    center : (b, 3) float
-        A point of the body, in the order of ``axes``.
-    cell : (b, 2) float
-        The height of the rows and the width of the columns (unit).
-    origin : (b, 2) float
-        The row and the column of the center; the body's first ones are 0.
-    rows, columns : int
-        How many there are at most.
+    `axes`: (b, 3) the points' axes from row to row, along a row, and along the lines.
+    `center`: (b, 3) a point of the body, in the order of `axes`.
+    `cell`: (b, 2) the height of the rows and the width of the columns (unit).
+    `origin`: (b, 2) the row and the column of the center; the body's first ones are 0.
+    `rows`, `columns`: the largest numbers of any body.
     """
 
     axes: NDArray[np.intp]
@@ -112,21 +105,13 @@ class LineGrids:
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """Crossings of lines with triangles.
+    """The k crossings of lines with the triangles of b bodies.
 
-    Attributes
-    ----------
-    body, row, column : (k,) int
-        Of the line.
-    triangle : (k,) int
-        Quad q is cut into 2q and 2q + 1; triangle t has twice the number of quads and t.
-    along : (k,) float
-        How far along the line from the body's center (unit).
-    sign : (k,) int
-        1 if a line enters and -1 if it leaves the body, for faces that run one way around; the opposite for faces that
-        run the other way.
-    rows_apart : (b,) int
-        Of each body every so many rows were taken.
+    `body`, `row`, `column`: the line.
+    `triangle`: quad q is cut into 2q and 2q + 1; triangle t has the index 2 · (number of quads) + t.
+    `along`: the distance along the line from the body's center (unit).
+    `sign`: 1 if a line enters and -1 if it leaves the body; the opposite for faces that run the other way around.
+    `rows_apart`: (b,) every so many rows of each body were taken.
     """
 
     body: NDArray[np.intp]
@@ -144,20 +129,9 @@ def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
 
 
 def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None) -> Crossings:
-    """Find the crossings of lines with the faces of bodies.
+    """Find the crossings of lines with the faces of bodies, in no particular order.
 
-    Parameters
-    ----------
-    surface : Surface
-        The faces of all bodies.
-    grids : LineGrids
-    body : (n,) int, optional
-        The body of each point; None for a single one.
-
-    Returns
-    -------
-    Crossings
-        In no particular order.
+    `body` is the (n,) body of each point; None for a single one.
     """
     triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
     corners, count = triangles.ravel(), triangles.shape[1]

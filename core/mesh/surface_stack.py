@@ -20,12 +20,7 @@ from .surface import Surface, flipped_quads
 class TriangleStack:
     """The triangles of n surfaces, each with its indices moved behind the points of the surfaces before it.
 
-    Attributes
-    ----------
-    points : (p, 3) float32 or float64
-    triangles : (t, 3) int
-    point_counts, triangle_counts : (n,) int
-        Of each surface; none has no points or no triangles.
+    `points` are (p, 3), float32 or float64, `triangles` (t, 3), the counts (n,). No surface lacks points or triangles.
     """
 
     points: NDArray[np.floating]
@@ -87,20 +82,9 @@ class SurfaceStack(TriangleStack):
     """The arrays of n surfaces.
 
     Make them by `of`. Faces are the meshes' own, numbered one surface after the other.
-
-    Attributes
-    ----------
-    points : (p, 3) float32 or float64
-    triangles : (t, 3) int
-        All faces as triangles, quads cut as drawn; of each surface first its triangles, then its quads.
-    triangle_faces : (t,) int
-        The face of each triangle.
-    quads : (q, 4) int
-    quad_faces : (q,) int
-    corner_vertices, corner_edges : (c,) int
-        The meshes' corners and the edges that start there.
-    point_counts, triangle_counts, quad_counts, corner_counts, face_counts, edge_counts : (n,) int
-        Of each surface; none has no points or no triangles.
+    `triangles`: (t, 3) all faces, quads cut as drawn; of each surface first its triangles, then its quads.
+    `triangle_faces`, `quad_faces`: the face of each triangle, (t,), and of each of the (q, 4) quads.
+    `corner_vertices`, `corner_edges`: (c,) the meshes' corners and the edges that start there.
     """
 
     triangle_faces: NDArray[np.intp]
@@ -247,18 +231,11 @@ class SurfaceStack(TriangleStack):
 class Connections:
     """Connections of the faces of n surfaces, by their meshes' own edges.
 
-    Attributes
-    ----------
-    is_closed : (n,) bool
-        True if every edge that has faces has two, which run along it in opposite directions.
-    is_open : (n,) bool
-        True if that is so but for some edges with one face.
-    component_counts : (n,) int
-        Components of each closed or open surface; meaningless for the others.
-    component : (f,) int
-        The component of each face, numbered in the order of their first faces.
-    open_sides : (2, k) int
-        Start and end vertices of the sides with no other side, for the open surfaces.
+    `is_closed`: True if every edge that has faces has two, which run along it in opposite directions.
+    `is_open`: True if that is so but for some edges with one face.
+    `component_counts`: (n,) components of each closed or open surface; meaningless for the others.
+    `component`: (f,) the component of each face, numbered in the order of their first faces.
+    `open_sides`: (2, k) start and end vertices of the sides with no other side, for the open surfaces.
     """
 
     is_closed: NDArray[np.bool_]

@@ -112,17 +112,9 @@ def _expansions(order: int) -> list[tuple[tuple[int, int], NDArray[np.int64], ND
 
 
 def hu_invariants(moments: Moments) -> list[Invariant]:
-    """Return Hu's seven invariants; the last has the opposite sign for a mirror image.
+    """Return Hu's seven invariants, φ1 to φ7; the last has the opposite sign for a mirror image.
 
-    Parameters
-    ----------
-    moments : Moments
-        Of a plane shape, normalized (`normalize`), to third order at least.
-
-    Returns
-    -------
-    list of Invariant
-        φ1 to φ7.
+    The moments are a plane shape's, normalized (`normalize`), to third order at least.
 
     Examples
     --------
@@ -151,17 +143,10 @@ def hu_invariants(moments: Moments) -> list[Invariant]:
 
 
 def flusser_invariants(moments: Moments) -> list[Invariant]:
-    """Return Flusser's basis c_pq c_12^(p-q), p ≥ q, from second order on: a mirror image has its conjugates.
+    """Return Flusser's basis c_pq c_12^(p-q), p ≥ q, by degree from second order on; a mirror image has its conjugates.
 
-    Parameters
-    ----------
-    moments : Moments
-        Of a plane shape, normalized (`normalize`), to third order at least.
-
-    Returns
-    -------
-    list of Invariant
-        By degree. For a shape with a rotational symmetry c_12 is zero, and with it all but the ones with p = q.
+    The moments are a plane shape's, normalized (`normalize`), to third order at least. If the shape has a rotational
+    symmetry, c_12 is zero, and with it every invariant except those with p = q.
 
     Examples
     --------

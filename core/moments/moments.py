@@ -340,17 +340,9 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
 
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
-    """Stack several bodies, of one measure and to the lowest of their orders, each about its own point.
+    """Stack the moments of bodies along a leading axis, to the lowest of their orders, each about its own point.
 
-    Parameters
-    ----------
-    parts : sequence of Moments
-        At least one.
-
-    Returns
-    -------
-    Moments
-        With a leading axis.
+    There is at least one body, and all have one measure.
     """
     count = min([part.raw.shape[-1] for part in parts])
     raw, rounding, inputs = (
@@ -363,20 +355,9 @@ def stack_moments(parts: Sequence[Moments]) -> Moments:
 def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     """Return the image of a body under an affine map, or of each of a stack under its own.
 
-    Parameters
-    ----------
-    moments : Moments
-    matrices : (..., 4, 4) or (..., 3, 4) array
-        Finite.
-    center : (..., 3) array
-        The point of the result.
-
-    Raises
-    ------
-    ValueError
-        If areas or lengths are mapped by a map that is no similarity.
-    MeasureError
-        If a map shrinks more than numbers can say.
+    `matrices` are (..., 4, 4) or (..., 3, 4) and finite; `center`, (..., 3), is the point of the result.
+    ValueError if areas or lengths are mapped by a map that is no similarity, MeasureError if a map shrinks more than
+    numbers can say.
     """
     order, about = moments.order, moments.about
     linear, offsets = matrices[..., :3, :3], matrices[..., :3, 3]

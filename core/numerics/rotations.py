@@ -106,16 +106,7 @@ def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.b
 
 
 def along_x(axis: NDArray) -> NDArray[np.float64]:
-    """Return a rotation with a unit vector as its first column.
-
-    Parameters
-    ----------
-    axis : (3,) array
-
-    Returns
-    -------
-    (3, 3) array
-    """
+    """Return a (3, 3) rotation with a unit vector as its first column."""
     second = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
     second = second / np.linalg.norm(second)
     return np.column_stack([axis, second, np.cross(axis, second)])

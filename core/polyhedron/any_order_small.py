@@ -31,18 +31,8 @@ def extend_small_moments(
 ) -> Moments:
     """Return the moments of n bodies to a higher order.
 
-    Parameters
-    ----------
-    volume : Moments
-        To third order, (n, 20), each about a point in its body.
-    order : int
-    points : (p, 3) array
-    triangles : (t, 3) int
-        One body after the other.
-    counts : (n,) int
-        Triangles of each body, at least one.
-    reach : (n, 3) array
-        Bounds of the distances of a body's points from there, with their possible shifts by storing.
+    `volume` has third order, (n, 20), each about a point in its body; the triangles are sorted by body, at least one
+    each. `reach`, (n, 3), bounds the distances of its points from that point, with their possible shifts by storing.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers, degree, factors = _new_monomials(known, order)

@@ -13,17 +13,10 @@ FACES_PER_BLOCK = 1 << 13  # so that what is computed of them stays in the cache
 
 
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
-    """Return the volume that a closed surface encloses, and its centroid.
+    """Return the volume that a closed, outward surface encloses, and its (3,) centroid.
 
-    Parameters
-    ----------
-    surface : Surface
-        Closed, oriented outward. Quads are cut as Blender draws them.
-
-    Returns
-    -------
-    float, (3,) array
-        The volume is negative if the surface is inside out. The center is not finite if there is no volume.
+    Quads are cut as Blender draws them. The volume is negative if the surface is inside out; the center is not
+    finite if there is no volume.
 
     Notes
     -----

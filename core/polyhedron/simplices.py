@@ -53,12 +53,7 @@ def simplex_arrays(
 def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> bool:
     """Return whether every ridge is used as often one way as the other. Points at the same place are one.
 
-    Parameters
-    ----------
-    points : (m, n) array_like
-    simplices : (k, n) array_like of int
-    signs : (k,) array_like, optional
-        As for `enclosed_moments`.
+    `points` are (m, n), `simplices` (k, n), `signs` (k,) as for `enclosed_moments`.
 
     Examples
     --------
@@ -77,18 +72,9 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
 
 
 def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> NDArray[np.intp]:
-    """Return the facets but for the ones between two simplices, which are used as often one way as the other.
+    """Return the (j, n) facets except those between two simplices, which are used as often one way as the other.
 
-    Parameters
-    ----------
-    points : (m, n) array_like
-    simplices : (k, n) array_like of int
-    signs : (k,) array_like, optional
-        As for `enclosed_moments`.
-
-    Returns
-    -------
-    (j, n) int array
+    `points` are (m, n), `simplices` (k, n), `signs` (k,) as for `enclosed_moments`.
 
     Examples
     --------

@@ -52,23 +52,9 @@ def small_moments(
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
     """Return the volume's moments of n bodies and their areas, stacked, and their cones' sums.
 
-    The sums are (n, 2), of the cones over the faces of each body, all counted as positive, and signed.
-
-    Parameters
-    ----------
-    points : (p, 3) array
-    triangles : (t, 3) int
-        One body after the other.
-    counts : (n,) int
-        How many of them each body has, at least one.
-    center : (n, 3) array
-        The point that each body's moments are about.
-    reach, half_ulp : (n, 3) array
-        Bounds of the distances of its points from there, and of their shifts by storing.
-    area : bool
-        True for areas; else they are zero, and the volume's `input_error` is the larger.
-    area_moments : bool
-        True for the area's moments to third order too.
+    The sums are (n, 2), of the cones over the faces of each body, all counted as positive, and signed. The triangles
+    are sorted by body, at least one each. `reach` and `half_ulp`, (n, 3), bound the distances of a body's points from
+    its `center` and their shifts by storing. Without `area` the areas are zero, and the `input_error` is larger.
     """
     ends, sums = np.cumsum(counts), []
     coordinates, first = np.ascontiguousarray(points.T), 0

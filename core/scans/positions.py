@@ -88,22 +88,11 @@ def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) ->
 
 
 def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[NDArray[np.float64], Positions]:
-    """Put samples at positions along their axes' own directions.
+    """Put samples at positions along their axes' own directions; return the new (4, 4) matrix and the positions.
 
-    Parameters
-    ----------
-    matrix : (4, 4) array
-        The regular positions: (i, j, k) at matrix @ (i, j, k, 1).
-    positions : three of (n,) array or None
-        Coordinates along the directions of the axes, in place of the spacing and of the origin.
-    unit : float
-        Of the positions, in units of the matrix.
-
-    Returns
-    -------
-    matrix : (4, 4) array
-    positions : three of (n,) array or None
-        About the first of them, so that none of their digits is lost: sample k stands at matrix @ (…, positions[k], 1).
+    `matrix` puts the regular sample (i, j, k) at matrix @ (i, j, k, 1). `positions` are (n,) coordinates along each of
+    the three axes, in place of its spacing and origin, or None; their `unit` is in units of the matrix. The result is
+    about the first of them, so that none of their digits is lost: sample k stands at matrix @ (…, positions[k], 1).
     """
     matrix = matrix.copy()
     if not any(row is not None for row in positions):

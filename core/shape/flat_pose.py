@@ -34,20 +34,8 @@ def match_flat(
 ) -> RigidMatch:
     """Find the rotation that lays one flat shape onto another, about their centroids and front on front.
 
-    Parameters
-    ----------
-    source, target : (k,) complex arrays
-        `disc_zernike` of both to one order, in discs of one radius.
-    axes : ((3, 3) array, (3, 3) array)
-        Of the planes of source and target: x, y and the normal as columns.
-    residual : callable
-        As for `match`.
-    size : float
-        Of the target.
-
-    Returns
-    -------
-    RigidMatch
+    `source` and `target` are the `disc_zernike` of both to one order, in discs of one radius, `axes` those of their
+    planes: x, y and the normal as columns. `residual` is as for `match`; `size` is the target's.
 
     Examples
     --------
@@ -77,25 +65,11 @@ def match_flat(
 
 
 def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, holds: Holds) -> Symmetry:
-    """Find the rotations about its centroid and the mirror lines of a flat shape.
+    """Find the rotations about its centroid and the mirror lines of a flat shape: Cn or Cnv, C∞v if it is round.
 
-    Parameters
-    ----------
-    zernike : (k,) complex array
-        `disc_zernike` about the centroid.
-    order : int
-        Of these.
-    points : (n, 2) array
-        Of the outlines, about the centroid.
-    axes : (3, 3) array
-        Of the plane: x, y and the normal as columns.
-    holds : callable
-        Returns True if a map of the plane's axes takes the shape to itself.
-
-    Returns
-    -------
-    Symmetry
-        Cn or Cnv, C∞v if it is round: rotations about the normal, mirror planes across the plane.
+    Rotations are about the normal, mirror planes across the plane. `zernike` is the `disc_zernike` to `order`, `points`
+    are the (n, 2) outlines, both about the centroid. `axes` are the plane's x, y and normal as columns.
+    `holds` returns True if a map of these axes takes the shape to itself.
     """
     everything = np.array([np.eye(3), MIRROR])
     if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):

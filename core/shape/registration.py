@@ -34,14 +34,9 @@ MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rota
 class RigidMatch:
     """The placement of one body on another.
 
-    Attributes
-    ----------
-    rotation : (3, 3) array
-        About the centers.
-    max_distance, mean_distance : float
-        Distances of points of either surface from the other one.
-    is_mirror_image : bool
-        True if a reflection fits so much better that the bodies are mirror images.
+    `rotation`: (3, 3) about the centers.
+    `max_distance`, `mean_distance`: distances of points of either surface from the other one.
+    `is_mirror_image`: True if a reflection fits so much better that the bodies are mirror images.
     """
 
     rotation: NDArray[np.float64]

@@ -127,17 +127,10 @@ class Signature:
 class Likeness:
     """The likeness of two bodies.
 
-    Attributes
-    ----------
-    shape : float
-        The difference of the shapes irrespective of size and hand, 0 for equal shapes.
-    scale : float
-        The second body's size divided by the first one's.
-    chirality_difference : float
-        The difference of their chiralities.
-    is_mirror_image : bool or None
-        True for a mirror image; False if neither has a hand, None if noise as large as the shapes' difference could
-        make up their hands.
+    `shape`: the difference of the shapes irrespective of size and hand, 0 for equal shapes.
+    `scale`: the second body's size divided by the first one's.
+    `is_mirror_image`: False also if neither has a hand, None if noise as large as the shapes' difference could make up
+    their hands.
     """
 
     shape: float
@@ -200,18 +193,7 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
 
 
 def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]:
-    """Return the signatures of a stack of shapes: as `signature` of each, to rounding.
-
-    Parameters
-    ----------
-    moments : Moments
-        With a leading axis.
-    radius : (n,) array
-        Of the balls.
-
-    Returns
-    -------
-    list of Signature
+    """Return the signatures of a stack of shapes with balls of (n,) radii: as `signature` of each, to rounding.
 
     Examples
     --------

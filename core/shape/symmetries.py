@@ -35,16 +35,10 @@ Distance = Callable[[NDArray], NDArray]
 class Symmetry:
     """Rotations and reflections about the center that take a body to itself.
 
-    Attributes
-    ----------
-    operations : (k, 3, 3) array
-        The finite ones, orthogonal, the identity among them.
-    revolution_axes : array
-        (1, 3) the axis about which every rotation is one; (0, 3) none, (3, 3) all directions.
-    order : int
-        Order of the moments it was found from, or of harmonics about an axis.
-    tolerance : float or None
-        Tolerance of the comparison of the geometry, None if there was none.
+    `operations`: (k, 3, 3) the finite ones, orthogonal, the identity among them.
+    `revolution_axes`: (1, 3) the axis about which every rotation is a symmetry; (0, 3) none, (3, 3) all directions.
+    `order`: the order of the moments it was found from, or of harmonics about an axis.
+    `tolerance`: the tolerance of the comparison of the geometry, None if there was none.
     """
 
     operations: NDArray[np.float64]

@@ -28,13 +28,8 @@ MIN_SHARE = 1e-6  # Smaller volumes, relative to their terms, are lost to cancel
 class Mixes:
     """Volume and first moments as polynomials of the mixing values.
 
-    Attributes
-    ----------
-    coefficients : (c, 4) array
-        Of volume and first moments about `about`.
-    exponents : (c, k) integer array
-        The powers of the mixing values that each coefficient belongs to.
-    about : (3,) array
+    `coefficients`: (c, 4) of volume and first moments about `about`.
+    `exponents`: (c, k) the powers of the mixing values that each coefficient belongs to.
 
     Examples
     --------
@@ -52,19 +47,9 @@ class Mixes:
     about: NDArray[np.float64]
 
     def at(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the volumes, (f,), and the centers, (f, 3), of mixes.
+        """Return the volumes, (f,), and the centers, (f, 3), of mixes; NaN for a mix that is flat or inside out.
 
-        Parameters
-        ----------
-        values : (f, k) array_like
-            A mixing value for each shape.
-
-        Returns
-        -------
-        volumes : (f,) array
-            NaN for a mix that is flat or inside out.
-        centers : (f, 3) array
-            NaN likewise.
+        `values` are (f, k): a mixing value for each shape.
         """
         powers = _powers(np.asarray(values, np.float64), self.exponents)
         moments = powers @ self.coefficients

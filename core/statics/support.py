@@ -72,16 +72,9 @@ class Support:
 
 
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
-    """Return two directions on the ground and the one up, as columns of a rotation.
+    """Return two directions on the ground and the one up, as columns of a (3, 3) rotation.
 
-    Parameters
-    ----------
-    down : (3,) array_like
-        The direction of gravity, of any length but zero.
-
-    Returns
-    -------
-    (3, 3) array
+    `down` is the direction of gravity, of any length but zero.
 
     Examples
     --------
@@ -136,17 +129,7 @@ def find_support(
 def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0)) -> Support:
     """Find the support polygon of given contact points, at whatever heights: hands on a wall, feet on stairs.
 
-    Parameters
-    ----------
-    contacts : (n, 3) array_like
-        At least one. Their projections along gravity count.
-    center : (3,) array_like
-    down : (3,) array_like
-
-    Returns
-    -------
-    Support
-        On the ground through the lowest contact.
+    It lies on the ground through the lowest contact, of (n, 3), at least one; their projections along gravity count.
 
     Examples
     --------

@@ -24,12 +24,8 @@ SUFFIXES = ".stl", ".ply"
 class MeshFile(Protocol):
     """A mesh that is read in blocks, as often as it is asked for.
 
-    Attributes
-    ----------
-    face_count : int
-        The number of faces that the file promises; for a text an estimate.
-    is_loose : bool
-        True if no two faces share a point: triangle i has the points 3i to 3i + 2.
+    `face_count`: the number of faces that the file promises; for a text an estimate.
+    `is_loose`: True if no two faces share a point: triangle i has the points 3i to 3i + 2.
     """
 
     face_count: int

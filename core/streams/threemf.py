@@ -56,25 +56,10 @@ class Placed:
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
-    """Read the build of a file.
+    """Return each mesh of a file's build at each of its places, in the file's unit, and that unit in meters.
 
-    Parameters
-    ----------
-    path : str
-    limits : Limits
-        `entries` and `unpacked_bytes` count.
-
-    Returns
-    -------
-    placed : list of Placed
-        Each mesh at each of its places, in the file's unit.
-    unit : float
-        Meters per unit.
-
-    Raises
-    ------
-    FileError
-        If the file is damaged, beyond a limit, or needs an extension that changes shapes.
+    Of `limits`, `entries` and `unpacked_bytes` count. FileError if the file is damaged, beyond a limit, or needs an
+    extension that changes shapes.
     """
     try:
         with zipfile.ZipFile(path) as archive:

@@ -42,13 +42,8 @@ class Severity(StrEnum):
 class Code(str):
     """The code of a finding, with its severity and its English sentence. Packages declare theirs in `findings.py`.
 
-    Attributes
-    ----------
-    severity : Severity
-    text : str
-        A `str.format` template over the finding's values (`core/verdict/sentences.py`); it is the key of translations.
-    plural : str or None
-        The template for a `count` other than 1.
+    `text`: a `str.format` template over the finding's values (`core/verdict/sentences.py`) and the key of translations.
+    `plural`: the template for a `count` other than 1.
     """
 
     severity: Severity
@@ -150,43 +145,16 @@ def system_reason(error: OSError) -> str:
 
 
 def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
-    """Keep the first items of a list that is shown.
+    """Return the first `limit` items of a list and the number of the remaining ones.
 
-    Parameters
-    ----------
-    items : sequence
-        All of them, or the first of `count`.
-    limit : int
-        How many are kept at most.
-    count : int, optional
-        How many there are in all, by default as many as `items`.
-
-    Returns
-    -------
-    shown : sequence
-        The first items.
-    more : int
-        How many others there are.
+    `count` is the number in all if `items` are only the first of them.
     """
     shown = items[:limit]
     return shown, max((count or len(items)) - len(shown), 0)
 
 
 def truncate_findings(findings: Sequence[Finding], limit: int) -> list[Finding]:
-    """Keep the first findings, and say how many more there are.
-
-    Parameters
-    ----------
-    findings : sequence of Finding
-        All of them.
-    limit : int
-        How many are kept at most.
-
-    Returns
-    -------
-    list of Finding
-        The first ones, and ``and_more`` if there are others.
-    """
+    """Return the first `limit` findings, and an ``and_more`` finding if there are others."""
     from .findings import AND_MORE  # it imports this module
 
     shown, more = truncate(findings, limit)

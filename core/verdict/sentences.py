@@ -40,21 +40,10 @@ def _item(item: Any, translate: Callable[[str], str]) -> str:
 
 
 def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
-    """Write the first items of a list, names in quotation marks, and how many more there are.
+    """Write the first items of a list, names in quotation marks, and how many more there are: “A”, “B”, and 3 more.
 
-    Parameters
-    ----------
-    items : sequence
-        Names, numbers, or pairs of them.
-    count : int, optional
-        The number in all, if `items` are only the first of them.
-    translate : callable
-        Applied to the template of the words around the items.
-
-    Returns
-    -------
-    str
-        “A”, “B”, and 3 more.
+    Items are names, numbers, or pairs of them; `count` is the number in all if `items` are only the first of them.
+    `translate` is applied to the template of the words around the items.
     """
     shown, more = truncate(items, MAX_LISTED, count)
     texts = [_item(item, translate) for item in shown]
