@@ -75,8 +75,7 @@ class RegionTransform:
 
     The (m, 2) edges are closed; the inside lies to the left of each. `q` are (M, 2) wave vectors, rad per unit of
     length, or a grid of two dimensions. `rounded` and `stored` bound the shift of each coordinate by rounding and
-    by storing as float32.
-    MeasureError if the wave vectors are not finite (M, 2), ValueError if coordinates are not finite.
+    by storing as float32. MeasureError if the wave vectors are not finite (M, 2), ValueError if coordinates are not.
     """
 
     def __init__(

@@ -18,9 +18,7 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
     Quads are cut as Blender draws them. The volume is negative if the surface is inside out; the center is not
     finite if there is no volume.
 
-    Notes
-    -----
-    Sums over the tetrahedra from a point near the middle (Zhang and Chen 2001, eq. 6 and 7). Of a quad abcd that is cut
+    Sum over the tetrahedra from a point near the middle (Zhang and Chen 2001, eq. 6 and 7). Of a quad abcd that is cut
     along ac, both have the face of a, c and that point: with w = a × c six times their volumes are -b·w and d·w.
 
     Examples
