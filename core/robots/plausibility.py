@@ -69,7 +69,7 @@ class Hull:
         return bound
 
     def spread_limit(self, center: NDArray, directions: NDArray) -> NDArray[np.float64]:
-        """Return the (k,) largest variances of mass with this center along (k, 3) unit directions; zero if outside."""
+        """Return the (k,) largest variances along unit directions of mass with this center, zero if it is outside."""
         heights = (self.points - center) @ directions.T
         return np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
 

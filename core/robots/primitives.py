@@ -31,7 +31,7 @@ def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
 
 
 def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
-    """Return radius and length, without its caps, of the capsule along the first of the ascending principal axes.
+    """Return radius and length, without its caps, of the capsule along the first principal axis; moments ascend.
 
     It has the least moment along its axis and the mean of the others across it; if no capsule is that thick, the size
     is that of a ball with the mean of the three. With t = L/r, of unit radius: the cylinder has πt and the caps 4π/3 of

@@ -125,7 +125,7 @@ def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tupl
 
 @dataclass(frozen=True, eq=False)
 class BoundaryLoops:
-    """Boundary sides (r) grouped into loops (l), numbered in the order of their first sides; lengths in unit.
+    """Boundary sides (r) grouped into loops (l), numbered in the order of their first sides; in unit and unit².
 
     `of_side`: (r,) loop of each side. `complete`: (l,) True if all sides of the loop are joined at both ends.
     `centroid`: (l, 3) centroid of the curve. `cone_area`: (l,) area of the cone to it.

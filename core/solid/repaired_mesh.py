@@ -24,8 +24,9 @@ UNKNOWN: Any = None  # until a step finds it; the order of the steps sees to it 
 class OpenParts:
     """Connected parts that are not closed; only these may be welded.
 
-    `rows`: their triangles with three different vertices; `are_all`: no other triangle has them.
+    `rows`: their triangles with three different vertices.
     `vertices`: sorted vertices along their open edges, or all their vertices if no edge is known.
+    `are_all`: True if no other triangle has three different vertices.
     """
 
     rows: NDArray[np.intp]
@@ -68,7 +69,7 @@ class RepairState:
     """Knowledge of earlier steps for later ones; dropped when the repair is done.
 
     `given`: (t, 3) triangles over the input's vertices; side 3t + i runs from corner i of triangle t to the next one.
-    `edges`: edges of the triangles with three different vertices.
+    `edges`: edges of the triangles with three different vertices, if known.
     `component_edges`: the same with vertices of its own for each component.
     `open_parts`: None if nothing is left to weld.
     `one_sided`: (c,) mask of the components in which faces cannot agree, as on a Möbius strip.
