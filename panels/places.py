@@ -27,22 +27,11 @@ ROOT = "body_moments"
 
 
 def in_both_places(contents: type, name: str = "", parent: str | None = None) -> tuple[type[Panel], type[Panel]]:
-    """Make the panels that show these contents.
+    """Make a panel of the sidebar and one of the object's properties, closed at first, that show these contents.
 
-    Parameters
-    ----------
-    contents : type
-        A class with `bl_label`, `draw(self, context)` and, if needed, `poll`, `bl_options` and `draw_header_preset`.
-    name : str
-        Name of the sub-panel, part of its identifier; "" for the main panel.
-    parent : str, optional
-        Name of the parent panel, by default the main one.
-
-    Returns
-    -------
-    tuple of two types
-        The panel of the sidebar, ``VIEW3D_PT_body_moments_NAME``, and that of the object's properties, closed at first,
-        ``OBJECT_PT_body_moments_NAME``.
+    `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll`, `bl_options` and `draw_header_preset`.
+    `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and `OBJECT_PT_body_moments_NAME`; "" for the main
+    panel. `parent` names the parent panel, by default the main one.
     """
     return (
         _panel(

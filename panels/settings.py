@@ -15,19 +15,9 @@ BUTTON_MARGIN = "m"  # a letter as wide as what a button has around its text
 
 
 def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False) -> None:
-    """Draw a setting with its label.
+    """Draw a setting with its label, by default its own, in a column.
 
-    Parameters
-    ----------
-    layout : bpy.types.UILayout
-        A column.
-    data : bpy.types.PropertyGroup
-    name : str
-        Name of the setting.
-    text : str
-        The label, by default the setting's own.
-    expand : bool
-        Put choices side by side, if there is room for their names.
+    `expand` puts choices side by side if there is room for their names.
     """
     definition = data.bl_rna.properties[name]
     options = {"text": text} if text else {}

@@ -69,14 +69,8 @@ class Combined:
 def measure_combined(options: MeasureOptions, internal: Internal, assets: bool = False) -> Combined:
     """Measure the assemblies and the characters of the open scene.
 
-    Parameters
-    ----------
-    options : MeasureOptions
-        Overrides of the members' settings.
-    internal : callable
-        Makes the entry about an error that nobody foresaw.
-    assets : bool
-        Include assets that have a mass.
+    `options` override the members' settings; `internal` makes the entry about an error that nobody foresaw; `assets`
+    includes assets that have a mass.
     """
     scene, found = bpy.context.scene, Combined()
     wanted = replace(options, order=None)

@@ -20,19 +20,7 @@ CRC = 'CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Densi
 
 @dataclass(frozen=True)
 class Material:
-    """One material.
-
-    Attributes
-    ----------
-    name : str
-        Unique.
-    category : str
-        One of `CATEGORIES`.
-    density : float
-        kg/m³.
-    source : str
-        The source of the number.
-    """
+    """A material with a unique name, a category from `CATEGORIES`, a density in kg/m³, and its source."""
 
     name: str
     category: str

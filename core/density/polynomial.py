@@ -57,44 +57,18 @@ CORNERS = tuple(product((0, -1), repeat=3))
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """A polynomial density, Σ c x^p y^q z^r, with exact coefficients.
+    """A polynomial density, Σ c x^p y^q z^r, with exact nonzero coefficients by exponents (p, q, r).
 
     Call it with (n, 3) points for its values.
-
-    Parameters
-    ----------
-    terms : dict of (p, q, r) to Fraction
-        The coefficients, none of them zero.
-
-    Examples
-    --------
-    >>> from body_moments.core.density.polynomial import Polynomial
-    >>> density = Polynomial.from_coefficients([1000, 0, 0, 20])
-    >>> density(np.array([[0.0, 0.0, 2.0]])).tolist(), density.degree
-    ([1040.0], 1)
     """
 
     terms: dict[Exponents, Fraction]
 
     @classmethod
     def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
-        """Make a polynomial from the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², …, as many as there are.
+        """Make a polynomial from the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², …, taken exactly.
 
-        Parameters
-        ----------
-        coefficients : (k,) array_like
-            Taken exactly.
-
-        Returns
-        -------
-        Polynomial
-
-        Raises
-        ------
-        ValueError
-            If one is not finite.
-        MeasureError
-            If there are too many.
+        Raise ValueError if one is not finite, MeasureError if there are too many.
         """
         values = np.asarray(coefficients, float).tolist()
         if not all(map(math.isfinite, values)):
@@ -141,19 +115,10 @@ class Polynomial:
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
-        """Return a number that the polynomial is nowhere below on a box.
+        """Return a lower bound of the polynomial on the box with opposite corners `low` and `high`.
 
         The box is halved as long as that may still prove it not negative, at most `MAX_BOXES` times; rounding, some
         1e-13 of the sum of the terms' sizes, is subtracted.
-
-        Parameters
-        ----------
-        low, high : (3,) array_like
-            Opposite corners of the box.
-
-        Returns
-        -------
-        float
         """
         low, high = np.asarray(low, float), np.asarray(high, float)
         local = self.translate(low).coefficients()

@@ -31,31 +31,11 @@ def smooth_threshold_body(
     background: float | None = None,
     with_density: bool = False,
 ) -> ThresholdBody:
-    """Return the moments of the set where a uniform spline is at least a threshold.
+    """Return the moments of the set on which a uniform spline of (nx, ny, nz) coefficients is at least a threshold.
 
-    Parameters
-    ----------
-    samples : (nx, ny, nz) array_like
-        The spline's coefficients.
-    threshold : float
-    spline_order : int
-        3 and more; 4 is cubic.
-    order, matrix, background, with_density
-        As for `threshold_body`. Without a background the outermost coefficients go on beyond the grid, which ends at
-        them all the same.
-
-    Returns
-    -------
-    ThresholdBody
-        The bounds include the difference of the last two grids.
-
-    Examples
-    --------
-    >>> from body_moments.core.density.smooth_threshold import smooth_threshold_body
-    >>> x = np.arange(-4.0, 5.0)
-    >>> body = smooth_threshold_body(9.0 - (x**2 + x[:, None] ** 2 + x[:, None, None] ** 2), 0.0, 4)
-    >>> abs(body.volume.total / (4 / 3 * np.pi * 8.0**1.5) - 1.0) < 1e-3
-    True
+    The spline order is 3 or more; 4 is cubic. The other parameters are as for `threshold_body`. Without a background
+    the outermost coefficients go on beyond the grid, which ends at them all the same. The bounds include the difference
+    of the last two grids.
     """
     samples = np.asarray(samples, np.float64)
     matrix = np.eye(4) if matrix is None else np.asarray(matrix, np.float64)
@@ -82,21 +62,7 @@ def smooth_threshold_body(
 def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.float64]:
     """Return a uniform spline's values at its coefficients' places and at `parts` - 1 places between any two.
 
-    Parameters
-    ----------
-    coefficients : (nx, ny, nz) array
-        The outermost go on beyond the grid.
-    order, parts : int
-
-    Returns
-    -------
-    (parts (nx - 1) + 1, …) array
-
-    Examples
-    --------
-    >>> from body_moments.core.density.smooth_threshold import spline_values
-    >>> spline_values(np.ones((2, 2, 2)), 4, 3).round(12).min()
-    np.float64(1.0)
+    The outermost of the (nx, ny, nz) coefficients go on beyond the grid; the result is (parts (nx - 1) + 1, …).
     """
     values = np.asarray(coefficients, np.float64)
     reach = (order + 1) // 2

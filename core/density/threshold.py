@@ -42,20 +42,13 @@ CELLS_PER_SLAB = 1 << 21  # cells of the grid that are looked at at a time
 
 @dataclass(frozen=True, eq=False)
 class ThresholdBody:
-    """The body where a density is at least a threshold.
+    """The body in which a density is at least a threshold.
 
-    Parameters
-    ----------
-    volume : Moments
-        Moments of the body. `rounding_error` includes the estimated error of the rules.
-    area : Moments
-        Of the surface on which the density is the threshold.
-    mass : Moments, optional
-        Of the body with the density itself inside, if requested.
-    cut_cells : int
-        Cells that the surface passes through.
-    clipped : bool
-        True if the body reaches the edge of the grid and is cut off there without a surface.
+    `volume`: its `rounding_error` includes the estimated error of the rules.
+    `area`: of the surface on which the density is the threshold.
+    `mass`: with the density itself inside; None if not requested.
+    `cut_cells`: number of cells that the surface passes through.
+    `clipped`: True if the body reaches the edge of the grid and is cut off there without a surface.
     """
 
     volume: Moments

@@ -61,26 +61,12 @@ MAX_TRIANGLES = 1_000_000  # compared where samples cross
 
 @dataclass(frozen=True, eq=False)
 class PatchIntegrals:
-    """The moments of the body that patches bound, and how they came about.
+    """The moments of the body that patches bound, and how they came about; errors are estimates.
 
-    Attributes
-    ----------
-    volume : Moments
-        Of the body; its error is an estimate.
-    area : Moments
-        Of the patches, without caps; an estimate.
-    health : MeshHealth
-        State of the input.
-    method : Verdict
-        EXACT, CAPPED, REORIENTED or OPEN.
-    findings : tuple of Finding
-        The decisions taken.
-    patches : tuple of Patch
-        The patches with the signed sum ``volume``, caps among them.
-    signs : (n,) float
-        How each patch that was given counts: 1, -1, or 0 for one of a flat part.
-    topology : PatchTopology
-        How they close.
+    `area`: of the patches, without caps. `health`: state of the input.
+    `method`: EXACT, CAPPED, REORIENTED or OPEN.
+    `patches`: the patches with the signed sum `volume`, caps among them.
+    `signs`: (n,) how each given patch counts: 1, -1, or 0 for one of a flat part.
     """
 
     volume: Moments

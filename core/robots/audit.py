@@ -104,16 +104,7 @@ class Auditor:
     _meshes: dict[tuple, _Piece | Finding] = field(default_factory=dict)
 
     def audit(self, description: Description) -> Audit:
-        """Return the findings about each link of a description.
-
-        Parameters
-        ----------
-        description : Description
-
-        Returns
-        -------
-        Audit
-        """
+        """Return the findings about each link of a description."""
         return Audit(description, tuple(self._link(link) for link in description.links))
 
     def _link(self, link: StatedLink) -> LinkAudit:

@@ -108,21 +108,7 @@ class Reference:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Diagnosis of an inertial.
-
-    Attributes
-    ----------
-    finding : Finding
-        The change, or a note.
-    repaired : StatedInertial or None
-        The corrected inertial; None if nothing in it has to change.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.diagnosis import Diagnosis
-    >>> Diagnosis(Finding("audit_inertia_unit", {"factor": 1e-6})).repaired is None
-    True
-    """
+    """Diagnosis of an inertial: the change, or a note, and the corrected inertial, None if nothing has to change."""
 
     finding: Finding
     repaired: StatedInertial | None = None

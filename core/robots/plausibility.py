@@ -37,19 +37,7 @@ DIRECTIONS = 400
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """Points with a convex hull that contains a link's mass.
-
-    Attributes
-    ----------
-    points : (n, 3) array
-        Along the link's axes, m.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.plausibility import Hull
-    >>> round(Hull(np.eye(3)).distance(np.zeros(3)), 6)
-    0.57735
-    """
+    """Points (n, 3) along a link's axes, in m, with a convex hull that contains the link's mass."""
 
     points: NDArray[np.float64]
 
@@ -59,19 +47,8 @@ class Hull:
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
 
     def distance(self, point: NDArray) -> float:
-        """Return how far a point is from the hull, zero within.
+        """Return a lower bound, proven by a separating plane, of a point's distance from the hull in m, zero within.
 
-        Parameters
-        ----------
-        point : (3,) array
-
-        Returns
-        -------
-        float
-            A lower bound that a separating plane proves.
-
-        Notes
-        -----
         Wolfe's algorithm (Math. Programming 11, 1976): the point nearest to that of the hull of at most four points,
         which are changed until a plane through their nearest one has all others behind it.
         """
@@ -92,19 +69,7 @@ class Hull:
         return bound
 
     def spread_limit(self, center: NDArray, directions: NDArray) -> NDArray[np.float64]:
-        """Return the largest variance along directions that mass with this center can have.
-
-        Parameters
-        ----------
-        center : (3,) array
-        directions : (k, 3) array
-            Of unit length.
-
-        Returns
-        -------
-        (k,) array
-            Zero if the center is outside.
-        """
+        """Return the (k,) largest variances along unit directions of mass with this center, zero if it is outside."""
         heights = (self.points - center) @ directions.T
         return np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
 

@@ -21,76 +21,22 @@ BISECTIONS = 200  # more than the digits of a float64 need
 
 
 def box_sides(mass: float, moments: NDArray) -> NDArray[np.float64]:
-    """Return the sides along the principal axes of the box of this mass and inertia.
-
-    Parameters
-    ----------
-    mass : float
-    moments : (3,) array
-        Principal moments.
-
-    Returns
-    -------
-    (3,) array
-        s_i = sqrt(6 (I_j + I_k - I_i) / m).
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.primitives import box_sides
-    >>> np.round(box_sides(12.0, np.array([5.0, 10.0, 13.0])), 12).tolist()
-    [3.0, 2.0, 1.0]
-    """
+    """Return the (3,) sides s_i = sqrt(6 (I_j + I_k - I_i) / m) of the box of this mass and these principal moments."""
     return np.sqrt(6.0 * _spreads(moments) / mass)
 
 
 def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
-    """Return the semi-axes along the principal axes of the ellipsoid of this mass and inertia.
-
-    Parameters
-    ----------
-    mass : float
-    moments : (3,) array
-        Principal moments.
-
-    Returns
-    -------
-    (3,) array
-        a_i = sqrt(5 (I_j + I_k - I_i) / (2 m)).
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.primitives import ellipsoid_axes
-    >>> np.round(ellipsoid_axes(5.0, np.array([5.0, 10.0, 13.0])), 12).tolist()
-    [3.0, 2.0, 1.0]
-    """
+    """Return the (3,) semi-axes a_i = sqrt(5 (I_j + I_k - I_i) / (2 m)) of the ellipsoid of these principal moments."""
     return np.sqrt(2.5 * _spreads(moments) / mass)
 
 
 def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
-    """Return radius and length, without its caps, of the capsule along the first principal axis.
+    """Return radius and length, without its caps, of the capsule along the first principal axis; moments ascend.
 
-    Parameters
-    ----------
-    mass : float
-    moments : (3,) array
-        Principal moments, ascending.
-
-    Returns
-    -------
-    float, float
-        Of the capsule with the least moment along its axis and the mean of the others across it; if no capsule is that
-        thick, of a ball with the mean of the three.
-
-    Notes
-    -----
-    With t = L/r, of unit radius: the cylinder has πt and the caps 4π/3 of the volume V; ∫x² dV across the axis is
-    π(t/4 + 4/15), along it π(t³/12 + t²/3 + t/2 + 4/15). Their ratio grows with t from that of a ball, 1.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.primitives import capsule_size
-    >>> np.round(capsule_size(1.0, np.full(3, 0.4)), 12).tolist()
-    [1.0, 0.0]
+    It has the least moment along its axis and the mean of the others across it; if no capsule is that thick, the size
+    is that of a ball with the mean of the three. With t = L/r, of unit radius: the cylinder has πt and the caps 4π/3 of
+    the volume V; ∫x² dV across the axis is π(t/4 + 4/15), along it π(t³/12 + t²/3 + t/2 + 4/15). Their ratio grows with
+    t from that of a ball, 1.
     """
     along = (moments[1] + moments[2] - moments[0]) / 2.0  # ∫x² dm
     across = max(moments[0] / 2.0, LEAST_SPREAD * along)
@@ -108,27 +54,7 @@ def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
 
 
 def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
-    """Return the shape of a kind with the mass, center and inertia of a link.
-
-    Parameters
-    ----------
-    inertial : Inertial
-    kind : str
-        "box", "ellipsoid" or "capsule".
-
-    Returns
-    -------
-    Shape
-        In the link's frame.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Inertial
-    >>> from body_moments.core.robots.primitives import equal_inertia_shape
-    >>> ball = Inertial(1.0, np.zeros(3), 0.4 * np.eye(3), np.full(3, 0.4), np.eye(3))
-    >>> np.round(equal_inertia_shape(ball, "ellipsoid").size, 12).tolist()
-    [1.0, 1.0, 1.0]
-    """
+    """Return the "box", "ellipsoid" or "capsule" with a link's mass, center and inertia, in the link's frame."""
     mass, moments, axes = inertial.mass, inertial.moments, inertial.axes
     if kind == "capsule":
         along_z = axes[:, [1, 2, 0]]  # the long axis last, and still a rotation

@@ -18,25 +18,11 @@ from .model import Pose, Shape
 class StatedInertial:
     """One link's inertial as its file has it.
 
-    Attributes
-    ----------
-    mass : float
-    center : (3,) array
-        In the link's frame.
-    tensor : (3, 3) array
-        Along the axes of the inertial frame, about the center.
-    rotation : (3, 3) array
-        The inertial frame's axes in the link's.
-    angles : tuple of float, optional
-        Roll, pitch and yaw, if the rotation was stated so.
-    quaternion : tuple of float, optional
-        Four numbers in the order of the file, if the rotation was stated so.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.stated import StatedInertial
-    >>> StatedInertial(1.0, np.zeros(3), np.diag([1.0, 2.0, 3.0]), np.eye(3)).inertia.diagonal().tolist()
-    [1.0, 2.0, 3.0]
+    `center`: (3,) in the link's frame.
+    `tensor`: (3, 3) about the center, along the axes of the inertial frame.
+    `rotation`: (3, 3) the inertial frame's axes in the link's.
+    `angles`: roll, pitch and yaw, if the rotation was stated so.
+    `quaternion`: four numbers in the order of the file, if the rotation was stated so.
     """
 
     mass: float
@@ -59,25 +45,11 @@ class StatedInertial:
 
 @dataclass(frozen=True, eq=False)
 class StatedShape:
-    """A shape of a link.
+    """A shape of a link; `role` is "visual" or "collision".
 
-    Attributes
-    ----------
-    shape : Shape
-        For a mesh, `file` is the name in the description.
-    role : str
-        "visual" or "collision".
-    angles : tuple of float, optional
-        Roll, pitch and yaw, if its pose was stated so.
-    points, triangles : arrays, optional
-        Of a mesh that stands in the description itself.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Shape
-    >>> from body_moments.core.robots.stated import StatedShape
-    >>> StatedShape(Shape("sphere", (1.0,)), "visual").angles is None
-    True
+    `shape`: for a mesh, its `file` is the name in the description.
+    `angles`: roll, pitch and yaw, if the pose was stated so.
+    `points`, `triangles`: only of a mesh in the description itself.
     """
 
     shape: Shape
@@ -91,25 +63,9 @@ class StatedShape:
 class StatedLink:
     """One link as its file has it.
 
-    Attributes
-    ----------
-    name : str
-    inertial : StatedInertial, optional
-    shapes : tuple of StatedShape
-    span : tuple of int, optional
-        Range of the inertial in the file, in bytes.
-    moves : bool
-        True if a missing inertial matters.
-    findings : tuple of Finding
-        About content that the reader could not use.
-    local : (4, 4) array, optional
-        If the file's coordinates are not the link's axes in its unit: from the former to the latter.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.stated import StatedLink
-    >>> StatedLink("base").shapes
-    ()
+    `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial matters.
+    `findings`: about content that the reader could not use.
+    `local`: (4, 4) from the file's coordinates to the link's axes in its unit; None if they are the same.
     """
 
     name: str
@@ -123,22 +79,9 @@ class StatedLink:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A robot description.
+    """A robot description, with the whole file as `source`.
 
-    Attributes
-    ----------
-    name, format : str
-    links : tuple of StatedLink
-    source : bytes
-        The whole file.
-    scales : mapping of str to float
-        "length": meters per unit of the file's numbers, "mass": kilograms.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.stated import Description
-    >>> Description("arm", "urdf", ()).links
-    ()
+    `scales`: "length": meters per unit of the file's numbers, "mass": kilograms.
     """
 
     name: str

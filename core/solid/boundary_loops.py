@@ -125,22 +125,12 @@ def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tupl
 
 @dataclass(frozen=True, eq=False)
 class BoundaryLoops:
-    """Boundary sides grouped into loops, numbered in the order of their first sides.
+    """Boundary sides (r) grouped into loops (l), numbered in the order of their first sides; in unit and unit².
 
-    Attributes
-    ----------
-    of_side : (r,) int
-        The loop of each side.
-    complete : (l,) bool
-        True if all the loop's sides are joined at both ends.
-    perimeter : (l,) float
-        In unit.
-    centroid : (l, 3) float
-        Of the curve.
-    cone_area, planar_area : (l,) float
-        The area of the cone to the centroid, and the norm of the loop's area vector (unit²).
-    out_of_plane : (l,) float
-        Distance of the loop from its plane (unit); infinite if it has none.
+    `of_side`: (r,) loop of each side. `complete`: (l,) True if all sides of the loop are joined at both ends.
+    `centroid`: (l, 3) centroid of the curve. `cone_area`: (l,) area of the cone to it.
+    `planar_area`: (l,) norm of the loop's area vector.
+    `out_of_plane`: (l,) distance of the loop from its plane; infinite if it has none.
     """
 
     of_side: NDArray[np.intp]

@@ -29,21 +29,11 @@ from .repaired_mesh import has_distinct_vertices
 class StackCaps:
     """The caps of n surfaces.
 
-    Attributes
-    ----------
-    is_capped : (n,) bool
-        The surfaces that have caps.
-    triangles : TriangleStack
-        The triangles of all surfaces; each surface's caps come last.
-    part : (t,) int
-        The component of each.
-    cap_counts : (n,) int
-        How many of them are caps.
-    counts : (n, 3) float
-        How many holes have flat caps, how many curved ones, and the area of the caps (unit²).
-    edges : (k, 2) int
-        The edges of the holes as pairs of the surfaces' own vertices, sorted, one surface after the other.
-    edge_counts : (n,) int
+    `triangles`, `part`: t triangles of all surfaces, each surface's caps last, and the component of each.
+    `cap_counts`: (n,) number of triangles that are caps.
+    `counts`: (n, 3) number of holes with flat caps and with curved caps, area of the caps (unit²).
+    `edges`: (k, 2) sorted pairs of the surfaces' own vertices along the holes, one surface after the other.
+    `edge_counts`: (n,) number of them.
     """
 
     is_capped: NDArray[np.bool_]

@@ -33,20 +33,11 @@ SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.
 
 @dataclass(frozen=True, eq=False)
 class CheckedSurface:
-    """A surface that can be measured.
+    """A surface that can be measured, without the vertices that no face uses.
 
-    Attributes
-    ----------
-    surface : Surface
-        Without the vertices that no face uses.
-    vertices : (n,) int, optional
-        The input's number of each vertex; None if all are used.
-    size : float
-        The diagonal of the bounding box (unit).
-    error : float
-        How far storing the points may have moved them (unit).
-    tolerance : float
-        Distance below which points touch (unit).
+    `vertices`: (n,) the input's number of each vertex; None if all are used.
+    `size`: diagonal of the bounding box (unit). `error`: how far storing the points may have moved them (unit).
+    `tolerance`: distance below which points touch (unit).
     """
 
     surface: Surface
@@ -60,18 +51,10 @@ class CheckedSurface:
 class GivenIntegrals:
     """Integrals over the faces as they are given.
 
-    Attributes
-    ----------
-    volume : Moments
-        To order 3: the signed sum over the faces.
-    area : Moments
-        The input's: without caps, with what a repair leaves out and with flat parts.
-    planarity : Planarity
-        How flat the faces are.
-    all_cones_agree : bool
-        True if all the cones over the faces, from the reference point, are known to have the same sign.
-    proven : RepairedMesh, optional
-        The mesh if its own edges prove it closed and oriented, else None.
+    `volume`: signed sum over the faces, to order 3.
+    `area`: the input's, without caps, including flat parts and faces that a repair leaves out.
+    `all_cones_agree`: True if all cones from the reference point over the faces are known to have the same sign.
+    `proven`: the mesh if its own edges prove it closed and oriented, else None.
     """
 
     volume: Moments

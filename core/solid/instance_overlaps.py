@@ -21,17 +21,12 @@ from .solid_verdict import SolidIntegrals
 
 @dataclass(frozen=True, eq=False)
 class PlaceComparison:
-    """Solids inside other ones, or overlapping them.
+    """Solids inside other ones, or overlapping them: (k, 2) [solid, component], once for each place.
 
-    Attributes
-    ----------
-    nested, overlapping : (k, 2) int
-        [solid, component] of components in the material of others, and of components that share a part of their
-        interiors with another one; once for each place.
-    undecided_pairs : int
-        Pairs that would have been too much work.
-    nested_slightly, overlapping_slightly : bool
-        True if these components, and the smaller ones of these pairs, are too small to matter in any place.
+    `nested`: components in the material of others. `overlapping`: components that share a part of their interiors.
+    `undecided_pairs`: number of pairs that would have been too much work.
+    `nested_slightly`, `overlapping_slightly`: True if these components, and the smaller ones of these pairs, are too
+    small to matter in any place.
     """
 
     nested: NDArray[np.intp]

@@ -30,21 +30,13 @@ MAX_STEPS_PER_EDGE = 16
 
 @dataclass(frozen=True, eq=False)
 class ComponentRelations:
-    """Relations between components.
+    """Relations between components, as (k, 2) pairs.
 
-    Attributes
-    ----------
-    contained_in : (k, 2) int
-        Pairs (inner component, outer component).
-    intersecting : (k, 2) int
-        Pairs that share a part of their interiors without one containing the other, or that are the same.
-    undecided_pairs : int
-        Pairs that would have been too much work.
-    mostly_in : (k, 2) int
-        Pairs (inner component, outer component) among the intersecting ones, of opposite orientation, with most of the
-        inner component in the outer one, as a cavity that breaks through its wall.
-    breakthrough : (k,) float
-        How far these reach out of each other (unit).
+    `contained_in`: inner and outer component.
+    `intersecting`: pairs that share a part of their interiors without one containing the other, or that are the same.
+    `undecided_pairs`: number of pairs that would have been too much work.
+    `mostly_in`: inner and outer component of the intersecting pairs of opposite orientation with most of the inner one
+    in the outer one, as a cavity that breaks through its wall. `breakthrough`: (k,) how far they reach out (unit).
     """
 
     contained_in: NDArray[np.intp]

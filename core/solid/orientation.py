@@ -24,25 +24,13 @@ from .repaired_mesh import RepairedMesh
 
 @dataclass(frozen=True, eq=False)
 class ComponentComparison:
-    """Result of comparing the components of a body.
+    """Result of comparing the components of a body; masks are (c,).
 
-    Attributes
-    ----------
-    flipped : (c,) bool
-        Components to turn.
-    solid : (c,) bool
-        Components with a volume.
-    nested, cavities, intersecting : (c,) bool
-        Outward ones in the material of others; inward ones in the material of others; and components that share a part
-        of their interiors with another one, or are a copy of it, but for cavities that break through.
-    breaking : (c,) bool
-        The cavities that break through the wall of the component they are in.
-    breakthrough : float
-        How far they do at most (unit).
-    host : (c,) int
-        As `ClosedParts.host_part`.
-    undecided_pairs : int
-        Pairs that would have been too much work.
+    `flipped`: components to turn. `solid`: components with a volume.
+    `nested`, `cavities`: outward and inward components in the material of others.
+    `intersecting`: components that share a part of their interiors with another one or copy it, except `breaking` ones.
+    `breaking`: cavities that break through the wall around them, by at most `breakthrough` (unit).
+    `host`: as `ClosedParts.host_part`. `undecided_pairs`: number of pairs that would have been too much work.
     """
 
     flipped: NDArray[np.bool_]
@@ -90,28 +78,14 @@ class ComponentComparison:
 
 @dataclass(frozen=True, eq=False)
 class OrientedSolid:
-    """A body whose components face as they count.
+    """A body with components that face as they count; masks are (c,).
 
-    Attributes
-    ----------
-    mesh : RepairedMesh
-        As it was repaired.
-    is_proven : bool
-        True if nothing had to be repaired, so that ``surface`` has the input's faces.
-    surface : Surface
-        The surface with the signed sum ``volume``: without flat parts, with caps.
-    volume : Moments
-        Not negative, but for rounding noise in flat bodies, of either sign.
-    is_solid : bool
-        True if any component has a volume.
-    solid : (c,) bool
-        The components that have one.
-    turned : (c,) bool
-        The components that had to be turned as a whole.
-    reversed : (c,) bool
-        Components with triangles in ``mesh`` that run against ``surface``.
-    comparison : ComponentComparison, optional
-        Only for several components.
+    `is_proven`: True if nothing had to be repaired, so that `surface` has the input's faces.
+    `surface`: the surface with the signed sum `volume`: without flat parts, with caps.
+    `volume`: not negative, except for rounding noise of either sign in flat bodies.
+    `is_solid`: True if any component has a volume. `solid`: the components that have one.
+    `turned`: components turned as a whole. `reversed`: components with triangles in `mesh` that run against `surface`.
+    `comparison`: None for a single component.
     """
 
     mesh: RepairedMesh

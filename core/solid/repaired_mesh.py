@@ -24,14 +24,9 @@ UNKNOWN: Any = None  # until a step finds it; the order of the steps sees to it 
 class OpenParts:
     """Connected parts that are not closed; only these may be welded.
 
-    Attributes
-    ----------
-    rows : (k,) int
-        Their triangles with three different vertices.
-    vertices : (v,) int
-        Sorted, the vertices along their open edges, or all their vertices if no edge is known.
-    are_all : bool
-        True if no other triangle has three different vertices.
+    `rows`: their triangles with three different vertices.
+    `vertices`: sorted vertices along their open edges, or all their vertices if no edge is known.
+    `are_all`: True if no other triangle has three different vertices.
     """
 
     rows: NDArray[np.intp]
@@ -43,14 +38,8 @@ class OpenParts:
 class ZeroAreaLoops:
     """Boundary loops without area (T-junctions): there the surface closes in space, though not in the mesh.
 
-    Attributes
-    ----------
-    sides, loop : (k,) int
-        Their sides, and the loop of each, 0 to ``number`` - 1.
-    first, second : (l,) int
-        Sides that are joined.
-    misoriented : (l,) bool
-        True if the faces at such a joint disagree.
+    `sides`, `loop`: (k,) their sides, and the loop of each, 0 to `number` - 1.
+    `first`, `second`, `misoriented`: (l,) the two sides of each joint; True if the faces there disagree.
     """
 
     sides: NDArray[np.intp]
@@ -63,18 +52,10 @@ class ZeroAreaLoops:
 
 @dataclass(frozen=True, eq=False)
 class FoldedLoops:
-    """Loops without area that components with edges of three faces or more leave over.
+    """Loops without area, `number` of them, that components with edges of three faces or more leave over.
 
-    Attributes
-    ----------
-    components : (c,) bool
-        Components that close after all.
-    sides : (k,) int
-        A side on each edge that they leave over.
-    caps : (k, 3) int
-        The triangle that closes it.
-    number : int
-        Of such loops.
+    `components`: (c,) mask of the components that close after all.
+    `sides`, `caps`: (k,) a side on each edge left over, and (k, 3) the triangle that closes it.
     """
 
     components: NDArray[np.bool_]
@@ -87,22 +68,12 @@ class FoldedLoops:
 class RepairState:
     """Knowledge of earlier steps for later ones; dropped when the repair is done.
 
-    Attributes
-    ----------
-    given : (t, 3) int
-        The triangles over the input's vertices. Side 3t + i runs from corner i of triangle t to the next one.
-    edges : Edges
-        Edges of the triangles with three different vertices, if known.
-    component_edges : Edges
-        The same with vertices of its own for each component.
-    open_parts : OpenParts, optional
-        None if nothing is left to weld.
-    gaps : ZeroAreaLoops
-    folded : FoldedLoops
-    one_sided : (c,) bool
-        The components in which faces cannot agree, as on a Möbius strip.
-    uncapped_sides : (k,) int
-        Boundary sides that bound no gap, of components that may still be closed.
+    `given`: (t, 3) triangles over the input's vertices; side 3t + i runs from corner i of triangle t to the next one.
+    `edges`: edges of the triangles with three different vertices, if known.
+    `component_edges`: the same with vertices of its own for each component.
+    `open_parts`: None if nothing is left to weld.
+    `one_sided`: (c,) mask of the components in which faces cannot agree, as on a Möbius strip.
+    `uncapped_sides`: (k,) boundary sides that bound no gap, of components that may still be closed.
     """
 
     given: NDArray[np.intp]
@@ -119,34 +90,16 @@ class RepairState:
 class RepairedMesh:
     """A surface as triangles, repaired as far as the steps have come.
 
-    Attributes
-    ----------
-    points : (n, 3) float32 or float64
-        In the input's type and unit.
-    triangles : (t, 3) int
-        In the end all face as ``flipped`` says, caps last.
-    face : (t,) int
-        The mesh face of each triangle, -1 for caps.
-    flipped : (t,) bool
-        Which triangles are, or are to be, reversed.
-    component : (t,) int
-        0 to ``number`` - 1.
-    open : (number,) bool
-        Components that cannot be closed.
-    caps : (number, 3) float
-        Of each component how many flat caps and curved caps it has, and their area (unit²).
-    report : MeshHealth
-        State of the input, as far as the steps have seen it. Its edges are pairs of the surface's vertices.
-    topology_changed : bool
-        True if the triangles, apart from their direction and from caps, differ from the input's.
-    max_displacement : float
-        How far welding has moved a vertex at most (unit).
-    capped_edges, capped_component : (k, 2) int and (k,) int
-        The boundary edges of capped holes, and the component of each.
-    findings : tuple of Finding
-        Decisions, but for welding and caps, which depend on the volume.
-    state : RepairState
-        Dropped after the last step.
+    `points`: (n, 3) in the input's type and unit.
+    `triangles`: (t, 3) vertices; in the end all face as `flipped` says, caps last.
+    `face`: (t,) mesh face of each triangle, -1 for caps. `flipped`: (t,) triangles that are, or are to be, reversed.
+    `component`: (t,) 0 to `number` - 1. `open`: (number,) components that cannot be closed.
+    `caps`: (number, 3) number of flat caps, of curved caps, and their area (unit²).
+    `report`: the input as far as the steps have seen it; its edges are pairs of the surface's vertices.
+    `topology_changed`: True if the triangles, apart from their direction and from caps, differ from the input's.
+    `max_displacement`: how far welding has moved a vertex at most (unit).
+    `capped_edges`, `capped_component`: (k, 2) boundary edges of capped holes, and (k,) their components.
+    `findings`: decisions, except for welding and caps, which depend on the volume.
     """
 
     points: NDArray[np.floating]

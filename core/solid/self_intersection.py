@@ -37,13 +37,8 @@ FACES_LOOKED_AT_FIRST = 1024
 class SelfIntersection:
     """Result of the search for self-intersections.
 
-    Attributes
-    ----------
-    state : Intersection
-    volume : float
-        Estimated volume that counts twice, or as negative (unit³), as often as it does too much.
-    effect : float
-        The larger one of its shares of the volume and of the second moment about the center.
+    `volume`: estimated volume that counts twice, or as negative (unit³), as often as it does too much.
+    `effect`: the larger one of its shares of the volume and of the second moment about the center.
     """
 
     state: Intersection
@@ -124,15 +119,10 @@ def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) ->
 
 @dataclass(frozen=True, eq=False)
 class Excess:
-    """Volume that closed parts hold more than once, or less than not at all.
+    """Volume of b bodies that closed parts hold more than once, or less than not at all.
 
-    Attributes
-    ----------
-    volume, second_moment : (b,) float
-        Of each body, as often as it is too much; the latter about the center of the body's box.
-    unsure : (b,) float
-        The share of the crossed lines that do not enter as often as they leave, and say nothing; 1 if no line is
-        crossed.
+    `volume`, `second_moment`: (b,) times how often it is too much; the latter about the center of the body's box.
+    `unsure`: (b,) share of the crossed lines that do not enter as often as they leave; 1 if no line is crossed.
     """
 
     volume: NDArray[np.float64]

@@ -40,20 +40,11 @@ CLEAR_VOLUME = 4.0  # times what counts as none: a component of less is looked a
 class SolidStack:
     """The moments of the bodies that n surfaces bound.
 
-    Attributes
-    ----------
-    is_measured : (n,) bool
-        Which of them are closed, as they are or by caps; the others have to be measured one by one.
-    volume, area : Moments
-        Moments of each body to order 3 and 0, about its own point; meaningless for unmeasured bodies. The area is
-        without caps.
-    size : (n,) float
-        The diagonal of the bounding box (unit).
-    planarity : StackPlanarity
-    intersection : (n,) array of Intersection
-    component_counts : (n,) int
-    caps : StackCaps
-        The boundaries of the bodies.
+    `is_measured`: (n,) closed surfaces, as they are or by caps; the others have to be measured one by one.
+    `volume`, `area`: to order 3 and 0, about each body's own point, meaningless if unmeasured; area without caps.
+    `size`: (n,) diagonal of the bounding box (unit).
+    `intersection`: (n,) objects of type Intersection.
+    `caps`: the boundaries of the bodies.
     """
 
     is_measured: NDArray[np.bool_]

@@ -26,15 +26,8 @@ from .assembly import TARGET, measured_assembly
 def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = True) -> Iterator[BillRow]:
     """Yield the rows of a member and of all below it.
 
-    Parameters
-    ----------
-    part : MemberBody
-    mass : float
-        Mass of the whole, kg.
-    level : int
-        Number of assemblies that contain it.
-    counted : bool
-        Its mass is part of the whole.
+    `mass` is that of the whole in kg, `level` the number of assemblies around the member; `counted` is True if its
+    mass is part of the whole.
     """
     moments = part.mass
     measurement = part.measurement

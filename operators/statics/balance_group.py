@@ -240,16 +240,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
 
 
 def counted(member: Member) -> Iterator[Object]:
-    """Yield the objects of an assembly that count; of an instance, the instancer.
-
-    Parameters
-    ----------
-    member : Member
-
-    Yields
-    ------
-    bpy.types.Object
-    """
+    """Yield the objects of an assembly that count; of an instance, the instancer."""
     if member.is_measured or member.kind == MemberKind.INSTANCE:
         yield member.data
     if member.kind != MemberKind.INSTANCE:
@@ -258,16 +249,7 @@ def counted(member: Member) -> Iterator[Object]:
 
 
 def has_given_mass(root: Member) -> bool:
-    """Return whether the mass of an assembly, or of one in it, is given: then it is not the sum of its objects'.
-
-    Parameters
-    ----------
-    root : Member
-
-    Returns
-    -------
-    bool
-    """
+    """Return whether the mass of an assembly, or of one in it, is given: then it is not the sum of its objects'."""
     kinds = (MemberKind.COLLECTION, MemberKind.EMPTY)
     return any(member.kind in kinds and settings_of(member.data).mass_from == "MASS" for member in root.walk())
 

@@ -125,16 +125,9 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
 
 
 def shortest_turn(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the rotation by the smallest angle that takes one unit vector to another.
+    """Return the (3, 3) rotation by the smallest angle that takes one (3,) unit vector to another.
 
-    Parameters
-    ----------
-    start, end : (3,) array
-
-    Returns
-    -------
-    (3, 3) array
-        For opposite vectors a half turn about an axis across them.
+    For opposite vectors it is a half turn about an axis across them.
     """
     middle = start + end
     length = np.linalg.norm(middle)

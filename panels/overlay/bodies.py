@@ -21,18 +21,9 @@ from . import appearance as look
 
 @dataclass(frozen=True, eq=False)
 class Bodies:
-    """Bodies that are drawn.
+    """Displayed bodies: (n, 3) centers of mass, and (n, 3, 3) principal axes as columns.
 
-    Attributes
-    ----------
-    centers : (n, 3) array
-        Centers of mass.
-    axes : (n, 3, 3) array
-        Principal axes as columns.
-    gyration : (n, 3) array
-        Radii of gyration about them.
-    verdicts : (n,) integer array
-        Indices into `appearance.VERDICTS`.
+    `gyration`: (n, 3) radii of gyration about the axes. `verdicts`: (n,) indices into `appearance.VERDICTS`.
     """
 
     centers: NDArray[np.float64]
@@ -59,13 +50,8 @@ class Bodies:
 class Collected:
     """The displayed bodies and their objects.
 
-    Attributes
-    ----------
-    bodies : Bodies
-    objects : list of (int, str)
-        Session uids and names of the bodies' objects; empty if some bodies belong to something else.
-    alone : dict of int to int
-        Session uids of objects whose numbers change with no move of another object, and their places.
+    `objects`: session uids and names of the bodies' objects; empty if some bodies belong to something else.
+    `alone`: places of the objects whose numbers change with no move of another object, by session uid.
     """
 
     bodies: Bodies

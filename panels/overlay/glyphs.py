@@ -26,14 +26,8 @@ Part = tuple[NDArray[np.float64], NDArray[np.int32]]  # (k, 2) corners in pixels
 class Glyphs:
     """Several glyphs of one kind.
 
-    Attributes
-    ----------
-    corners : (n, k, 2) array
-        In pixels.
-    colors : (2, n, k, 4) array
-        Hidden by something in front, and visible.
-    triangles : (n, l, 3) array
-        Corner indices, painted in this order.
+    `corners`: (n, k, 2) in pixels. `colors`: (2, n, k, 4) hidden by something in front, and visible.
+    `triangles`: (n, l, 3) corner indices, painted in this order.
     """
 
     corners: NDArray[np.float32]

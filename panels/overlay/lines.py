@@ -40,24 +40,10 @@ def _colored(segments: NDArray, bodies: Bodies) -> Segments:
 def disc_triangles(
     bodies: Bodies, view: View, scale: float, with_digits: bool
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
-    """Make the discs at the centers, and the digits at the ends of the axes.
+    """Make the discs at the centers, and the digits at the ends of the axes if `with_digits`.
 
-    Parameters
-    ----------
-    bodies : Bodies
-    view : View
-    scale : float
-        Pixels for one of `appearance`.
-    with_digits : bool
-        Name the axes.
-
-    Returns
-    -------
-    points : (k, 3) array
-    colors : (2, k, 4) array
-        Hidden by something in front, and visible.
-    triangles : (l, 3) array
-        The nearest bodies last.
+    Return (k, 3) points, (2, k, 4) colors, hidden by something in front and visible, and (l, 3) triangles, the nearest
+    bodies last. `scale` is in pixels for one of `appearance`.
     """
     sizes = view.pixel_sizes(bodies.centers).max(axis=1)
     reach = np.divide(bodies.gyration.max(axis=1), sizes, out=np.zeros(len(bodies)), where=sizes > 0.0)  # in pixels

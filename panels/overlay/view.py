@@ -12,15 +12,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A projection of the world to the screen.
-
-    Attributes
-    ----------
-    view, projection : (4, 4) array
-        World to view, view to clip coordinates.
-    size : (2,) array
-        Width and height in pixels.
-    """
+    """A projection of the world to the screen: (4, 4) world to view, (4, 4) view to clip space, (2,) size in pixels."""
 
     view: NDArray[np.float64]
     projection: NDArray[np.float64]
@@ -47,18 +39,9 @@ class View:
         return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
 
     def place(self, anchors: NDArray, offsets: NDArray) -> NDArray[np.float64]:
-        """Put shapes of constant size on the screen at points of the world.
+        """Return (n, k, 3) world points of shapes of constant screen size at (n, 3) anchors, in the offsets' type.
 
-        Parameters
-        ----------
-        anchors : (n, 3) array
-        offsets : (n, k, 2) array
-            In pixels, right and up.
-
-        Returns
-        -------
-        (n, k, 3) array
-            In the world, in the plane through the anchor that faces the view; of the type of the offsets.
+        The (n, k, 2) offsets are pixels right and up; the points lie in the plane through the anchor facing the view.
         """
         lengths = self.pixel_sizes(anchors)[:, :, None] * self.view[:2, :3]
         right, up = offsets[..., 0], offsets[..., 1]

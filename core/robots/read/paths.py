@@ -39,13 +39,7 @@ class Roots:
         return cls((*folders, *(Path(os.path.realpath(path)) for path in more)), anywhere)
 
     def find(self, name: str) -> Path:
-        """Return the file that a description names.
-
-        Raises
-        ------
-        FileError
-            If it is not there, not allowed, or on a network.
-        """
+        """Return the file that a description names; raise FileError if it is missing, not allowed, or on a network."""
         name = name.replace("\\", "/")
         match = _SCHEME.fullmatch(name)
         scheme, rest = (match[1].lower(), match[2]) if match else ("", name)

@@ -73,24 +73,8 @@ def write_over(
 ) -> str:
     """Return a layer that gives the prims of another one their mass, and nothing else.
 
-    Parameters
-    ----------
-    robot : Robot
-    paths : mapping of str to sequence of str
-        The prims of each root, from the top.
-    geometry : str
-        The other layer's file, relative to this one.
-    meters_per_unit : float
-        Of the other layer's numbers: the unit scale of the Blender scene, which its exporter leaves out.
-    remarks : sequence of str
-        Comments at the beginning.
-
-    Returns
-    -------
-    str
-
-    Notes
-    -----
+    `paths`: the prims of each root, from the top. `geometry`: the other layer's file, relative to this one.
+    `meters_per_unit`: unit scale of the Blender scene, left out by its exporter. `remarks`: comments at the beginning.
     Prims stand in one another as objects do, and a body within a body is none: so each root carries all that is fixed
     to it.
     """
