@@ -37,32 +37,13 @@ MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
 class Body:
     """All parts of an object together, in SI units and world axes; the base class knows moments to third order only.
 
-    Attributes
-    ----------
-    volume, area : Moments
-        The volume's to order 3 at least.
-    method, findings
-        As in `Measurement`.
-    mass : Moments, optional
-        Moments in kg of a body of varying density.
-    higher_mass : Moments, optional
-        The same to the requested order, above third.
-    density_from : Finding, optional
-        Source of such a density, with a code ``density_from_…``.
-    density_key : str
-        Settings that decide such a density, for the fingerprint.
-    materials : tuple of str
-        Full names of the materials that were looked at for it.
-    wall : Moments, optional
-        Volume moments of the material of a shell of real thickness.
-    length : Moments, optional
-        Of a wire.
-    estimated : bool
-        True if the bounds of its errors are estimates.
-    display_volume : float, optional
-        Volume of the display mesh, for a body that is measured without it, m³.
-    face_count : int
-        Number of measured triangles and quads.
+    `volume`: known to third order at least. `length`: of a wire. `wall`: the material of a shell of real thickness.
+    `mass`: kg, of a body of varying density; `higher_mass`: the same to the requested order, above third.
+    `density_from`: source of a varying density, with a code ``density_from_…``.
+    `density_key`: settings that decide a varying density, for the fingerprint; `materials`: full names of those read.
+    `estimated`: true if the error bounds are estimates.
+    `display_volume`: volume of the display mesh, m³, for a body that is measured without it.
+    `face_count`: number of measured triangles and quads.
     """
 
     any_order: ClassVar[bool] = False  # true if `moments` gives any order
@@ -85,18 +66,9 @@ class Body:
     face_count: int = 0
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the volume's and the area's moments to another order.
+        """Return the volume's and the area's moments to another order; the area's may be None unless `area` is true.
 
-        Parameters
-        ----------
-        order : int
-        area : bool
-            The area's moments are wanted; else they may be None.
-
-        Raises
-        ------
-        ReadError
-            If they are not known.
+        Raise ReadError if they are not known.
         """
         raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
 
@@ -122,12 +94,8 @@ class Body:
 class MeshBody(Body):
     """A body bounded by polygons, or their sheets.
 
-    Attributes
-    ----------
-    solids : tuple of (SolidIntegrals, (k, 4, 4) array)
-        The measured surfaces, and the maps to their places.
-    sheets : tuple of Surface
-        The surface of each solid before repair.
+    `solids`: the measured surfaces, each with the (k, 4, 4) maps to its places.
+    `sheets`: the surface of each solid before repair.
     """
 
     any_order: ClassVar[bool] = True
@@ -234,21 +202,10 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
-    """Return the moments of bodies that are images of shapes in their own coordinates.
+    """Return the moments of `m` bodies that are images of shapes, volumes or areas, in their own coordinates.
 
-    Parameters
-    ----------
-    shapes : sequence of Moments
-        Volumes or areas.
-    which : (m,) int
-        The shape of each body.
-    linear : (m, 3, 3) array
-        The map from there: a similarity that may mirror, or anything else.
-
-    Returns
-    -------
-    OwnMoments
-        A mirrored shape is a shape of its own; so is one that is mapped unevenly, in the coordinates of its body.
+    `which` (m,) is the shape of each body, `linear` (m, 3, 3) the map from it: any map, mirrored ones included.
+    A mirrored shape counts as a shape of its own; so does an unevenly mapped shape, in the coordinates of its body.
     """
     is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
     rotation = np.tile(np.eye(3), (len(which), 1, 1))

@@ -59,10 +59,7 @@ def measure_object(
 ) -> Measurement:
     """Return the mass properties of one object as it is evaluated, in SI units and world axes.
 
-    Raises
-    ------
-    MeasureError
-        If there is nothing to measure.
+    Raise MeasureError if there is nothing to measure.
     """
     return measure_body(obj, depsgraph, options).measurement
 

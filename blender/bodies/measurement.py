@@ -37,10 +37,7 @@ MAX_FACES_HIGH_ORDER = 20_000
 def measurement_of(reading: Reading | VolumeReading, body: Body, request: Request) -> Measurement:
     """Return the results of measuring a body, with its moments to the requested order.
 
-    Raises
-    ------
-    MeasureError
-        If it has no mass, or no moments of that order.
+    Raise MeasureError if the body has no mass, or no moments of that order.
     """
     options = request.options
     shell, wire = options.kind == "shell", options.kind == "wire"
@@ -99,10 +96,7 @@ def measurement_of(reading: Reading | VolumeReading, body: Body, request: Reques
 def extent(body: Body, options: ResolvedOptions) -> Moments:
     """Return the moments that the density multiplies: of the volume, a shell's sheet or wall, or a wire's length.
 
-    Raises
-    ------
-    ReadError
-        If there is none.
+    Raise ReadError if that volume is not positive.
     """
     if body.length is not None:
         return body.length

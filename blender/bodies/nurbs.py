@@ -52,14 +52,8 @@ HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)
 class PatchBody(Body):
     """A body bounded by patches, and polygons beside them.
 
-    Attributes
-    ----------
-    reading : Reading
-        All of it. `surfaces` yields its display mesh.
-    pieces : tuple of (Part, PatchIntegrals, (k, 4, 4) array)
-        The parts that are patches, and the maps to their places.
-    polygons : MeshBody, optional
-        The other parts.
+    `reading`: the whole object; `surfaces` yields its display mesh.
+    `pieces`: the parts that are patches, each with the (k, 4, 4) maps to its places. `polygons`: the other parts.
     """
 
     any_order: ClassVar[bool] = True

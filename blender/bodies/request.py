@@ -23,20 +23,10 @@ from ..settings.options import AS_SET, MeasureOptions, ResolvedOptions
 class Request:
     """One object's measurement before it is made.
 
-    Attributes
-    ----------
-    options : ResolvedOptions
-        The given options, completed by the object's settings.
-    unit : float
-        Metres per Blender unit.
-    given : MeasureOptions
-        Overrides of the object's settings.
-    obj, depsgraph
-        The object and its depsgraph; None for the content of a file.
-    opened : ExitStack
-        Closes opened resources at the end of the measurement.
-    findings : list of Finding
-        Reasons why kinds that might have read the object did not.
+    `options`: the given ones, completed by the object's settings; `given`: overrides of those settings.
+    `unit`: meters per Blender unit. `obj`, `depsgraph`: None for the content of a file.
+    `opened`: closes opened resources at the end of the measurement.
+    `findings`: reasons why kinds that might have read the object did not.
     """
 
     options: ResolvedOptions

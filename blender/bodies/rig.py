@@ -71,22 +71,11 @@ class _Sum:
 
 @dataclass(frozen=True, eq=False)
 class BonePart:
-    """The part of one bone.
+    """The part of one bone, SI, world axes, at rest.
 
-    Attributes
-    ----------
-    name : str
-        Of the bone.
-    mass : Moments
-        In kg to third order, SI, world axes, at rest.
-    measurement : Measurement, optional
-        In the world at rest; its object frame is the bone's rest frame.
-    refusal : Finding, optional
-        Why there is none: no body has such moments.
-    surfaces : tuple of (Surface, (4, 4) array)
-        Closed pieces of solids and sheets of shells, and the maps to the world, m.
-    sources : tuple of str
-        The objects that it is made of.
+    `name`: of the bone. `mass`: kg, to third order. `sources`: names of the objects that the part is made of.
+    `measurement`: its object frame is the bone's rest frame. If no body has such moments, `refusal` says why.
+    `surfaces`: closed pieces of solids and sheets of shells, each with the (4, 4) map to the world, m.
     """
 
     name: str
@@ -108,19 +97,9 @@ class Rig:
 
 
 def measure_rig(context: Context, armature: Object) -> Rig:
-    """Measure the parts of all bones of a character.
+    """Measure the parts of all bones of a character; the view layer has the armature and all that it moves.
 
-    Parameters
-    ----------
-    context : Context
-        Its view layer has the armature object and all that it moves.
-    armature : Object
-        An armature object.
-
-    Raises
-    ------
-    MeasureError
-        If it has no part with a mass.
+    Raise MeasureError if no part has a mass.
     """
     with rest_pose(context, armature) as depsgraph:
         return _Measuring(armature, depsgraph).rig()

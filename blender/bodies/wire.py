@@ -75,12 +75,7 @@ def body(reading: Reading, request: Request) -> Body:
 def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: float) -> tuple[list[Curve], float]:
     """Return the curves in the world, m, and by how much storing their points as float32 may have moved them.
 
-    Parameters
-    ----------
-    matrix : (4, 4) array
-        World from their coordinates, Blender units.
-    unit : float
-        Metres per Blender unit.
+    `matrix` is (4, 4), world from their coordinates, Blender units; `unit` is in meters per Blender unit.
     """
     largest = max(float(np.abs(curve.points).max()) for curve in curves)
     scaled = np.array(matrix, np.float64)

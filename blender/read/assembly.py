@@ -42,17 +42,10 @@ class MemberKind(StrEnum):
 class Member:
     """A member of an assembly, or the assembly itself.
 
-    Attributes
-    ----------
-    data : Object or Collection
-        Of an instance, the instancer.
-    kind : MemberKind
-    members : tuple of Member
-        Members of a collection or an instance, or the children of an object.
-    matrix : (4, 4) array, optional
-        Of an instance, from its collection's members to their displayed places, Blender units.
-    left_out : Finding, optional
-        Reason why it is not counted.
+    `data`: an object or collection; the instancer of an instance.
+    `members`: of a collection or an instance, or the children of an object.
+    `matrix`: (4, 4), of an instance, from its collection's members to their displayed places, Blender units.
+    `left_out`: the reason why the member is not counted.
     """
 
     data: Root
@@ -86,14 +79,9 @@ def is_assembly(data: Root) -> bool:
 
 
 def members_of(root: Root, depsgraph: Depsgraph) -> Member:
-    """Return an assembly with all its members, as the scene has them.
+    """Return an assembly, a collection or an empty with children, with all its members, as the scene has them.
 
-    Parameters
-    ----------
-    root : Object or Collection
-        An original collection, or an empty with children.
-    depsgraph : Depsgraph
-        Up to date.
+    The collection or empty is the original; the depsgraph must be up to date.
     """
     if isinstance(root, bpy.types.Collection):
         return _Walk(root.all_objects, depsgraph).collection(root)

@@ -42,15 +42,10 @@ def matrix_hash(obj: bpy.types.Object) -> str:
 
 
 def transform_key(obj: bpy.types.Object) -> str:
-    """Return a key of the transform as far as the numbers of the object depend on it.
+    """Return a key of the transform as far as the numbers of the object depend on it, for `has_transform` to compare.
 
     The key contains scale and mirroring, but neither location nor rotation. It is a digest of the whole transform if
     the object is sheared, or its body does not move along with it.
-
-    Returns
-    -------
-    str
-        To be compared by `has_transform`.
     """
     scale = _scale(obj) if _moves_along(obj) else None
     if scale is None:

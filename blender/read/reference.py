@@ -25,14 +25,8 @@ Point = tuple[float, ...]
 class ReferenceChoice:
     """Choice of a reference, independent of its place.
 
-    Attributes
-    ----------
-    about : str
-        "CENTER", "ORIGIN", "WORLD", "CURSOR", "OBJECT" or "AXIS".
-    object : str
-        The other object's name.
-    points : tuple
-        The axis' two points, Blender units.
+    `about`: "CENTER", "ORIGIN", "WORLD", "CURSOR", "OBJECT" or "AXIS".
+    `object`: the other object's name. `points`: two points of the axis, Blender units.
     """
 
     about: str
@@ -71,18 +65,8 @@ class ReferenceChoice:
     def resolve(self, owner: bpy.types.ID, scene: Scene, center: NDArray) -> Reference:
         """Return the frame, SI, world axes.
 
-        Parameters
-        ----------
-        owner : Object or Collection
-            The measured object or collection.
-        scene : Scene
-        center : (3,) array
-            Its center of mass, m.
-
-        Raises
-        ------
-        QueryError
-            If there is no such frame.
+        `owner` is the measured object or collection, `center` its (3,) center of mass, m. Raise QueryError if there
+        is no such frame.
         """
         unit = shortest_decimal(scene.unit_settings.scale_length)
         if self.about == "CENTER":

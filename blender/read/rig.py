@@ -26,16 +26,9 @@ from .visibility import evaluated_geometry, measurable
 class RestBones:
     """The bones of an armature object in their rest pose.
 
-    Attributes
-    ----------
-    names : tuple of str
-        Of all bones.
-    deforming : tuple of str
-        Of the bones that deform meshes, numbered in this order.
-    segments : (b, 2, 3) array
-        Head and tail of these in the world, Blender units.
-    frames : mapping
-        Of each bone its rest frame in the world: rotation (3, 3), and head (3,), Blender units.
+    `names`: of all bones; `deforming`: of the bones that deform meshes, numbered in this order.
+    `segments`: (b, 2, 3), head and tail of the deforming bones in the world, Blender units.
+    `frames`: rest frame of each bone in the world: rotation (3, 3), and head (3,), Blender units.
     """
 
     names: tuple[str, ...]
@@ -64,13 +57,7 @@ class RestBones:
 
 @contextmanager
 def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
-    """Evaluate the scene with the armature at rest, and put it back.
-
-    Yields
-    ------
-    Depsgraph
-        The evaluated one.
-    """
+    """Evaluate the scene with the armature at rest, yield the depsgraph, and restore the pose."""
     data = armature.data
     before = data.pose_position
     with tracking_paused():
@@ -102,11 +89,7 @@ def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
     """Return the measurable objects parented to bones, with their children, and the bone of each.
 
-    Parameters
-    ----------
-    armature : Object
-    skinned : iterable of Object
-        Objects to skip, under any parent.
+    Objects in `skinned` are skipped, under any parent.
     """
     skinned, found = set(skinned), []
     for child in sorted(armature.children, key=lambda obj: obj.name):

@@ -25,24 +25,11 @@ def link_entry(
     scale: Sequence[float] = (1.0, 1.0, 1.0),
     free: Sequence[Mapping[str, Any]] = (),
 ) -> dict[str, Any]:
-    """Return the entry `link` of a record.
+    """Return the entry `link` of a record; its position, m, and rotation (w, x, y, z) are in the world.
 
-    Parameters
-    ----------
-    measurement : Measurement
-        Its own; the link's frame is the object's.
-    parents : sequence of str
-        The records of its parents, the nearest first.
-    scale : (3,) sequence
-        Of the object's own geometry.
-    free : sequence of mapping
-        Its motion in its parent: "kind", "axis" (its own), "lower" and "upper" of each degree of freedom, None for
-        no limit.
-
-    Returns
-    -------
-    dict
-        "position" (m) and "rotation" (w, x, y, z) in the world, "scale", "parents"; "free" if it may move.
+    The link's frame is the object's. `parents` are the names of records, the nearest first; `scale` is that of the
+    object's own geometry. `free` has "kind", "axis" (the link's own), "lower" and "upper" of each degree of freedom in
+    the parent, None for no limit; the entry has "free" only if the link may move.
     """
     return {
         "position": measurement.location.tolist(),
@@ -69,18 +56,7 @@ def link_surface(
 ) -> Surface | None:
     """Return the surfaces of a link's objects as triangles in meters, in the link's frame; None if they show no faces.
 
-    Parameters
-    ----------
-    objects : iterable of Object
-    depsgraph : Depsgraph
-    pose : Pose
-        Of the link in the world, m.
-    unit : float
-        Meters per Blender unit.
-
-    Returns
-    -------
-    Surface or None
+    `pose` is the link's in the world, m; `unit` is in meters per Blender unit.
     """
     pieces, to_link = [], pose.inverse()
     for obj in objects:
@@ -102,19 +78,10 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
 
 
 def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
-    """Return how a bone may turn in its parent, about its own axes.
+    """Return how a bone may turn in its parent, about its own axes, as `link_entry` takes it.
 
-    The axis about which Blender's XYZ angles turn last comes first.
-
-    Parameters
-    ----------
-    bone : PoseBone
-        Its Limit Rotation constraint in local space counts, else its limits for inverse kinematics; and its locks.
-
-    Returns
-    -------
-    list of dict
-        As `link_entry` takes them. An axis that is locked, or has no room, is left out.
+    The axis about which Blender's XYZ angles turn last comes first; a locked axis, or one without room, is left out.
+    The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics.
     """
     limits: dict[str, tuple[float | None, float | None]] = {}
     for axis in "xyz":
@@ -148,15 +115,7 @@ USD_ROOT = "root"  # Blender's exporter puts everything under it
 def usd_path(obj: bpy.types.Object, identifier: Callable[[str], str]) -> list[str]:
     """Return the names of the prims from the top to an object's, as Blender's exporter writes them.
 
-    Parameters
-    ----------
-    obj : Object
-    identifier : callable
-        Makes the name of a prim of an object's.
-
-    Returns
-    -------
-    list of str
+    `identifier` makes the name of a prim from an object's name.
     """
     names, above = [], obj
     while above is not None:

@@ -8,10 +8,7 @@ from __future__ import annotations
 class tracking_paused:
     """A context in which no change is noted: for changes that leave every object's shape as it was.
 
-    Attributes
-    ----------
-    depth : int
-        Of the class: how many such contexts are open. While there is one, changes that Blender reports are no edits.
+    While any such context is open, changes that Blender reports are no edits; the class counts them in `depth`.
     """
 
     depth = 0

@@ -62,23 +62,11 @@ Results = dict[Object, Measured | Stacked | Finding]
 class MemberBody:
     """Moments of a member of an assembly, SI, world axes.
 
-    Attributes
-    ----------
-    member : Member
-    masses : mapping of int to Moments
-        In kg to third order, by the power of an instance's scale that they grow with; empty if nothing counts.
-    volume, area, volume_error, area_error : float
-        m³ and m², with bounds of their rounding.
-    volume_input, area_input : float
-        Bounds of the effect of float32 coordinates on both.
-    measured : Measured or Stacked, optional
-        Of an object, with its measurement.
-    refusal : Finding, optional
-        Reason why it could not be measured.
-    parts : tuple of MemberBody
-        Its own members.
-    findings : tuple of Finding
-        About this member alone.
+    `masses`: kg, to third order, by the power of an instance's scale that they grow with; empty if nothing counts.
+    `volume_error`, `area_error`: bounds of the rounding of the volume, m³, and of the area, m².
+    `volume_input`, `area_input`: bounds of the effect of float32 coordinates on both.
+    `measured`: the measurement of an object; `refusal`: the reason why it could not be measured.
+    `parts`: the members of this member. `findings`: about this member alone, without its parts.
     """
 
     member: Member
@@ -109,15 +97,7 @@ class MemberBody:
 
 @dataclass(frozen=True, eq=False)
 class Assembly:
-    """An assembly as one body.
-
-    Attributes
-    ----------
-    root : MemberBody
-        The whole, with its tree.
-    measurement : Measurement
-        Of the whole.
-    """
+    """An assembly as one body: the tree of its members, and the measurement of the whole."""
 
     root: MemberBody
     measurement: Measurement
@@ -126,18 +106,7 @@ class Assembly:
 def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
     """Measure a collection, or an empty with its children, as one body.
 
-    Parameters
-    ----------
-    root : Object or Collection
-    depsgraph : Depsgraph
-        Up to date.
-    options : MeasureOptions
-        Overrides of the members' settings.
-
-    Raises
-    ------
-    MeasureError
-        If it has no mass.
+    The depsgraph must be up to date; `options` override the members' settings. Raise MeasureError if there is no mass.
     """
     member = members_of(root, depsgraph)
     results: Results = {}

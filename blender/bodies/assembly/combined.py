@@ -36,25 +36,11 @@ def combined_measurement(
     density_from: Finding = finding(DENSITY_FROM_MEMBERS),  # noqa: B008 frozen
     health: MeshHealth | None = None,
 ) -> Measurement:
-    """Return the results of bodies whose mass moments have been added.
+    """Return the results of bodies whose mass moments have been added: `mass`, kg to third order, SI, world axes.
 
-    Parameters
-    ----------
-    name, type, kind, fingerprint, findings, method, density_from, health
-        As in `Measurement`.
-    mass : Moments
-        In kg to third order, SI, world axes.
-    volume, area : tuple of two floats
-        m³ and m², and the bounds of their rounding.
-    inputs : tuple of two floats
-        Bounds of the effect of float32 coordinates on volume and area.
-    rotation, location : (3, 3) and (3,) array
-        The frame in which the results are stored, m.
-
-    Raises
-    ------
-    MeasureError
-        If they have no certain mass, or second moments that are impossible for a body.
+    `volume`, m³, and `area`, m², come with the bounds of their rounding; `inputs` bound the effect of float32
+    coordinates on both. `rotation` (3, 3) and `location` (3,), m, are the frame in which the results are stored.
+    Raise MeasureError if no mass is certain, or if the second moments are impossible for a body.
     """
     properties = properties_of(mass, rotation)
     nothing = np.zeros(monomial_count(KNOWN_ORDER) - 1)

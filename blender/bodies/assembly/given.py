@@ -40,30 +40,11 @@ NO_AXES_FIXED = "isotropic"
 def given_moments(
     mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
 ) -> tuple[Moments, list[Finding]]:
-    """Return the mass moments of a part whose mass is known, SI, world axes.
+    """Return the mass moments, kg, SI, world axes, about the center, of a part whose mass is known; and the findings.
 
-    Parameters
-    ----------
-    mass : float
-        kg.
-    given : GivenPart
-        In the part's own frame.
-    rotation, location : (3, 3) and (3,) array
-        That frame, its axes as columns, m.
-    geometry : Moments, optional
-        Source of the center, and of the inertia scaled to the mass, to third order, if these are not given. Without
-        any, the part is a point at its origin.
-
-    Returns
-    -------
-    moments : Moments
-        About the center, in kg.
-    findings : list of Finding
-
-    Raises
-    ------
-    ReadError
-        If the mass or the tensor is impossible.
+    `rotation` (3, 3), axes as columns, and `location` (3,), m, are the part's frame, in which `given` is stated.
+    The center, and the inertia scaled to the mass, come from `geometry` if they are not given; without it the part is
+    a point at its origin. Raise ReadError if the mass or the tensor is impossible.
     """
     if not mass > 0.0:
         raise ReadError(ZERO_MASS)

@@ -78,10 +78,7 @@ class _Weighed:
 def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
     """Return the body with the mass that its density gives it, and its moments to the order that is asked for.
 
-    Raises
-    ------
-    MeasureError
-        If the density is missing or negative anywhere.
+    Raise MeasureError if the density is missing or negative anywhere.
     """
     extent(body, request.options)  # refused before it is weighed
     order = request.options.order

@@ -42,10 +42,7 @@ MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: below this, rounding
 def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     """Return the solid with the density of the Volume object that its settings name.
 
-    Raises
-    ------
-    MeasureError
-        If that has no readable grid, or does not reach the solid.
+    Raise MeasureError if the Volume object has no readable grid, or does not reach the solid.
     """
     name, source = request.obj.name, request.obj.body_moments.density_volume
     grid = GridOptions.of(source.body_moments)

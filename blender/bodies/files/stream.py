@@ -40,15 +40,7 @@ class StreamHealth(MeshHealth):
 
 @dataclass(frozen=True, eq=False)
 class StreamBody(Body):
-    """A body bounded by the faces of a file, or their sheet.
-
-    Attributes
-    ----------
-    mesh : MeshFile
-    unit : float
-        Meters per unit.
-    threads : int
-    """
+    """A body bounded by the faces of a file, or their sheet; `unit` is in meters per unit of the file."""
 
     any_order: ClassVar[bool] = True
 

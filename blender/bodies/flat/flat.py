@@ -64,29 +64,13 @@ NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
 class FlatRegion:
     """A region of a plane, in SI units.
 
-    Attributes
-    ----------
-    name, type : str
-        Of the object.
-    description : str
-        The part of it that was read.
-    plane : Plane
-        In the world.
-    spatial : (n, 3) array
-        Its points in the world, and `points`, (n, 2), in the plane.
-    edges : (m, 2) integer array
-        The inside lies to the left of each, seen from the front.
-    stored : float
-        Largest effect of float32 on a point.
-    shared : float
-        The length that edges share.
-    drawn_area : float or None
-        The area that Blender fills, of outlines.
-    rotation, location : arrays
-        The object frame.
-    curves : tuple of Curve
-        The outlines in the plane's axes, if known; else none.
-    findings : tuple of Finding
+    `name`, `type`: of the object; `description`: the part of it that was read.
+    `plane`: in the world. `spatial`: (n, 3) points in the world; `points`: (n, 2), the same in the plane.
+    `edges`: (m, 2) indices; seen from the front, the inside lies to the left of each edge.
+    `stored`: largest effect of float32 on a point. `shared`: the length that edges share.
+    `drawn_area`: the area that Blender fills, for outlines.
+    `rotation`, `location`: the object frame.
+    `curves`: the outlines in the plane's axes; empty if they are not known.
     """
 
     name: str
@@ -117,10 +101,7 @@ class FlatRegion:
     def moments(self, order: int) -> Moments:
         """Return ∫ x^p y^q dA about the centroid, along the plane's axes from its origin.
 
-        Raises
-        ------
-        MeasureError
-            If nothing is enclosed, or a moment leaves the range of numbers.
+        Raise MeasureError if nothing is enclosed, or a moment leaves the range of numbers.
         """
         with np.errstate(over="ignore", invalid="ignore"):
             if self.curves:
@@ -145,25 +126,11 @@ def flat_region(
     exact: bool = True,
     unit: float | None = None,
 ) -> FlatRegion:
-    """Return an object as a region of a plane.
+    """Return an object as a region of a plane, in SI units.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    depsgraph : bpy.types.Depsgraph
-    selected : bool
-        In Edit Mode, read only its selected faces.
-    resolution : int, optional
-        Of curves and text, in the place of their own.
-    exact : bool
-        Read the curves, too.
-    unit : float, optional
-        Meters per Blender unit, by default the scene's.
-
-    Raises
-    ------
-    MeasureError
-        If it is not flat, is extruded, or has outlines that cross.
+    `selected` reads only the selected faces in Edit Mode; `resolution` replaces that of curves and text; `exact` reads
+    the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if the object is
+    not flat, is extruded, or has outlines that cross.
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)

@@ -49,21 +49,9 @@ def flat_transform(
 ) -> FlatTransform:
     """Return the transform ∫ exp(-i q·x) dA of a flat object, in m².
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    depsgraph : bpy.types.Depsgraph
-    q : (M, 2) array, FrequencyGrid or callable
-        Rad/m along the plane's x and y; or a function that makes a grid from the region's largest extent in m.
-    frame : str
-        "world" or "object": x and y are counted from the foot of its origin.
-    unit : float, optional
-        Meters per Blender unit, by default the scene's.
-
-    Raises
-    ------
-    MeasureError
-        If it is not flat, has outlines that cross, or encloses nothing.
+    `q` is (M, 2) or a grid, rad/m along the plane's x and y, or a function that makes a grid from the region's largest
+    extent, m. x and y are counted from the foot of the origin of `frame`, "world" or "object". `unit` is in meters per
+    Blender unit. Raise MeasureError if the object is not flat, has outlines that cross, or encloses nothing.
     """
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
     findings = (*region.findings, *area_findings(region, region.moments(1).total))

@@ -32,14 +32,8 @@ MEASURED_AS = frozenset({"shell"})
 class RegionReading(Reading):
     """A curve object, and the region that its curves bound.
 
-    Attributes
-    ----------
-    boundary : tuple of Curve
-        In the world, m, holes against the outline.
-    normal : (3,) array
-        Of their plane.
-    stored : float
-        Largest effect of float32 on their points, m.
+    `boundary`: in the world, m; holes run against the outline. `normal`: (3,), of the plane of the curves.
+    `stored`: largest effect of float32 on the points, m.
     """
 
     boundary: tuple[Curve, ...] = ()

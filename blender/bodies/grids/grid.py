@@ -49,16 +49,9 @@ MEASURED_AS = frozenset({"solid", "shell", "wire"})  # the others to be refused
 class GridBody(Body):
     """Samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
 
-    Attributes
-    ----------
-    samples, shape
-        The samples, (offset, array) block by block or one array, and the (3,) shape of the box that holds them.
-    matrix : (4, 4) array
-    options : GridOptions
-    background : float, optional
-        A value that counts as empty.
-    positions : three of (n,) array or None
-        Positions of samples along an axis, in place of 0, 1, 2, …
+    `samples`: one array, or (offset, array) block by block; `shape`: (3,), of the box that holds them.
+    `background`: a value that counts as empty.
+    `positions`: of the samples along each axis, in place of 0, 1, 2, … if not None.
     """
 
     any_order: ClassVar[bool] = True

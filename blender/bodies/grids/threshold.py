@@ -43,16 +43,9 @@ TRILINEAR = 2
 class ThresholdGrid:
     """The values of a grid, dense, and their places.
 
-    Attributes
-    ----------
-    name : str
-    values : (nx, ny, nz) array
-    matrix : (4, 4) array
-        The value (i, j, k) stands at matrix @ (i, j, k, 1), in meters.
-    background : float, optional
-        The value beyond the grid; None if it is not known.
-    value : callable, optional
-        Converts a block of stored values, if they stand for others.
+    `values`: (nx, ny, nz); the value (i, j, k) stands at matrix @ (i, j, k, 1), in meters.
+    `background`: the value beyond the grid; None if it is not known.
+    `value`: converts a block of stored values, if they stand for others.
     """
 
     name: str
@@ -91,13 +84,7 @@ class ThresholdGrid:
 
 @dataclass(frozen=True, eq=False)
 class ThresholdGridBody(Body):
-    """The body of grid values at or above a threshold.
-
-    Attributes
-    ----------
-    grid : ThresholdGrid
-    options : GridOptions
-    """
+    """The body of grid values at or above a threshold."""
 
     any_order: ClassVar[bool] = True
 
@@ -113,10 +100,7 @@ class ThresholdGridBody(Body):
 def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
     """Return the values of a grid as one array; `unit` is in meters per Blender unit.
 
-    Raises
-    ------
-    ReadError
-        If there are too many.
+    Raise ReadError if the grid is a level set, or has too many values.
     """
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
@@ -139,10 +123,7 @@ def threshold_grid_body(
 ) -> ThresholdGridBody:
     """Return the body of grid values at or above a threshold; `order` is that of the wanted mass moments.
 
-    Raises
-    ------
-    MeasureError
-        If there is none, or its density is not known.
+    Raise MeasureError if no value reaches the threshold, or the density is not known.
     """
     if options.filled and options.table:
         raise ReadError(THRESHOLD_NEEDS_FACTOR)

@@ -20,22 +20,9 @@ MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
 def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
-    """Compute the convex hull of an object as it is evaluated, with its instances.
+    """Return the convex hull of an evaluated object with its instances, in its coordinates before `matrix_world`.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-    depsgraph : bpy.types.Depsgraph
-
-    Returns
-    -------
-    ConvexHull
-        In the object's own coordinates, before its `matrix_world`.
-
-    Raises
-    ------
-    MeasureError
-        If it shows no surface, an axis is scaled to zero, or all points are on a line.
+    Raise MeasureError if the object shows no surface, an axis is scaled to zero, or all points are on a line.
     """
     reading = read_object(obj, depsgraph, edges=False)
     if reading.is_singular:

@@ -28,12 +28,8 @@ def signed_in_turn(
 ) -> Callable[[bpy.types.Object], Signature | Shape]:
     """Return a function that finds the signatures, to an order, of objects one after the other.
 
-    The objects are measured as by `measured_in_turn`.
-
-    Returns
-    -------
-    callable
-        Gives the signature of one of the objects, or of one that was measured by itself its shape. Raises MeasureError.
+    The objects are measured as by `measured_in_turn`. For an object that was measured by itself, the function returns
+    its shape instead. The function raises MeasureError.
     """
     measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
     known: dict[MeasuredStack, list[Signature | None]] = {}

@@ -34,20 +34,9 @@ Outcome = Measured | Stacked | Exception
 def measure_many(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-    """Measure objects, some at a time.
+    """Measure original objects, some at a time: yield the next ones in their order, each with its outcome.
 
-    Parameters
-    ----------
-    objects : sequence of bpy.types.Object
-        Original ones.
-    depsgraph : bpy.types.Depsgraph
-    options : MeasureOptions
-        For all of them.
-
-    Yields
-    ------
-    list of (bpy.types.Object, Measured or Stacked or Exception)
-        The next ones, in their order: the measurement, or the reason why there is none.
+    An outcome is the measurement, or the exception that tells why there is none.
     """
     pending: list[tuple[bpy.types.Object, StackMember | None]] = []
     collector = _Collector(depsgraph, options)
@@ -63,13 +52,10 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Measure objects together that are asked for one after the other, while nothing changes.
+    """Return a function that measures ahead in batches and yields one object's measurement at a time.
 
-    Returns
-    -------
-    callable
-        Gives the measurement of one of the objects, or raises why there is none. Each is asked for once, in their
-        order; some may be left out.
+    The function raises the reason if there is no measurement. Call it once for each object, in their order; some may be
+    left out. The scene must not change meanwhile.
     """
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)

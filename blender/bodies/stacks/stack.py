@@ -41,17 +41,8 @@ METHODS = {verdict: Method(verdict) for verdict in Verdict}
 class MeshShape:
     """A mesh in its own coordinates, and its measurement.
 
-    Attributes
-    ----------
-    surface : Surface
-    face_count : int
-        The mesh's.
-    row : int
-        Its index in the stacks of moments.
-    solids : SolidStack, optional
-        The stack that it was measured with; its row is the same.
-    alone : SolidIntegrals, optional
-        Its integrals, if it was measured by itself.
+    `row`: index in the stacks of moments; `solids`: the stack that the mesh was measured with, at the same row.
+    `alone`: the integrals of a mesh that was measured by itself.
     """
 
     surface: Surface
@@ -125,18 +116,10 @@ def _joined(stacks: list[Moments]) -> Moments:
 class StackMember:
     """An object that may join a stack.
 
-    Attributes
-    ----------
-    number : int
-        Its index among the collected objects.
-    density, mass : float or None
-        One of them; the other is NaN. kg/m³, kg.
-    settings : str
-        The digest of the settings.
-    matrix : (4, 4) array
-        World from the mesh's coordinates, Blender units.
-    location, quaternion : tuple of float
-        Of the object frame.
+    `number`: index among the collected objects. `settings`: their digest.
+    `density`, kg/m³, or `mass`, kg: the other of the two is NaN.
+    `matrix`: (4, 4), world from the mesh's coordinates, Blender units.
+    `location`, `quaternion`: the object frame.
     """
 
     number: int
@@ -152,24 +135,11 @@ class StackMember:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredStack:
-    """The measurements of many objects, in SI units and world axes.
+    """The measurements of many objects, in SI units and world axes; arrays have one row for each object.
 
-    Attributes
-    ----------
-    members : list of StackMember
-    from_mass : (n,) bool
-        True if the density follows from a given mass.
-    density : (n,) array
-        kg/m³.
-    volume, area : Moments
-    mass_properties : MassProperties
-        With a leading axis.
-    stretch : (n,) array
-        Factors of the shapes' volumes.
-    rotation, location : (n, 3, 3) and (n, 3) array
-        The object frames.
-    fingerprints : list of str
-    findings : list of tuple of Finding
+    `from_mass`: true if the density, kg/m³, follows from a given mass.
+    `stretch`: factors of the shapes' volumes.
+    `rotation`, `location`: (n, 3, 3) and (n, 3), the object frames.
     """
 
     members: list[StackMember]
