@@ -87,7 +87,7 @@ def last_edit(obj: Object, since: int = 0) -> Stamp:
 
 
 def last_return(obj: Object) -> Stamp:
-    """Return the last update of an object's geometry that was of a setting, or after undo; `NEVER` if none was."""
+    """Return the last update of an object's geometry that was of a setting, or after undo, else `NEVER`."""
     return _returns.get(obj.session_uid, NEVER)
 
 
