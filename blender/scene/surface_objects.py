@@ -25,23 +25,11 @@ MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
 
 
 def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> tuple[Object, float]:
-    """Make a surface object, in no collection yet.
+    """Return a surface object in no collection, and the largest effect of float32 on a point as a share of its size.
 
-    Parameters
-    ----------
-    name : str
-    patches : sequence of Patch
-        With the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
-        patches do.
-    factor : float
-        Blender units for a unit of the patches.
-
-    Returns
-    -------
-    obj : Object
-        With its origin at that of the patches, or among them if they are far from it.
-    moved : float
-        Largest effect of float32 on a point of the surfaces, as a share of their size.
+    patches: with the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
+    patches do. factor: Blender units for a unit of the patches.
+    The object's origin is that of the patches, or among them if they are far from it.
     """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)

@@ -20,14 +20,9 @@ GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_
 
 @dataclass(frozen=True, eq=False)
 class GivenPart:
-    """Given values of a part beside its mass, SI, in its own frame.
+    """Given values of a part beside its mass, SI, in its own frame; a value is None if it follows from the geometry.
 
-    Attributes
-    ----------
-    center : (3,) array or None
-        Its center of mass, m; None if the geometry's counts.
-    inertia : (3, 3) array or None
-        Its tensor about the center, kg·m²; None if it follows from the geometry.
+    center: (3,) center of mass, m. inertia: (3, 3) tensor about the center, kg·m².
     """
 
     center: NDArray[np.float64] | None = None

@@ -149,24 +149,11 @@ def store_stack(
     error_bounds: NDArray,
     texts: Iterable[tuple[Method, tuple[Finding, ...], str]],
 ) -> Iterator[Exception | None]:
-    """Write the results of many objects, each a solid of one density.
+    """Write the results of n objects, each a solid of one density; yield each object's exception or None.
 
-    Parameters
-    ----------
-    objects : sequence of bpy.types.Object
-        n of them.
-    body : MassProperties
-        With a leading axis, in the object frames.
-    density, volume, area : (n,) array
-    error_bounds : (n, 2, 4) array
-        Of rounding and of float32 coordinates, in the order of BOUND_KEYS.
-    texts : iterable of (Method, tuple of Finding, str)
-        Of each its method, findings and fingerprint.
-
-    Yields
-    ------
-    Exception or None
-        Of each object in turn, why it cannot hold them.
+    body: with a leading axis, in the object frames. density, volume, area: (n,) arrays.
+    error_bounds: (n, 2, 4) bounds of rounding and of float32 coordinates, in the order of BOUND_KEYS.
+    texts: the method, findings and fingerprint of each object.
     """
     columns = (
         body.mass,
@@ -223,18 +210,9 @@ def _replace(obj: Owner, values: dict) -> None:
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
-    """Write stored results, all of them finite, for another density: the mass and its products change by a factor.
+    """Write stored results for another density: the mass and its products change by a factor.
 
-    Parameters
-    ----------
-    obj : Owner
-        One that can hold results.
-    density : float
-        The mean, kg/m³; 0 of a wire.
-    mass : float
-        kg.
-    findings : sequence of Finding
-    fingerprint : str
+    The results must be finite, and the owner able to hold them. density: the mean in kg/m³, 0 for a wire. mass: in kg.
     """
     factor = mass / obj["body_mass"]
     for key in ("body_inertia", "body_inertia_diagonal", "body_inertia_products", "body_principal_moments"):

@@ -24,20 +24,8 @@ def thumbnail(
 ) -> str:
     """Draw triangles from an oblique direction, and return a PNG as a data URL.
 
-    Parameters
-    ----------
-    points : (n, 3) array
-        In any one frame and unit, as are the others.
-    triangles : (m, 3) integer array
-    center : (3,) array
-        The center of mass.
-    axes : (3, 3) array
-        The principal axes as columns.
-
-    Returns
-    -------
-    str
-        ``data:image/png;base64,…``
+    points (n, 3), the center of mass (3,) and the principal axes (3, 3) as columns share any one frame and unit.
+    triangles: (m, 3) integers.
     """
     corners = np.asarray(points, np.float64)[triangles] @ _VIEW
     low, high = corners.reshape(-1, 3).min(axis=0), corners.reshape(-1, 3).max(axis=0)

@@ -183,21 +183,9 @@ def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
 
 
 def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE") -> list[str]:
-    """Return numbers as a person reads them below one another.
+    """Return numbers as text for a column: as many decimals each, with the same power of ten if one is needed.
 
-    Parameters
-    ----------
-    values : sequence of float
-    digits : int
-        Significant digits of the largest of them.
-    grouping : str
-        One of `GROUPS`.
-
-    Returns
-    -------
-    list of str
-        With as many decimals each, without their common trailing zeros, and with the same power of ten if one is
-        needed.
+    Common trailing zeros are left out. digits: significant digits of the largest number. grouping: one of `GROUPS`.
     """
     largest = max((abs(value) for value in values if isfinite(value)), default=0.0)
     if largest == 0.0:

@@ -136,17 +136,7 @@ def is_stale(obj: Object, scene: Scene) -> bool:
 def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
     """Return the current numbers of an object with Live on, in its own frame, mapped to its place and stretch.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    scene : bpy.types.Scene
-        Its unit scale counts.
-
-    Returns
-    -------
-    StoredProperties or None
-        None if Live is off, or it could not be measured.
+    None if Live is off, or it could not be measured. The scene's unit scale counts.
     """
     followed = _followed.get(obj)
     if followed is None or followed.result is None or followed.result.measurement is None:

@@ -54,10 +54,7 @@ class _Followed:
 class Motion:
     """Objects as they are at the frame that the dependency graph shows.
 
-    Parameters
-    ----------
-    frames : int
-        Number of frames to come: shape keys are sampled if that is less work.
+    frames: number of frames to come; shape keys are sampled if that is less work.
     """
 
     frames: int
@@ -66,10 +63,7 @@ class Motion:
     def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]]:
         """Return the mass in kg and the center, (3,) in Blender's units and the world, of an object.
 
-        Raises
-        ------
-        MeasureError
-            If it has none, or they are not certain.
+        Raise MeasureError if it has none, or they are not certain.
         """
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)

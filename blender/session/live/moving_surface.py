@@ -31,12 +31,8 @@ FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
 class MovingSurface:
     """A body of moving points.
 
-    Attributes
-    ----------
-    surface : Surface
-        Its faces, in the object's own coordinates.
-    corners : (c,) array
-        The vertices of all corners of the mesh that was read.
+    surface: its faces, in the object's own coordinates.
+    corners: (c,) vertices of all corners of the mesh that was read.
     """
 
     surface: Surface
@@ -44,16 +40,7 @@ class MovingSurface:
 
     @classmethod
     def of(cls, measured: Measured) -> MovingSurface | None:
-        """Return the faces of a measured body; None if it is not one mesh in the object's own place.
-
-        Parameters
-        ----------
-        measured : Measured
-
-        Returns
-        -------
-        MovingSurface or None
-        """
+        """Return the faces of a measured body; None if it is not one mesh in the object's own place."""
         reading, body, method = measured.reading, measured.body, measured.measurement.method
         if (
             not isinstance(reading, Reading)
@@ -79,19 +66,10 @@ class MovingSurface:
         return cls(surface, read.corner_vertices)
 
     def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
-        """Return the object's current volume and center, in its own coordinates.
+        """Return the object's current volume and (3,) center, in its own coordinates.
 
-        Parameters
-        ----------
-        obj : bpy.types.Object
-            The original object that was measured.
-        depsgraph : bpy.types.Depsgraph
-            Evaluated.
-
-        Returns
-        -------
-        (float, (3,) array) or None
-            None if it does not show these faces, or they enclose nothing.
+        None if the evaluated `depsgraph` does not show these faces, or they enclose nothing.
+        obj: the original object that was measured.
         """
         if obj.type != "MESH" or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"} or obj.data.is_editmode:
             return None

@@ -38,17 +38,9 @@ _reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # by assembly: 
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
-    """Store an assembly's results, and those of all its members.
+    """Store the results of an assembly and its members; return names of members that cannot hold them, and the reasons.
 
-    Returns
-    -------
-    list of (str, Finding)
-        Names of members that cannot hold results, and the reasons.
-
-    Raises
-    ------
-    EditRefusedError
-        If the assembly itself cannot.
+    Raise EditRefusedError if the assembly itself cannot.
     """
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
@@ -94,12 +86,9 @@ def clear(root: Root) -> bool:
 
 
 def stale_reason(root: Root) -> str | None:
-    """Compare the stored results of an assembly with its current state in the window's scene.
+    """Return the code of the reason why an assembly's stored results are out of date in the window's scene.
 
-    Returns
-    -------
-    str or None
-        The code of the reason why they are out of date; None if they are not, or there are none.
+    None if they are up to date, or there are none.
     """
     known = _reasons.get(root)
     if known is None or known[0] != handlers.generation():

@@ -27,15 +27,10 @@ CONSTANT, LINEAR = 0, 1  # values of an F-curve's interpolation
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """Path of a center of mass.
+    """Path of a center of mass over f frames.
 
-    Attributes
-    ----------
-    frames : (f,) array
-    centers : (f, 3) array
-        In Blender's units and the world.
-    inside : (f,) array or None
-        True for a center over the support polygon; None without a polygon.
+    frames: (f,). centers: (f, 3), in Blender's units and the world.
+    inside: (f,), True for a center over the support polygon; None without a polygon.
     """
 
     frames: NDArray[np.float64]

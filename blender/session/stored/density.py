@@ -54,12 +54,7 @@ def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Findin
 def follow_density(obj: Object, scene: Scene) -> None:
     """Update stored results if the object's settings change them by a factor alone; else leave them out of date.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    scene : bpy.types.Scene
-        Its unit scale and default density count.
+    The scene's unit scale and default density count.
     """
     mark = marks.parse(properties.fingerprint(obj))
     if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):

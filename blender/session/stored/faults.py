@@ -25,16 +25,10 @@ MAX_DRAWN = 20000  # edges, and triangles, of an object
 
 @dataclass(frozen=True, eq=False)
 class Faults:
-    """In an object's own coordinates.
+    """Faulty edges and faces in an object's own coordinates.
 
-    Attributes
-    ----------
-    edges : (k, 2, 3) array
-        Boundary, non-manifold and inconsistent edges.
-    triangles : (l, 3, 3) array
-        Of flipped, duplicate and zero-area faces.
-    change : int
-        The last update of the geometry.
+    edges: (k, 2, 3), boundary, non-manifold and inconsistent. triangles: (l, 3, 3), of flipped, duplicate and zero-area
+    faces. change: number of the last update of the geometry.
     """
 
     edges: NDArray[np.float64]

@@ -32,22 +32,9 @@ _listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # by scene: the
 
 
 def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
-    """Choose and sort the measured objects of a view layer.
+    """Return whether each object of a view layer is listed, and its line; sort the measured objects.
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    view_layer : bpy.types.ViewLayer
-    name : str
-        A part of the names, in any case.
-    sort_by : SortBy
-    warnings_first : bool
-        True to put out-of-date and doubtful objects before all others.
-
-    Returns
-    -------
-    (list of bool, list of int)
-        For each of the view layer's objects: listed or not, and its line.
+    name: a part of the names, in any case. warnings_first: put out-of-date and doubtful objects before all others.
     """
     key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
     cached = _listings.get(scene)
@@ -57,18 +44,7 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
-    """Format the masses of a view layer's measured objects as one column.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    view_layer : bpy.types.ViewLayer
-
-    Returns
-    -------
-    dict of int to str
-        By session uids; all in one unit, with as many decimals.
-    """
+    """Return the masses of a view layer's measured objects by session uid, in one unit with as many decimals."""
     units = Units.of(scene.unit_settings)
     key = handlers.generation(), view_layer.name, units
     cached = _masses.get(scene)

@@ -19,14 +19,8 @@ from ..tracking import handlers
 class ActionOutcome:
     """Messages of one action.
 
-    Attributes
-    ----------
-    action : str
-        The operator's label, in English.
-    findings : tuple of Finding
-        Refusals and warnings, never empty.
-    objects : tuple of str
-        The full names of the objects that they are about.
+    action: the operator's label, in English. findings: refusals and warnings, never empty.
+    objects: full names of the objects that they are about.
     """
 
     action: str
@@ -40,12 +34,7 @@ _last: ActionOutcome | None = None
 def remember(action: str, findings: Iterable[Finding]) -> None:
     """Keep the refusals and warnings of an action, in place of the previous action's.
 
-    Parameters
-    ----------
-    action : str
-        The operator's label.
-    findings : iterable of Finding
-        Mere notes are left out; if nothing remains, nothing is shown.
+    action: the operator's label. Mere notes are left out; if nothing remains, nothing is shown.
     """
     global _last
     kept = of_severity(findings, Severity.ERROR, Severity.WARNING)

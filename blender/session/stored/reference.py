@@ -29,10 +29,7 @@ _shown: SessionCache[tuple[tuple, ReferredInertia | Finding]] = SessionCache()  
 def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Finding | None:
     """Return an owner's inertia about the scene's reference, from its stored results.
 
-    Returns
-    -------
-    ReferredInertia, Finding or None
-        The reason if there is none; None if nothing is stored.
+    Return the reason if there is none, and None if nothing is stored.
     """
     choice = ReferenceChoice.of(scene.body_moments_reference)
     key = (handlers.generation(), choice, scene.cursor.matrix.freeze() if choice.about == "CURSOR" else None)
@@ -51,19 +48,9 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
 
 
 def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None = None) -> None:
-    """Write the inertia about a reference beside the stored results.
+    """Write the inertia about a reference, by default the scene's, beside the stored results.
 
-    Parameters
-    ----------
-    owner : Object or Collection
-    scene : Scene
-    choice : ReferenceChoice, optional
-        By default the scene's.
-
-    Raises
-    ------
-    MeasureError
-        If there are no results, no such reference, or the owner cannot hold it.
+    Raise MeasureError if there are no results, no such reference, or the owner cannot hold it.
     """
     choice = choice or ReferenceChoice.of(scene.body_moments_reference)
     body = _stored_body(owner, scene)

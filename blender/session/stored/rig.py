@@ -34,10 +34,7 @@ _watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the a
 def store(rig: Rig) -> list[tuple[str, Finding]]:
     """Store the results of all bones and of the whole; return names of bones without results, and the reasons.
 
-    Raises
-    ------
-    EditRefusedError
-        If the armature object cannot hold results.
+    Raise EditRefusedError if the armature object cannot hold results.
     """
     armature = rig.armature
     properties.store(armature, rig.measurement)

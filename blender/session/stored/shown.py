@@ -30,17 +30,8 @@ from .trust import BY_OTHERS, Trust, trust, trust_of
 class ShownBody:
     """A measured object as it is drawn: world axes, lengths in Blender units.
 
-    Attributes
-    ----------
-    center : (3,) array
-        The center of mass.
-    axes : (3, 3) array
-        The principal axes as columns, of the least moment first.
-    gyration : (3,) array
-        The radii of gyration about them.
-    mass : float
-        In kg.
-    verdict : Trust
+    center: (3,) center of mass. mass: in kg.
+    axes: (3, 3) principal axes as columns, of the least moment first. gyration: (3,) radii of gyration about them.
     """
 
     center: NDArray[np.float64]
@@ -70,19 +61,9 @@ _own: SessionCache[_Own] = SessionCache()
 
 
 def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
-    """Return an object's body as it is drawn: its live numbers if Live is on, else the stored ones.
+    """Return an original object's body as it is drawn: its live numbers if Live is on, else the stored ones.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    scene : bpy.types.Scene, optional
-        The scene that it is drawn in, by default the context's.
-
-    Returns
-    -------
-    ShownBody or None
-        None if it has no numbers.
+    None if it has no numbers. scene: the scene of the drawing, by default the context's.
     """
     scene = scene or bpy.context.scene
     key = (handlers.generation(), scene.session_uid)
@@ -93,17 +74,7 @@ def shown_body(obj: Object, scene: Scene = None) -> ShownBody | None:
 
 
 def changes_alone(obj: Object) -> bool:
-    """Return whether an object's drawn body is independent of all moves of others that leave its geometry.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    bool
-    """
+    """Return whether an object's drawn body is independent of all moves of others that leave its geometry."""
     return obj.type == "MESH" and not (
         live.is_live(obj)
         or obj.body_moments.density_from in BY_OTHERS
@@ -178,18 +149,9 @@ def _posed_rig(armature: Object, scene: Scene) -> ShownBody | None:
 
 
 def shown_bone(bone: PoseBone, scene: Scene) -> ShownBody | None:
-    """Return the drawn body of a pose bone's part, in the bone's current place.
+    """Return the drawn body of a pose bone's part, in the bone's current place; None if it has no numbers.
 
-    Parameters
-    ----------
-    bone : bpy.types.PoseBone
-        Of an original armature object.
-    scene : bpy.types.Scene
-
-    Returns
-    -------
-    ShownBody or None
-        None if it has no numbers.
+    bone: of an original armature object.
     """
     numbers = properties.numbers(bone)
     if numbers is None:

@@ -94,19 +94,10 @@ def forget(obj: Object) -> None:
 
 
 def support(obj: Object, scene: Scene = None) -> Support | None:
-    """Return the current support of an object, in Blender's units and the world.
+    """Return the current support of an original object, in Blender's units and the world.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    scene : bpy.types.Scene, optional
-        The scene with the gravity, by default the context's.
-
-    Returns
-    -------
-    Support or None
-        None if its stability was not asked for or no longer holds, or it has no numbers.
+    None if its stability was not asked for or no longer holds, or it has no numbers.
+    scene: sets the gravity; by default the context's.
     """
     scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
@@ -133,21 +124,10 @@ def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
-    """Return the stable resting poses of an object.
+    """Return the stable resting poses of an original object, or the reason if there are none; None as for `support`.
 
     Lengths are in Blender's units, normals in the object's frame (location and rotation).
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    scene : bpy.types.Scene, optional
-        The scene with the unit scale, by default the context's.
-
-    Returns
-    -------
-    RestingPoses, Finding or None
-        The reason if there are none; None as for `support`.
+    scene: sets the unit scale; by default the context's.
     """
     remembered = _remembered.get(obj)
     if remembered is None or is_stale(obj):

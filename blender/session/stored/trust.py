@@ -41,16 +41,8 @@ _known: SessionCache[tuple[tuple, Trust]] = SessionCache()  # and what it was fo
 def trust(obj: Object, scene: Scene) -> Trust:
     """Return the trust in the object's numbers, live or stored.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object with numbers, or an armature that stands for others with numbers.
-    scene : bpy.types.Scene
-        The scene with the unit scale.
-
-    Returns
-    -------
-    Trust
+    obj: an original object with numbers, or an armature that stands for others with numbers.
+    scene: sets the unit scale.
     """
     if posed.stands_for_meshes(obj):
         found = [trust(mesh, scene) for mesh in posed.deformed_meshes(obj)]
@@ -67,15 +59,7 @@ def trust(obj: Object, scene: Scene) -> Trust:
 def stored_key(obj: Object, scene: Scene) -> tuple:
     """Return a key of all that decides the validity and place of an object's stored numbers.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object with a density from none of `BY_OTHERS`.
-    scene : bpy.types.Scene
-
-    Returns
-    -------
-    tuple
+    obj: an original object with a density from none of `BY_OTHERS`.
     """
     return (
         updates.last_change(obj),

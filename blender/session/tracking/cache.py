@@ -22,13 +22,10 @@ _caches: WeakSet[SessionCache] = WeakSet()
 
 
 class SessionCache(Generic[Value]):
-    """One value for each data-block; iterated over, the values.
+    """One value for each original data-block; iterated over, the values.
 
-    Parameters
-    ----------
-    max_size : int, optional
-        Number of values to keep: beyond it, the least recently used one is forgotten. By default all are kept, as edits
-        of objects must be.
+    max_size: beyond this number of values the least recently used one is forgotten. By default all are kept, as edits
+    of objects must be.
     """
 
     def __init__(self, max_size: int | None = None) -> None:
@@ -37,35 +34,11 @@ class SessionCache(Generic[Value]):
         _caches.add(self)
 
     def get(self, data: ID, default: Value | None = None) -> Value | None:
-        """Return the value of a data-block, or the default.
-
-        Parameters
-        ----------
-        data : bpy.types.ID
-            An object or any other original data-block.
-        default : optional
-            Returned if nothing is remembered.
-
-        Returns
-        -------
-        object
-            The value, or `default`.
-        """
+        """Return the value of a data-block, or `default` if nothing is remembered."""
         return self.by_uid(data.session_uid, default)
 
     def by_uid(self, uid: int, default: Value | None = None) -> Value | None:
-        """Return the same as `get`.
-
-        Parameters
-        ----------
-        uid : int
-            Session uid of the data-block.
-        default : optional
-
-        Returns
-        -------
-        object
-        """
+        """Return the same as `get`, by the session uid of the data-block."""
         if uid not in self._values:
             return default
         self._values.move_to_end(uid)
@@ -94,13 +67,7 @@ class SessionCache(Generic[Value]):
         return len(self._values)
 
     def forget(self, data: ID) -> None:
-        """Forget the value of a data-block, if any.
-
-        Parameters
-        ----------
-        data : bpy.types.ID
-            An object or any other original data-block.
-        """
+        """Forget the value of a data-block, if any."""
         self._values.pop(data.session_uid, None)
 
     def clear(self) -> None:

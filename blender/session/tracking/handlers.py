@@ -23,22 +23,12 @@ from . import cache
 
 @dataclass(frozen=True, eq=False)
 class Updates:
-    """Data-blocks that the window's dependency graph has evaluated anew.
+    """Data-blocks that the window's dependency graph has evaluated anew, as session uids: a frame may have thousands.
 
-    They are kept as session uids, for a frame may have thousands of them.
-
-    Attributes
-    ----------
-    scene : bpy.types.Scene
-        The scene that was evaluated.
-    depsgraph : bpy.types.Depsgraph
-        The evaluated dependency graph, its `updates` valid until the handlers return.
-    reshaped, moved, others : list of int
-        Of objects with new geometry, of objects with a new transform only, and of objects with neither.
-    collections : list of int
-        Of collections with any update.
-    frame_changed : bool
-        True for the evaluation of another frame.
+    depsgraph: its `updates` are valid until the handlers return.
+    reshaped, moved, others: objects with new geometry, with a new transform only, and with neither.
+    collections: collections with any update.
+    frame_changed: whether another frame was evaluated.
     """
 
     scene: Scene
@@ -62,27 +52,14 @@ _moved: set[int] = set()  # their session uids
 
 
 def generation() -> int:
-    """Return a number that grows with every change: results of an older generation may be wrong.
-
-    Returns
-    -------
-    int
-        Number of changes since Blender was started.
-    """
+    """Return the number of changes since Blender was started: results of an older generation may be wrong."""
     return _generation
 
 
 def moved_since(generation: int) -> set[int] | None:
-    """Return the objects that have moved since a generation, if nothing else has changed since then.
+    """Return session uids of the objects that have moved since a generation; None if there were other changes.
 
-    Parameters
-    ----------
-    generation : int
-
-    Returns
-    -------
-    set of int or None
-        Session uids of these objects, and perhaps of some that had moved before; None if there were other changes.
+    Some of the objects may have moved before it.
     """
     return _moved if generation >= _moves_from else None
 

@@ -28,18 +28,7 @@ class Mark(NamedTuple):
 
 
 def parse(text: str) -> Mark | None:
-    """Take a mark apart.
-
-    Parameters
-    ----------
-    text : str
-        A mark, or any text that a script has put in its place.
-
-    Returns
-    -------
-    Mark or None
-        Its parts; None if it is no mark.
-    """
+    """Return the parts of a mark, or None if the text is no mark: a script may have put any text in its place."""
     parts = text.split(":")
     return Mark(*parts) if len(parts) == len(Mark._fields) else None
 
@@ -56,31 +45,12 @@ def of_symmetry(obj: Object) -> str:
 
 
 def of_object(obj: Object) -> list[str]:
-    """Return all marks of an object, results first.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    list of str
-        None of them empty.
-    """
+    """Return all marks of an original object, results first, none of them empty."""
     return [mark for mark in (properties.fingerprint(obj), of_section(obj), of_symmetry(obj)) if mark]
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:
-    """Put EDITED into the given marks of an object.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original, editable object.
-    edited : container of str
-        The marks whose geometry has changed.
-    """
+    """Put EDITED into those marks of an original, editable object whose geometry has changed."""
     for mark, group, key in (
         (properties.fingerprint(obj), obj, "body_fingerprint"),
         (of_section(obj), obj.get(section.KEY), "fingerprint"),

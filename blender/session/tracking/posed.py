@@ -18,33 +18,12 @@ _meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
 
 
 def stands_for_meshes(obj: Object) -> bool:
-    """Return whether an object is an armature that is being posed.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    bool
-    """
+    """Return whether an original object is an armature that is being posed."""
     return obj.type == "ARMATURE" and obj.mode == "POSE"
 
 
 def deformed_meshes(armature: Object) -> tuple[Object, ...]:
-    """Return the meshes of the window's view layer that an armature deforms.
-
-    Parameters
-    ----------
-    armature : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    tuple of bpy.types.Object
-        In the order of the view layer.
-    """
+    """Return the meshes of the window's view layer that an original armature deforms, in the layer's order."""
     cached = _meshes.get(armature)
     if cached is None or cached[0] != handlers.generation():
         objects = bpy.context.view_layer.objects
@@ -54,17 +33,7 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 
 
 def subjects(objects: Iterable[Object]) -> list[Object]:
-    """Return objects with the meshes that they stand for in their place, each once.
-
-    Parameters
-    ----------
-    objects : iterable of bpy.types.Object
-        Original objects.
-
-    Returns
-    -------
-    list of bpy.types.Object
-    """
+    """Return original objects with the meshes that they stand for in their place, each once."""
     found: dict[Object, None] = {}
     for obj in objects:
         found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))

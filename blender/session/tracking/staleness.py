@@ -54,14 +54,8 @@ def mark_up_to_date(
 ) -> None:
     """Take objects as up to date, after results were stored; evaluate the data that storing itself has tagged.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Its view layer has the objects.
-    objects : list of bpy.types.Object
-        Objects with results stored or removed.
-    shapes : mapping of bpy.types.Object to bytes or None
-        The `surface_digest` of freshly read objects.
+    objects: objects of the context's view layer with results stored or removed.
+    shapes: the `surface_digest` of freshly read objects.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
@@ -78,12 +72,7 @@ def mark_up_to_date(
 def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) -> None:
     """Take other things than results as up to date, after they were stored and nothing else was changed.
 
-    Parameters
-    ----------
-    context : bpy.types.Context
-        Its view layer has the objects.
-    stored : iterable of (bpy.types.Object, str)
-        The objects, and the marks of the stored data.
+    stored: objects of the context's view layer, and the marks of the stored data.
     """
     with tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
@@ -94,13 +83,7 @@ def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) ->
 
 
 def mark_object(obj: Object) -> None:
-    """Take the stored results as up to date with the object's current geometry.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    """
+    """Take the stored results as up to date with an original object's current geometry."""
     _resolved[obj.session_uid] = updates.count()
     _set_edited(obj, properties.fingerprint(obj), False)
     handlers.count_change()
@@ -109,12 +92,7 @@ def mark_object(obj: Object) -> None:
 def replace_mark(obj: Object, before: str) -> None:
     """Take over the notes on the results, after numbers and settings were changed together and the shape was not.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    before : str
-        The mark of the results that were replaced.
+    before: the mark of the results that were replaced.
     """
     mark = properties.fingerprint(obj)
     _set_edited(obj, mark, before in _edited_marks(obj))
@@ -125,10 +103,7 @@ def replace_mark(obj: Object, before: str) -> None:
 def pin(obj: Object) -> None:
     """Take the results of an object as valid in its current place, after results that depend on it were stored.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object that can hold results.
+    obj: an original object that can hold results.
     """
     mark = marks.parse(before := properties.fingerprint(obj))
     if mark is not None and has_transform(obj, mark.transform):
@@ -137,13 +112,7 @@ def pin(obj: Object) -> None:
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
-    """Note that objects have other axes than before: directions that are stored in these no longer hold.
-
-    Parameters
-    ----------
-    objects : iterable of bpy.types.Object
-        Original objects.
-    """
+    """Note that objects have other axes than before: directions that are stored in these no longer hold."""
     for obj in objects:
         if mark := marks.of_symmetry(obj):
             _set_edited(obj, mark, True)
@@ -159,19 +128,9 @@ def is_edited(obj: Object) -> bool:
 
 
 def stale_reason(obj: Object, scene: Scene) -> str | None:
-    """Compare the stored results with the object.
+    """Return the code of the reason why an original object's stored results are out of date.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    scene : bpy.types.Scene
-        The scene with the unit scale.
-
-    Returns
-    -------
-    str or None
-        The code of the reason why they are out of date; None if they are not, or there are none.
+    None if they are up to date, or there are none. scene: sets the unit scale.
     """
     mark = marks.parse(properties.fingerprint(obj))
     if mark is None or mark.version != VERSION:
@@ -192,17 +151,9 @@ def has_transform_of_results(obj: Object) -> bool:
 
 
 def section_stale_reason(obj: Object) -> str | None:
-    """Compare the stored section with the object.
+    """Return the code of the reason why an original object's stored section is out of date.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    str or None
-        The code of the reason why it is out of date; None if it is not, or there is none.
+    None if it is up to date, or there is none.
     """
     mark = marks.parse(marks.of_section(obj))
     if mark is None:
@@ -213,17 +164,9 @@ def section_stale_reason(obj: Object) -> str | None:
 
 
 def symmetry_stale_reason(obj: Object) -> str | None:
-    """Compare the stored symmetry with the object.
+    """Return the code of the reason why an original object's stored symmetry is out of date.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    str or None
-        The code of the reason why it is out of date; None if it is not, or there is none.
+    None if it is up to date, or there is none.
     """
     mark = marks.parse(marks.of_symmetry(obj))
     if mark is None:
@@ -254,14 +197,9 @@ def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
 
 
 def note_edits(obj: Object) -> None:
-    """Note the effects of all updates since the last call on the marks of an object.
+    """Note the effects of all updates since the last call on the marks of an original object.
 
     Call it before its marks are replaced: later nobody could say whether the geometry has changed since.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
     """
     uid, newest = obj.session_uid, updates.count()
     seen = _resolved.get(uid, 0)

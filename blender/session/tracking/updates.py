@@ -21,16 +21,10 @@ from . import handlers
 
 
 class Stamp(NamedTuple):
-    """An update.
+    """An update of a scene's view layer.
 
-    Attributes
-    ----------
-    number : int
-        Grows from update to update; 0 if there was none.
-    scene : int
-        Session uid of the scene that was evaluated.
-    view_layer : str
-        Name of its view layer.
+    number: grows from update to update; 0 if there was none. scene: session uid of the evaluated scene.
+    view_layer: the name.
     """
 
     number: int
@@ -55,17 +49,9 @@ def count() -> int:
 
 
 def shown_by(obj: Object) -> Iterator[ID]:
-    """Find the instances that an object shows: their shape and place matter.
+    """Yield the instances that an original object shows, objects and collections: their shape and place matter.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Yields
-    ------
-    bpy.types.ID
-        Objects and collections. For collections Blender reports changes of their members.
+    For collections Blender reports changes of their members.
     """
     kind = obj.instance_type
     if kind == "COLLECTION":
@@ -82,35 +68,15 @@ def shown_by(obj: Object) -> Iterator[ID]:
 
 
 def density_source(obj: Object) -> Object | None:
-    """Return the Volume object that the density comes from, for its shape; its place is a setting.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    bpy.types.Object or None
-    """
+    """Return the Volume object that the density comes from, for its shape; its place is a setting."""
     settings = obj.body_moments
     return settings.density_volume if settings.density_from == "VOLUME" else None
 
 
 def last_edit(obj: Object, since: int = 0) -> Stamp:
-    """Return the last update of an object, or of its instances, that may be an edit.
+    """Return the last update of an original object, or of its instances, that may be an edit.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-    since : int
-        Number of an update.
-
-    Returns
-    -------
-    Stamp
-        `NEVER` if none came after `since`.
+    since: number of an update. Return `NEVER` if no edit came after it.
     """
     last = _edits.get(obj.session_uid, NEVER)
     for shown in shown_by(obj):
@@ -121,76 +87,27 @@ def last_edit(obj: Object, since: int = 0) -> Stamp:
 
 
 def last_return(obj: Object) -> Stamp:
-    """Return the last update of an object's geometry that was of a setting, or after undo; `NEVER` if there was none.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    Stamp
-    """
+    """Return the last update of an object's geometry that was of a setting, or after undo, else `NEVER`."""
     return _returns.get(obj.session_uid, NEVER)
 
 
 def last_change_of_geometry(obj: Object) -> int:
-    """Return the number of the last update of an object's geometry, of any kind, or of its instances.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    int
-    """
+    """Return the number of the last update of an object's geometry, of any kind, or of its instances."""
     return max(last_edit(obj).number, last_return(obj).number)
 
 
 def last_change_but_moves(obj: Object) -> int:
-    """Return the number of the last update of an object or of its instances, except for its own transform.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    int
-    """
+    """Return the number of the last update of an object or of its instances, except for its own transform."""
     return max(last_change_of_geometry(obj), _touches.get(obj.session_uid, NEVER).number)
 
 
 def last_change(obj: Object) -> int:
-    """Return the number of the last update of any kind of an object, or of its instances.
-
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        An original object.
-
-    Returns
-    -------
-    int
-    """
+    """Return the number of the last update of any kind of an object, or of its instances."""
     return max(last_change_but_moves(obj), _moves.get(obj.session_uid, NEVER).number)
 
 
 def depsgraph_of(stamp: Stamp) -> Depsgraph | None:
-    """Return the dependency graph that an update was of, as it was evaluated last; None if it is gone.
-
-    Parameters
-    ----------
-    stamp : Stamp
-
-    Returns
-    -------
-    bpy.types.Depsgraph or None
-    """
+    """Return the dependency graph that an update was of, as it was evaluated last; None if it is gone."""
     for scene in bpy.data.scenes:
         if scene.session_uid == stamp.scene:
             layer = scene.view_layers.get(stamp.view_layer)
