@@ -89,7 +89,7 @@ def answer(options: argparse.Namespace) -> tuple[str, int, int]:
 
 
 def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict[str, Any]:
-    roots = Roots.of(path, options.root, options.allow_outside)
+    roots = Roots.for_file(path, options.root, options.allow_outside)
     description = read_description(path, roots)
     audit = Auditor(roots).audit(description)
     repaired = _write_copy(path, audit, options, copies)

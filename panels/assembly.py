@@ -54,7 +54,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
         numbers.alignment = "RIGHT"
         findings = properties.findings_in(row.findings)
         if row.mass > 0.0:
-            numbers.label(text=Units.of(context.scene.unit_settings).text("mass", row.mass), translate=False)
+            numbers.label(text=Units.from_settings(context.scene.unit_settings).text("mass", row.mass), translate=False)
             if row.is_counted and row.depth:
                 numbers.label(text="{:.1f}%".format(100.0 * row.share), translate=False)
         if findings:
@@ -89,7 +89,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     numbers = properties.numbers(root)
     if numbers is None or properties.method_text(root) != "assembly":
         return
-    stored, units = properties.from_numbers(numbers), Units.of(context.scene.unit_settings)
+    stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
     rows.stale_row(layout, context, stored_assembly.stale_reason(root))
     remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)

@@ -36,7 +36,7 @@ class BonesPanel:
         if not properties.is_stored(armature):
             return
         rows.stale_row(layout, context, stored_rig.stale_reason(armature, context.scene))
-        units = Units.of(context.scene.unit_settings)
+        units = Units.from_settings(context.scene.unit_settings)
         stored = [(bone, properties.numbers(bone)) for bone in armature.pose.bones]
         measured = [(bone, numbers[0][0]) for bone, numbers in stored if numbers is not None]
         total = sum(mass for _, mass in measured)
@@ -96,7 +96,7 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
     numbers = properties.numbers(bone)
     if numbers is None:
         return
-    stored, units = properties.from_numbers(numbers), Units.of(context.scene.unit_settings)
+    stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     column = layout.column(align=True)
     rows.quantities(column, units, [("Mass", "mass", stored.body.mass), ("Volume", "volume", stored.volume)])
     column = layout.column(align=True)

@@ -61,7 +61,7 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
     rows.table(
         column,
         [
-            ("Margin", Units.of(context.scene.unit_settings).text("length", margin), repr(margin), "m"),
+            ("Margin", Units.from_settings(context.scene.unit_settings).text("length", margin), repr(margin), "m"),
             ("Tipping Angle", _degrees(angle), repr(angle), "°"),
             ("Toward, from X", _degrees(toward), repr(toward), "°"),
         ],

@@ -68,7 +68,7 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
     """Return the same as `measure_object`, with the reading and the measured body."""
     try:
         with ExitStack() as opened:
-            request = Request.of(obj, depsgraph, options, opened=opened)
+            request = Request.resolve(obj, depsgraph, options, opened=opened)
             point = read_point(request)
             if point is not None:
                 measurement, body = point_measurement(point, request)

@@ -38,7 +38,7 @@ class Request:
     findings: list[Finding] = field(default_factory=list)
 
     @classmethod
-    def of(
+    def resolve(
         cls,
         obj: bpy.types.Object,
         depsgraph: bpy.types.Depsgraph = None,
@@ -112,7 +112,7 @@ def with_object_settings(
             if settings.mass_from == "DENSITY"
             else (None, shortest_decimal(settings.mass))
         )
-    return ResolvedOptions.of(
+    return ResolvedOptions.resolve(
         options,
         kind=kind,
         density=density,

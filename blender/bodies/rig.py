@@ -131,7 +131,7 @@ class _Measuring:
     def __init__(self, armature: Object, depsgraph: Depsgraph):
         self.armature, self.depsgraph = armature, depsgraph
         self.unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-        self.bones = RestBones.of(armature)
+        self.bones = RestBones.read(armature)
         self.sums: dict[str, _Sum] = {}
         self.findings: list[Finding] = []
         self.refused: list[str] = []
@@ -171,7 +171,7 @@ class _Measuring:
             internal_error.finding_of(error)
             self.refused.append(obj.name)
 
-    def _of(self, bone: str, source: Object) -> _Sum:
+    def _sum_of(self, bone: str, source: Object) -> _Sum:
         found = self.sums.setdefault(bone, _Sum())
         found.sources[source.name] = None
         return found
@@ -185,7 +185,7 @@ class _Measuring:
         measured = measure_body(obj, self.depsgraph)
         measurement = measured.measurement
         moments, factor = measurement.mass_moments
-        found, bound = self._of(bone, obj), measurement.error_bound
+        found, bound = self._sum_of(bone, obj), measurement.error_bound
         found.hanging.append(replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor)
         found.extents.append((measurement.volume, bound["volume"], bound["input"]["volume"]))
         found.areas.append((measurement.area, bound["area"], bound["input"]["area"]))
@@ -198,7 +198,7 @@ class _Measuring:
     # ------------------------------------------------------------ What is skinned
 
     def _skin(self, obj: Object) -> None:
-        request = Request.of(obj, self.depsgraph)
+        request = Request.resolve(obj, self.depsgraph)
         options, reading = request.options, read_object(obj, self.depsgraph)
         shell = options.kind == "shell"
         if shell and options.wall != "thin":
@@ -215,7 +215,7 @@ class _Measuring:
         if not density > 0.0:
             raise ReadError(ZERO_DENSITY)
         for name, moments, area, surface, matrix, verdict in pieces:
-            found = self._of(name, obj)
+            found = self._sum_of(name, obj)
             carrier = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS)
             carrier = carrier * options.thickness if shell else carrier
             found.carriers.append((carrier, density))

@@ -34,7 +34,7 @@ class ReferenceChoice:
     points: tuple[Point, ...] = ()
 
     @classmethod
-    def of(cls, settings: PropertyGroup) -> ReferenceChoice:
+    def from_settings(cls, settings: PropertyGroup) -> ReferenceChoice:
         """Return the choice of the scene's settings."""
         if settings.about == "OBJECT":
             return cls("OBJECT", settings.object.name if settings.object is not None else "")

@@ -37,7 +37,7 @@ class RestBones:
     frames: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]
 
     @classmethod
-    def of(cls, armature: Object) -> RestBones:
+    def read(cls, armature: Object) -> RestBones:
         """Read the bones of an armature object."""
         place = float64_matrix(armature.matrix_world)
         bones = list(armature.data.bones)

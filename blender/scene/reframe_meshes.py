@@ -165,7 +165,7 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
     owners: list[int] = []
     for mesh, members in sharing.items():
         is_all = mesh.users - mesh.use_fake_user == len(members)
-        groups = _alike(changes[members], reach[members], [SAME_SHAPE_RTOL * plans[i].size for i in members])
+        groups = _group_changes(changes[members], reach[members], [SAME_SHAPE_RTOL * plans[i].size for i in members])
         for number, group in enumerate(groups):
             owners.append(members[group[0]])
             if number or not is_all:
@@ -176,7 +176,7 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
     return owners
 
 
-def _alike(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
+def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
     """Return groups of changes that move no point farther apart than is allowed.
 
     The first of each is compared only with changes of a similar sorted sum of entries: of 10,000 changes that all

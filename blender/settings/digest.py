@@ -16,9 +16,9 @@ from .grid import GridOptions
 def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
     """Return a key of the density of a Volume object.
 
-    density: as for `GridOptions.of`.
+    density: as for `GridOptions.from_settings`.
     """
-    grid = GridOptions.of(obj.body_moments, density)
+    grid = GridOptions.from_settings(obj.body_moments, density)
     return "" if grid.solid else repr(grid.key)
 
 
@@ -29,7 +29,7 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
     scene: its default density counts if the object has none.
     """
     settings = obj.body_moments
-    given = GivenPart.of(settings, 1.0).key if settings.mass_from == "MASS" else ""
+    given = GivenPart.from_settings(settings, 1.0).key if settings.mass_from == "MASS" else ""
     if obj.type == "VOLUME":
         return grid_key(obj) + given
     if settings.mass_from == "MASS":
@@ -39,7 +39,7 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
     if settings.density_from == "VOLUME":
         source = settings.density_volume
         place = None if source is None else [tuple(row) for row in source.matrix_world]
-        return "" if source is None else repr((GridOptions.of(source.body_moments).key, place))
+        return "" if source is None else repr((GridOptions.from_settings(source.body_moments).key, place))
     if settings.density_from == "POLYNOMIAL":
         return repr((settings.density_frame, settings.density_polynomial.strip()))
     if settings.density_from == "ATTRIBUTE":

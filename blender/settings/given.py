@@ -29,7 +29,7 @@ class GivenPart:
     inertia: NDArray[np.float64] | None = None
 
     @classmethod
-    def of(cls, settings: PropertyGroup, unit: float) -> GivenPart:
+    def from_settings(cls, settings: PropertyGroup, unit: float) -> GivenPart:
         """Return the given part of the settings.
 
         unit: meters per Blender unit.

@@ -51,7 +51,7 @@ class GridOptions:
     negative: str = VALUES_NEGATIVE
 
     @classmethod
-    def of(cls, settings, density: float | None = None) -> GridOptions:
+    def from_settings(cls, settings, density: float | None = None) -> GridOptions:
         """Return the options of an object's settings.
 
         density: overrides the density of a value of 1, and the table.

@@ -56,7 +56,7 @@ class ResolvedOptions(MeasureOptions):
     wall: str = field(kw_only=True)
 
     @classmethod
-    def of(cls, options: MeasureOptions, **settings: Any) -> ResolvedOptions:
+    def resolve(cls, options: MeasureOptions, **settings: Any) -> ResolvedOptions:
         """Return options with these in place of their own."""
         return cls(**{**vars(options), **settings})
 

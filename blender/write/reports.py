@@ -32,7 +32,7 @@ def text(*findings: Finding) -> str:
 
 
 def _length(meters: float) -> str:
-    return Units.of(bpy.context.scene.unit_settings).text("length", meters)
+    return Units.from_settings(bpy.context.scene.unit_settings).text("length", meters)
 
 
 def _rank(shown: Finding) -> int:

@@ -64,7 +64,7 @@ def localized(text: str) -> str:
 
 def localized_sentence(finding: Finding, unit_settings: Any) -> str:
     """Return the sentence of a finding in the user's language, lengths in a scene's units."""
-    return sentence(finding, localized, partial(Units.of(unit_settings).text, "length"))
+    return sentence(finding, localized, partial(Units.from_settings(unit_settings).text, "length"))
 
 
 def register() -> None:

@@ -95,7 +95,7 @@ class Units:
     grouping: str = "SPACE"
 
     @classmethod
-    def of(cls, settings) -> Units:
+    def from_settings(cls, settings) -> Units:
         """Return the units of a scene's `unit_settings`, and the number format of that scene."""
         units = settings.system, settings.length_unit, settings.mass_unit, shortest_decimal(settings.scale_length)
         shown = getattr(getattr(settings, "id_data", None), "body_moments", None)

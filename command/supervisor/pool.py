@@ -248,7 +248,7 @@ class Pool:
         child.task = None
         attempts, seconds = self._attempts.pop(task, (0, 0.0))
         seconds += time.monotonic() - child.started
-        said = self._said(child)
+        said = self._stderr_tail(child)
         if self._tasks and self._has_grown(child):
             self._retire(child)
         else:
@@ -285,7 +285,7 @@ class Pool:
     def _ended(self, child: _Child) -> list[TaskOutcome]:
         processes.kill([child.process])  # and whatever it has left behind
         self._children.remove(child)
-        said = self._said(child)
+        said = self._stderr_tail(child)
         self._close(child)
         if not child.ready:
             self._failed_starts += 1
@@ -325,7 +325,7 @@ class Pool:
         child.doomed, child.deadline = why, float("inf")
         processes.kill([child.process], gently=gently)
 
-    def _said(self, child: _Child) -> str:
+    def _stderr_tail(self, child: _Child) -> str:
         """Return the end of a child's output on its standard error about its file."""
         try:
             with open(child.log, "rb") as file:

@@ -113,10 +113,10 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     so does text that has one there already: whoever reads a text removes one apostrophe from its start.
     """
     names = dict.fromkeys(_COLUMNS)
-    for row in _rows(documents):
+    for row in _csv_rows(documents):
         names.update(dict.fromkeys(name for name in row if name not in _LAST_COLUMNS))
     header = [*names, *_LAST_COLUMNS]
-    yield from table(header, _rows(documents))
+    yield from table(header, _csv_rows(documents))
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
@@ -129,7 +129,7 @@ def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str
         yield _line(_cell(row.get(name, "")) for name in header)
 
 
-def _rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
+def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
     for file_document in documents:
         place = {"file": file_document["file"], "frame": file_document["frame"]}
         for name in ("objects", "assemblies", "bones"):

@@ -105,11 +105,11 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
         yield "<th{}>{}</th>".format(kind, "<button>{}</button>".format(title) if title else "")
     yield "</tr></thead><tbody>\n"
     for document in documents:
-        yield from _rows(document)
+        yield from _table_rows(document)
     yield "</tbody></table><script>{}</script></body></html>\n".format(_SCRIPT)
 
 
-def _rows(document: dict[str, Any]) -> Iterator[str]:
+def _table_rows(document: dict[str, Any]) -> Iterator[str]:
     file, status = document["file"] or "", document["status"]
     for entry in document["objects"]:
         mass, moments = entry["mass"], entry["principal_moments"]

@@ -114,7 +114,7 @@ class SurfaceStack(TriangleStack):
         )
 
     @classmethod
-    def of(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
+    def from_surfaces(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
         """Stack surfaces that it `takes`, at least one."""
         corner_vertices = [np.asarray(surface.corner_vertices) for surface in surfaces]
         corner_edges = [np.asarray(surface.corner_edges) for surface in surfaces]

@@ -186,7 +186,7 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
     if wrong and repaired is None and not by_geometry:
         repaired = references[0].uniform(stated.mass)
         findings.append(finding(AUDIT_UNIFORM_INSTEAD))
-    apart = min(reference.of(stated) for reference in references)
+    apart = min(reference.compare(stated) for reference in references)
     return _Judgment(findings, wrong, repaired, stated.mass / references[0].volume, apart)
 
 

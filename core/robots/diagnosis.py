@@ -97,7 +97,7 @@ class Reference:
         apart = float(np.linalg.norm(center - self.center)) / radius
         return max(apart, float(np.linalg.norm(inertia / mass - self.inertia) / np.linalg.norm(self.inertia)))
 
-    def of(self, stated: StatedInertial) -> float:
+    def compare(self, stated: StatedInertial) -> float:
         """Return the `difference` of a stated inertial."""
         return self.difference(stated.mass, stated.center, stated.inertia)
 
@@ -124,17 +124,17 @@ def diagnose(
     """
     if not references:
         return None
-    nearest = min(references, key=lambda reference: reference.of(stated))
-    apart = nearest.of(stated)
+    nearest = min(references, key=lambda reference: reference.compare(stated))
+    apart = nearest.compare(stated)
     if apart <= DIFFERS:
         return _density(stated, nearest)
     for change, reference in otherwise:
-        if reference.of(stated) < AGREES:
+        if reference.compare(stated) < AGREES:
             return Diagnosis(change)
     best: tuple[float, Diagnosis] | None = None
     for reference in references:
         for code, values, repaired in _changes(stated, reference):
-            now = reference.of(repaired)
+            now = reference.compare(repaired)
             if now < AGREES and now < 0.1 * apart and (best is None or now < 0.1 * best[0]):
                 change = _with_density(finding(code, **values), stated, reference)
                 best = now, Diagnosis(change, None if change.code in OF_GEOMETRY else repaired)

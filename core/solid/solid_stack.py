@@ -129,7 +129,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
 
     surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates.
     """
-    stack = SurfaceStack.of(surfaces)
+    stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
@@ -173,7 +173,9 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     rows = np.flatnonzero(is_measured & ~(is_star & (links.component_counts == 1)))
     if len(rows):
         chosen = triangles.owned(rows)[1]
-        intersection[rows] = _looked_for(triangles.some(rows), tolerance[rows], _renumbered(part[chosen]))
+        intersection[rows] = _search_self_intersections(
+            triangles.some(rows), tolerance[rows], _renumbered(part[chosen])
+        )
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
     return SolidStack(is_measured, volume, area, size, planarity, intersection, links.component_counts, caps)
 
@@ -234,7 +236,7 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     return (total - signed <= SUM_ROUNDING * total) & (np.rint(angle / (2.0 * np.pi)) == 1.0)
 
 
-def _looked_for(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
+def _search_self_intersections(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
     """Return (k,) results of the search for self-intersections along lines, as `find_self_intersection`.
 
     part: (t,) the component of each triangle.

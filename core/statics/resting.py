@@ -199,7 +199,7 @@ def _coplanar(
     flat = (cosine >= 0.0) & (np.abs(np.einsum("ij,ij->i", unit[triangle], apart)) <= least)
     order = np.argsort(lengths, kind="stable")
 
-    def joined(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+    def join_triangles(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
         """Return (m,) the group of each triangle, joined by these pairs, and a mask of groups in no plane."""
         face, count = connected_components(len(triangles), triangle[pairs], other[pairs])
         largest = np.empty(count, np.intp)
@@ -211,8 +211,8 @@ def _coplanar(
         bent[face[off > 4.0 * least]] = True
         return face, bent[face]
 
-    _, bent = joined(flat)
-    face, bent = joined(flat & (~bent[triangle] | (cosine >= ALIKE_COSINE)))
+    _, bent = join_triangles(flat)
+    face, bent = join_triangles(flat & (~bent[triangle] | (cosine >= ALIKE_COSINE)))
     label = np.where(bent, len(face) + np.arange(len(face)), face)
     _, label = np.unique(label, return_inverse=True)
     return label.ravel(), int(label.max()) + 1

@@ -110,7 +110,7 @@ class PlyFile:
             reader = RowReader(file, self._header.order)
             for element in self._header.elements:
                 try:
-                    for block in reader.rows(element):
+                    for block in reader.read_rows(element):
                         if element is wanted:
                             yield block
                 except RowsError as error:

@@ -32,7 +32,7 @@ class RowReader:
         self._buffer: NDArray = np.zeros(0)  # bytes or numbers, once there are some
         self._text = b""
 
-    def rows(self, element: Element) -> Iterator[list[NDArray]]:
+    def read_rows(self, element: Element) -> Iterator[list[NDArray]]:
         """Yield the rows of the next element in blocks of one length: for each property (n,) numbers, or (n, k) lists.
 
         All of them must be taken.

@@ -75,12 +75,12 @@ class _Formatter(string.Formatter):
             return "({})".format(", ".join(self.lengths(number + 0.0) for number in value))
         if isinstance(value, (list, tuple)):
             if len(value) and isinstance(value[0], Mapping):
-                return self._joined([self.format_field(finding, "") for finding in value])
+                return self._join([self.format_field(finding, "") for finding in value])
             return truncate_list(value, translate=self.translate)
         return super().format_field(value, format_spec)
 
     @staticmethod
-    def _joined(texts: Sequence[str]) -> str:
+    def _join(texts: Sequence[str]) -> str:
         """Join sentences by spaces, clauses by commas."""
         return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
 

@@ -54,7 +54,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         return {"FINISHED"}
 
     def _audit(self, path: Path) -> list[Finding]:
-        roots = Roots.of(path, [Path(bpy.path.abspath(self.root))] if self.root else [], self.allow_outside)
+        roots = Roots.for_file(path, [Path(bpy.path.abspath(self.root))] if self.root else [], self.allow_outside)
         audit = Auditor(roots).audit(read_description(path, roots))
         copy = self._write_copy(path, audit) if self.write_copy else None
         links = [

@@ -63,7 +63,7 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
         if not isinstance(result, ReferredInertia):
             selection.report(self, result or finding(NO_STORED_RESULTS))
             return {"CANCELLED"}
-        text = _text(context.object.name, ReferenceChoice.of(context.scene.body_moments_reference), result)
+        text = _text(context.object.name, ReferenceChoice.from_settings(context.scene.body_moments_reference), result)
         copy_text(self, context, text, finding(REPORT_COPIED, count=1))
         return {"FINISHED"}
 

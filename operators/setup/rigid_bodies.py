@@ -149,7 +149,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         measured: dict[Object, Measured] = {}
         by_obj = {body.obj: body for body in bodies}
 
-        ask = _asked(context, by_obj.values())
+        ask = _measure_in_turn(context, by_obj.values())
 
         def measure(obj: Object) -> None:
             measured[obj] = _measured(context, by_obj[obj], ask)
@@ -198,7 +198,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
                 del measured[obj]
                 if joints[obj] is not None:
                     bpy.data.objects.remove(joints[obj])
-            ask = _asked(context, [measured[plan.obj].body for plan in changed])
+            ask = _measure_in_turn(context, [measured[plan.obj].body for plan in changed])
             for plan in changed:
                 measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
             if not move_only:
@@ -230,7 +230,7 @@ class OBJECT_OT_body_moments_rigid_bodies(Operator):
         total: int,
         failures: list[Finding],
     ) -> set[str]:
-        units = Units.of(context.scene.unit_settings)
+        units = Units.from_settings(context.scene.unit_settings)
         lines = []
         for obj, one in list(measured.items())[:SHOWN]:
             template = localized("{:s}: {:s}; Calculate Mass: {:s}")
@@ -267,7 +267,7 @@ def _bodies(objects: list[Object]) -> list[Body]:
     return [Body(obj, tuple(below)) for obj, below in members.items()]
 
 
-def _asked(context: Context, bodies: Iterable[Body]) -> Callable[[Object], MeasuredBody | Stacked]:
+def _measure_in_turn(context: Context, bodies: Iterable[Body]) -> Callable[[Object], MeasuredBody | Stacked]:
     """Return a function that measures all their objects in turn."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
     return measured_in_turn(parts, context.evaluated_depsgraph_get(), MeasureOptions(pose=True))

@@ -127,7 +127,7 @@ def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
 def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     column = layout.column(align=True)
-    rows.filled(column, "Densities ({:s})", Units.of(context.scene.unit_settings).unit("density", 0.0)[1])
+    rows.filled(column, "Densities ({:s})", Units.from_settings(context.scene.unit_settings).unit("density", 0.0)[1])
     shown = {slot.material: None for slot in obj.material_slots if slot.material}
     for material in shown:
         materials.density_row(column, context.scene, material, material.name)

@@ -78,7 +78,7 @@ def _draw_category(self: Menu, context: Context) -> None:
 
 
 def _entries(layout: UILayout, context: Context, category: str) -> None:
-    units = Units.of(context.scene.unit_settings)
+    units = Units.from_settings(context.scene.unit_settings)
     for material in MATERIALS:
         if material.category == category:
             text = "{:s}  ({:s})".format(material.name, units.text("density", material.density))

@@ -36,7 +36,7 @@ class AdvancedPanel:
     def draw(self, context: Context) -> None:
         layout, obj, scene = self.layout, context.object, context.scene
         layout.use_property_decorate = False
-        units = Units.of(scene.unit_settings)
+        units = Units.from_settings(scene.unit_settings)
         shown = results.of_object(obj, scene)
         if shown is not None and live.current_numbers(obj) is None:
             _bounds(layout, obj, units, shown)

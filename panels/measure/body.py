@@ -54,7 +54,7 @@ class BodyPanel:
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
             remedies.unit_question(layout, context, shown)
-            numbers(layout, context, Units.of(scene.unit_settings), shown)
+            numbers(layout, context, Units.from_settings(scene.unit_settings), shown)
             row = layout.column(align=True) if narrow else layout.row(align=True)
             rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")
             rows.button(row, context, "object.body_moments_clear", "TRASH")

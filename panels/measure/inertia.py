@@ -37,7 +37,7 @@ class InertiaPanel:
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
         layout.use_property_decorate = False
-        units = Units.of(scene.unit_settings)
+        units = Units.from_settings(scene.unit_settings)
         shown = results.of_object(context.object, scene)
         if shown is None:
             return

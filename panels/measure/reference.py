@@ -43,7 +43,7 @@ class ReferencePanel:
         if not isinstance(result, ReferredInertia):
             rows.message(layout, context, result)
             return
-        units = Units.of(scene.unit_settings)
+        units = Units.from_settings(scene.unit_settings)
         if settings.about == "AXIS":
             column = layout.column(align=True)
             rows.value(column, units, "About Axis", "inertia", result.about_z)

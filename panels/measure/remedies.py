@@ -156,7 +156,7 @@ def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -
     ):
         return
     box = layout.box()
-    units = replace(Units.of(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
+    units = replace(Units.from_settings(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
     texts = {"length": units.text("length", length), "mass": units.text("mass", shown.body.mass)}
     question = finding(PANEL_UNIT_QUESTION, **texts)
     rows.message(box, context, question, icon="QUESTION", boxed=True)

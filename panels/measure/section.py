@@ -46,7 +46,7 @@ class SectionPanel:
         if stored is None:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
-        units = Units.of(context.scene.unit_settings)
+        units = Units.from_settings(context.scene.unit_settings)
         _verdict(layout, context, stored, sections.stale_reason(obj, context.scene, stored))
         remedies.warnings(layout, context, "body_moments_section_warnings", stored.findings, can_accept=False)
         _numbers(layout, units, stored.section)

@@ -84,7 +84,7 @@ class SelectionPanel:
         if len(context.selected_objects) > 1:
             rows.button(layout, context, "object.body_moments_copy_settings", "PASTEDOWN", short="Copy Settings")
         _listed(layout, context)
-        _total(layout, context, Units.of(context.scene.unit_settings))
+        _total(layout, context, Units.from_settings(context.scene.unit_settings))
 
 
 def _listed(layout: UILayout, context: Context) -> None:

@@ -100,7 +100,7 @@ def _drawn(context: Context) -> _Drawn:
         if drawn is None and len(_state.regions) == MAX_REGIONS:
             del _state.regions[next(iter(_state.regions))]
         before = None if drawn is None or drawn.key != key else drawn
-        drawn = _state.regions[pointer] = _made(before, context, key, generation)
+        drawn = _state.regions[pointer] = _rebuild(before, context, key, generation)
     return drawn
 
 
@@ -128,7 +128,7 @@ def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> View:
 # ---------------------------------------------------------------- What is drawn
 
 
-def _made(before: _Drawn | None, context: Context, key: tuple, generation: int) -> _Drawn:
+def _rebuild(before: _Drawn | None, context: Context, key: tuple, generation: int) -> _Drawn:
     """Rebuild the batches that changed, or all of them if the key is new.
 
     Moving bodies are in their own layer, so that the others' batches stay.

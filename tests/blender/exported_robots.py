@@ -58,7 +58,7 @@ def exported_links(path):
         return _gltf_links(data)
     _, faults, internal = audit.answer(audit.parse(["audit", str(path)]))
     assert (faults, internal) == (0, 0)
-    roots = Roots.of(path)
+    roots = Roots.for_file(path)
     links = [link for link in read_description(path, roots).links if link.inertial is not None]
     return {link.name.rsplit("/", 1)[-1]: _stated(link, roots) for link in links}
 

@@ -183,7 +183,7 @@ def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
     for member in root.walk():
         if member.kind == MemberKind.POINT:  # an empty with children carries those results, not its own
             settings = member.data.body_moments
-            keys.append(GivenPart.of(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
+            keys.append(GivenPart.from_settings(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
         elif member.is_measured:
             # moving leaves fingerprints unchanged
             keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))
@@ -198,7 +198,7 @@ def structure_hash(root: Member) -> str:
         if member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY):
             settings = settings_of(member.data)
             if settings.mass_from == "MASS":
-                key.append(repr((shortest_decimal(settings.mass), GivenPart.of(settings, 1.0).key)))
+                key.append(repr((shortest_decimal(settings.mass), GivenPart.from_settings(settings, 1.0).key)))
         if member.matrix is not None:
             key.append(member.matrix.astype(np.float32).tobytes().hex())
         keys.append("|".join(key))
@@ -295,7 +295,7 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
     settings = settings_of(data)
     if settings.mass_from != "MASS":
         return whole
-    given, mass = GivenPart.of(settings, unit), shortest_decimal(settings.mass)
+    given, mass = GivenPart.from_settings(settings, unit), shortest_decimal(settings.mass)
     rotation, location = np.eye(3), np.zeros(3)
     if isinstance(data, bpy.types.Object):
         place, turn, _scale = data.matrix_world.decompose()

@@ -83,7 +83,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     """Return the body with the center and inertia that its settings give, or raise ReadError if they are impossible."""
     if request.options.mass is None or request.obj.body_moments.mass_from != "MASS":
         return body
-    given = GivenPart.of(request.obj.body_moments, request.unit)
+    given = GivenPart.from_settings(request.obj.body_moments, request.unit)
     if not given:
         return body
     geometry = body.mass or _carrier(body, request)
@@ -91,7 +91,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     mass, findings = given_moments(request.options.mass, given, reading.rotation, location, geometry)
     if given.center is not None and _is_outside(mass.about, reading, request.unit):
         findings.append(finding(GIVEN_CENTER_OUTSIDE))
-    key = body.density_key + GivenPart.of(request.obj.body_moments, 1.0).key
+    key = body.density_key + GivenPart.from_settings(request.obj.body_moments, 1.0).key
     return replace(body, mass=mass, density_key=key, findings=(*body.findings, *findings))
 
 
@@ -124,7 +124,7 @@ def read_point(request: Request) -> Reading | None:
 def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
     """Return the results of a part without geometry, and its body, or raise ReadError if it has no mass."""
     settings, options = request.obj.body_moments, request.options
-    given = GivenPart.of(settings, request.unit)
+    given = GivenPart.from_settings(settings, request.unit)
     location = np.asarray(reading.location, np.float64) * request.unit
     rotation = np.asarray(reading.rotation, np.float64)
     own = shortest_decimal(settings.mass) if options.mass is None else options.mass  # no density gives it one
@@ -142,7 +142,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
         options.overlap.upper(),
         request.unit,
         options.wall.upper(),
-        GivenPart.of(settings, 1.0).key,
+        GivenPart.from_settings(settings, 1.0).key,
     )
     measurement = Measurement(
         name=reading.name,

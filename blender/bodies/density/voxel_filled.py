@@ -45,7 +45,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
     Raise MeasureError if the Volume object has no readable grid, or does not reach the solid.
     """
     name, source = request.obj.name, request.obj.body_moments.density_volume
-    grid = GridOptions.of(source.body_moments)
+    grid = GridOptions.from_settings(source.body_moments)
     try:
         with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:

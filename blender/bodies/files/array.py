@@ -80,7 +80,9 @@ def measure_array(
         made = measure(name, scan, matrix, positions, array, options, (*scan.findings, *findings), progress)
         reading = bare_reading(name, "ARRAY")
         density = None if made.mass is not None else options.density
-        used = ResolvedOptions.of(options, kind="solid", density=density, thickness=0.0, overlap="signed", wall="thin")
+        used = ResolvedOptions.resolve(
+            options, kind="solid", density=density, thickness=0.0, overlap="signed", wall="thin"
+        )
         return measurement_of(reading, made, Request(used, 1.0))
 
 

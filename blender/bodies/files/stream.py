@@ -70,7 +70,7 @@ def measure_mesh_file(
     MeasureError.
     """
     kind = options.kind or "solid"
-    used = ResolvedOptions.of(
+    used = ResolvedOptions.resolve(
         options,
         kind=kind,
         density=DEFAULT_DENSITY if options.density is None and options.mass is None else options.density,

@@ -118,7 +118,9 @@ def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
     obj, density, options = request.obj, request.given.density, request.options
     order = KNOWN_ORDER if options.order is None else options.order
-    made = grid_body(reading, GridOptions.of(obj.body_moments, density), request.unit, options.threads, order)
+    made = grid_body(
+        reading, GridOptions.from_settings(obj.body_moments, density), request.unit, options.threads, order
+    )
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
     return replace(made, density_from=source, density_key=key)

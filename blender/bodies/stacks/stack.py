@@ -102,10 +102,10 @@ def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
     if others:
         volumes.append(stack_moments([solid.volume for solid in others]))
         areas.append(stack_moments([solid.area for solid in others]))
-    return _joined(volumes), _joined(areas)
+    return _join_moments(volumes), _join_moments(areas)
 
 
-def _joined(stacks: list[Moments]) -> Moments:
+def _join_moments(stacks: list[Moments]) -> Moments:
     if len(stacks) == 1:
         return stacks[0]
     names = "raw", "about", "rounding_error", "input_error"

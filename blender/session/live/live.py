@@ -237,13 +237,13 @@ def stop(obj: Object) -> None:
 
 def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:
     plain = MeasureOptions(compare=False)
-    request = Request.of(obj, depsgraph, plain)
+    request = Request.resolve(obj, depsgraph, plain)
     options, unit = request.options, request.unit
     can_track = options.kind == "solid" and options.overlap == "signed" and request.density is None
     reading = read_patches(obj, depsgraph) if can_track and obj.type == "SURFACE" else None
     if reading is None or reading.all_singular:
         measured = measure_body(obj, depsgraph, plain)
-        return measured.measurement, MovingSurface.of(measured)
+        return measured.measurement, MovingSurface.from_measured(measured)
     (part,) = reading.parts
     splines = part.splines
     assert splines is not None

@@ -39,7 +39,7 @@ class MovingSurface:
     corners: NDArray[np.integer]
 
     @classmethod
-    def of(cls, measured: Measured) -> MovingSurface | None:
+    def from_measured(cls, measured: Measured) -> MovingSurface | None:
         """Return the faces of a measured body; None if it is not one mesh in the object's own place."""
         reading, body, method = measured.reading, measured.body, measured.measurement.method
         if (

@@ -45,7 +45,7 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
     """Return the masses of a view layer's measured objects by session uid, in one unit with as many decimals."""
-    units = Units.of(scene.unit_settings)
+    units = Units.from_settings(scene.unit_settings)
     key = handlers.generation(), view_layer.name, units
     cached = _masses.get(scene)
     if cached is None or cached[0] != key:

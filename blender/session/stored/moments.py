@@ -173,7 +173,7 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
     """Return the scene's chosen reference, or raise MeasureError if there is none."""
-    return ReferenceChoice.of(scene.body_moments_reference).resolve(obj, scene, computed.center)
+    return ReferenceChoice.from_settings(scene.body_moments_reference).resolve(obj, scene, computed.center)
 
 
 def _displayed_degrees(
@@ -227,7 +227,7 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
         raise ReadError(INVARIANTS_OF_FLAT)
     if order < HU_ORDER:
         raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
-    moments = normalize(_of(computed, of).truncate(order))
+    moments = normalize(_select_moments(computed, of).truncate(order))
     with np.errstate(over="ignore", invalid="ignore"):
         found = [*hu_invariants(moments), *(one for one in flusser_invariants(moments) if one.degree > HU_ORDER)]
     if not np.isfinite([(abs(one.value), one.rounding_error, one.input_error) for one in found]).all():
@@ -250,14 +250,14 @@ def in_frame(
         elif reference is None:
             moments = _in_frame(computed, of, about, frame, order)
         else:
-            moments = _of(computed, of).truncate(order)
+            moments = _select_moments(computed, of).truncate(order)
             moments = moments.in_frame(reference.axes, reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
         raise ReadError(MOMENTS_OVERFLOW_AT_ORIGIN, order=order)
     return moments
 
 
-def _of(computed: ComputedMoments, of: str) -> Moments:
+def _select_moments(computed: ComputedMoments, of: str) -> Moments:
     flat = None if computed.flat is None else computed.flat.moments
     moments = {"VOLUME": computed.volume, "SURFACE": computed.area, "MASS": computed.mass, "FLAT": flat}[of]
     if moments is None:
@@ -270,7 +270,7 @@ def _of(computed: ComputedMoments, of: str) -> Moments:
 
 def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None) -> Moments:
     """Return moments along the axes of the plane, about the foot of the frame's origin or of the reference."""
-    moments, flat = _of(computed, "FLAT").truncate(order), computed.flat
+    moments, flat = _select_moments(computed, "FLAT").truncate(order), computed.flat
     if about == "NORMALIZED":
         return normalize(moments)
     if about == "CENTER":
@@ -281,7 +281,7 @@ def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, ref
 
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:
-    moments = _of(computed, of).truncate(order)
+    moments = _select_moments(computed, of).truncate(order)
     origin = moments.center if about != "ORIGIN" else np.zeros(3) if frame == "WORLD" else computed.location
     if frame == "OBJECT":
         moments = moments.in_frame(computed.rotation, origin)

@@ -31,7 +31,7 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
 
     Return the reason if there is none, and None if nothing is stored.
     """
-    choice = ReferenceChoice.of(scene.body_moments_reference)
+    choice = ReferenceChoice.from_settings(scene.body_moments_reference)
     key = (handlers.generation(), choice, scene.cursor.matrix.freeze() if choice.about == "CURSOR" else None)
     cached = _shown.get(owner)
     if cached is not None and cached[0] == key:
@@ -52,7 +52,7 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
 
     Raise MeasureError if there are no results, no such reference, or the owner cannot hold it.
     """
-    choice = choice or ReferenceChoice.of(scene.body_moments_reference)
+    choice = choice or ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
         raise QueryError(NO_STORED_RESULTS, subject=owner.name)

@@ -247,7 +247,7 @@ def _sum(context: Context) -> Total:
     chosen = posed.subjects(context.view_layer.objects.selected)
     selected = set(chosen)
     for obj in chosen:
-        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_held(obj, selected)):
+        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_members(obj, selected)):
             continue  # its members count by themselves
         body_now = in_world(obj, scene)
         if body_now is None:
@@ -273,7 +273,7 @@ def _sum(context: Context) -> Total:
     )
 
 
-def _held(obj: Object, objects: Iterable[Object]) -> list[Object]:
+def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
     """Return the objects of an assembly or a character."""
     return [*obj.children_recursive, *skinned_objects(obj, objects)]
 

@@ -94,8 +94,8 @@ def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
 
 def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, preview: bool) -> bool:
     """Write the numbers of the current threshold; False if there are none."""
-    options = GridOptions.of(obj.body_moments)
-    request = Request.of(obj, unit=cached.unit)
+    options = GridOptions.from_settings(obj.body_moments)
+    request = Request.resolve(obj, unit=cached.unit)
     try:
         body = threshold_grid_body(grid, options, preview)
         key = grid_key(obj) if grid is cached.grid else COARSE

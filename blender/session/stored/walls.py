@@ -88,7 +88,7 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
         and settings.density_from != "VALUE"
     ):
         return
-    request = Request.of(obj, unit=cached.unit)
+    request = Request.resolve(obj, unit=cached.unit)
     try:
         body = _walls_on_side(cached, obj).body(request.options.thickness, check_overlap=False)
         measurement = measurement_of(cached.reading, body, request)

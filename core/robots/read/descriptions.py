@@ -40,7 +40,7 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     none, or is refused.
     """
     data = _bytes(path)
-    description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.of(path))
+    description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.for_file(path))
     if len(description.links) > MAX_LINKS:
         raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
     if not description.links:

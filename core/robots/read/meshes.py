@@ -72,14 +72,14 @@ def read_stl(data: bytes) -> Arrays:
         count = struct.unpack_from("<I", data, 80)[0]
         if len(data) == 84 + 50 * count:
             rows = np.frombuffer(data, _TRIANGLE, count, 84)
-            return _joined(rows["corners"].reshape(-1, 3))
+            return _join_corners(rows["corners"].reshape(-1, 3))
     if not data.lstrip()[:5].lower() == b"solid":
         raise ValueError("stl")
     check_stl_text(data)
-    return _joined(np.array(_VERTEX.findall(data), np.float64).reshape(-1, 3))
+    return _join_corners(np.array(_VERTEX.findall(data), np.float64).reshape(-1, 3))
 
 
-def _joined(corners: NDArray) -> Arrays:
+def _join_corners(corners: NDArray) -> Arrays:
     """Equal corners as one point."""
     if len(corners) % 3:
         raise ValueError("corners")

@@ -28,7 +28,7 @@ class Roots:
     anywhere: bool = False
 
     @classmethod
-    def of(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
+    def for_file(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
         """Return the roots of a description: its own folder, its package's folder, and `more`."""
         folder = Path(os.path.realpath(file)).parent
         folders = [folder]

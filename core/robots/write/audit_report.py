@@ -85,7 +85,7 @@ def to_json(documents: Sequence[dict[str, Any]]) -> str:
     return json.dumps(shown, ensure_ascii=False, indent=2, allow_nan=False) + "\n"
 
 
-def _rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
+def _table_rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
     for one in documents:
         for reason in one["errors"]:
             yield [one["file"], "", *(reason[key] for key in ("severity", "code", "message")), "", "", ""]
@@ -100,7 +100,7 @@ def _rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
 
 def to_csv(documents: Sequence[dict[str, Any]]) -> str:
     """Return CSV with one row for each finding, and one for each link without any."""
-    return "".join(table(COLUMNS, (dict(zip(COLUMNS, row)) for row in _rows(documents))))
+    return "".join(table(COLUMNS, (dict(zip(COLUMNS, row)) for row in _table_rows(documents))))
 
 
 def to_html(documents: Sequence[dict[str, Any]]) -> str:
@@ -113,7 +113,7 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
         summary = ", ".join(counted(counts.count(level), level) for level in map(str, Severity))
         lines.append("<p>{}: {}.</p>".format(counted(len(one["links"]), "link"), summary))
         lines += ["<table>", "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repaired</tr>"]
-        for _, link, level, code, message, mass, density, repaired in _rows([one]):
+        for _, link, level, code, message, mass, density, repaired in _table_rows([one]):
             fine = "nothing to compare" if "" in (mass, density) else "agrees with its geometry"
             numbers = ["{:.6g}".format(value) if isinstance(value, float) else "" for value in (mass, density)]
             cells = [

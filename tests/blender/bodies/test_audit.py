@@ -125,7 +125,7 @@ def text_of(links, degrees=None):
 
 def audit(path):
     description = read_description(path)
-    return Auditor(Roots.of(path)).audit(description)
+    return Auditor(Roots.for_file(path)).audit(description)
 
 
 def faults(found):

@@ -146,7 +146,7 @@ def test_a_pipe_is_not_waited_for(tmp_path):
     os.mkfifo(tmp_path / "a.urdf")
     assert refusal(read_description, tmp_path / "a.urdf") == "file_not_regular"
     os.mkfifo(tmp_path / "a.stl")
-    assert refusal(Roots.of(tmp_path / "b.urdf").find, "a.stl") == "mesh_missing"
+    assert refusal(Roots.for_file(tmp_path / "b.urdf").find, "a.stl") == "mesh_missing"
 
 
 def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path):
@@ -157,16 +157,16 @@ def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path):
     secret = write(tmp_path / "secret.stl", "")
     file = package / "urdf" / "arm.urdf"
     for name in ("../meshes/a.stl", str(secret), "file://" + str(secret), "../../secret.stl"):
-        assert refusal(Roots.of(file).find, name) == "mesh_outside", name
+        assert refusal(Roots.for_file(file).find, name) == "mesh_outside", name
     write(package / "package.xml", "<package/>")
-    roots = Roots.of(file)
+    roots = Roots.for_file(file)
     for name in ("../meshes/a.stl", "package://arm_description/meshes/a.stl", "meshes/a.stl", r"..\meshes\a.stl"):
         assert roots.find(name) == mesh.resolve(), name
     assert refusal(roots.find, "package://../../secret.stl") in ("mesh_outside", "mesh_missing")
     assert refusal(roots.find, "https://example.com/a.stl") == "mesh_on_network"
     assert refusal(roots.find, "package://arm_description/meshes/b.stl") == "mesh_missing"
-    assert Roots.of(file, [tmp_path]).find("package://arm_description/meshes/a.stl") == mesh.resolve()
-    assert Roots.of(file, anywhere=True).find(str(secret)) == secret.resolve()
+    assert Roots.for_file(file, [tmp_path]).find("package://arm_description/meshes/a.stl") == mesh.resolve()
+    assert Roots.for_file(file, anywhere=True).find(str(secret)) == secret.resolve()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="not on this system")
@@ -175,7 +175,7 @@ def test_links_out_of_the_folder_are_not_followed(tmp_path):
     inside.mkdir()
     write(tmp_path / "secret.stl", "")
     (inside / "a.stl").symlink_to(tmp_path / "secret.stl")
-    assert refusal(Roots.of(inside / "r.urdf").find, "a.stl") == "mesh_outside"
+    assert refusal(Roots.for_file(inside / "r.urdf").find, "a.stl") == "mesh_outside"
 
 
 def test_bytes_that_are_no_text_of_usd_do_not_hang(tmp_path):

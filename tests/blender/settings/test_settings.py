@@ -70,9 +70,9 @@ def test_values_of_grids_become_densities():
     for order, code in ((1, "values_scaled"), (2, "values_scaled_spline")):
         assert GridOptions(spline_order=order, value_density=2.0).meaning().code == code
         assert GridOptions(spline_order=order, table="0 1").meaning().code == code.replace("scaled", "by_table")
-    assert GridOptions.of(add(bpy.data.volumes.new("Cloud")).body_moments, 0.25).value_density == 0.25
+    assert GridOptions.from_settings(add(bpy.data.volumes.new("Cloud")).body_moments, 0.25).value_density == 0.25
     tabled = set_up("VOLUME", {"values_from": "TABLE"}).body_moments
-    assert GridOptions.of(tabled).table and not GridOptions.of(tabled, 1.0).table
+    assert GridOptions.from_settings(tabled).table and not GridOptions.from_settings(tabled, 1.0).table
 
 
 def test_given_parts():
@@ -80,17 +80,17 @@ def test_given_parts():
     settings = obj.body_moments
     settings.given_center, settings.given_inertia_diagonal = (0.1, 0.2, 0.3), (1.1, 2.2, 3.3)
     settings.given_inertia_products = (0.4, 0.5, 0.6)
-    nothing = GivenPart.of(settings, 0.5)
+    nothing = GivenPart.from_settings(settings, 0.5)
     assert not nothing and nothing.key == ""
     settings.use_center = True
-    center = GivenPart.of(settings, 0.5)
+    center = GivenPart.from_settings(settings, 0.5)
     assert center and center.center.tolist() == [0.05, 0.1, 0.15] and center.inertia is None
     settings.use_inertia = True
-    both = GivenPart.of(settings, 0.5)
+    both = GivenPart.from_settings(settings, 0.5)
     assert both.inertia.tolist() == [[1.1, 0.4, 0.5], [0.4, 2.2, 0.6], [0.5, 0.6, 3.3]]
     assert len({nothing.key, center.key, both.key}) == 3
     settings.use_center = False
-    assert GivenPart.of(settings, 0.5)
+    assert GivenPart.from_settings(settings, 0.5)
     assert not is_point_mass(obj)
     settings.mass_from = "MASS"
     assert is_point_mass(obj)

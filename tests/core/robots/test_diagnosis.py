@@ -115,7 +115,9 @@ def test_a_mistake_is_found_named_and_repaired():
     for code, values, stated in mistakes():
         assert said(stated) == (code, values)
         repaired = diagnose(stated, [REFERENCE]).repaired
-        assert REFERENCE.of(repaired) <= 1e-12 < 1e-2 < REFERENCE.of(stated) and close(repaired.mass, MASS, 1e-14)
+        assert REFERENCE.compare(repaired) <= 1e-12 < 1e-2 < REFERENCE.compare(stated) and close(
+            repaired.mass, MASS, 1e-14
+        )
 
 
 @pytest.mark.parametrize("size", LENGTH_UNITS)

@@ -230,7 +230,7 @@ def test_a_list_has_up_to_two_to_the_twenty_sixth_numbers(length, is_looked_for)
     file = BytesIO(length.to_bytes(4, "little") + bytes(2 * ply_rows.BYTES_PER_BLOCK))
     face = Element("face", 1, (Property("vertex_indices", "u1", "u4"),))
     with pytest.raises(ply_rows.RowsError):
-        next(ply_rows.RowReader(file, "<").rows(face))
+        next(ply_rows.RowReader(file, "<").read_rows(face))
     assert (file.read(1) == b"") == is_looked_for
 
 
