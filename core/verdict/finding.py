@@ -55,6 +55,10 @@ class Code(str):
         self.severity, self.text, self.plural = severity, text, plural
         return self
 
+    def __getnewargs__(self) -> tuple[str, Severity, str, str | None]:
+        """Return the arguments of a copy."""
+        return str(self), self.severity, self.text, self.plural
+
 
 def note(code: str, text: str, plural: str | None = None) -> Code:
     """Declare a finding that does not question the numbers."""
@@ -102,7 +106,7 @@ class Finding:
 
     def as_record(self) -> dict[str, Any]:
         """Return the code, the values and the first elements as plain values for JSON, to be read by `from_record`."""
-        record = {"code": self.code, "values": dict(self.values)}
+        record = {"code": str(self.code), "values": dict(self.values)}
         first = self.elements[:MAX_STORED_ELEMENTS]
         if len(first):
             record["elements"] = [item.tolist() if hasattr(item, "tolist") else item for item in first]
