@@ -13,7 +13,7 @@ bpy.ops.object.body_moments_measure()
 bpy.ops.object.body_moments_live()
 bpy.ops.object.mode_set(mode="SCULPT")
 """
-SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
+SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{0}.{0}']"
 LIVE, STALENESS, RESULTS = (SESSION.format(name) for name in ("live", "staleness", "results"))
 SPHERE = "bpy.context.object"
 VOLUME = f"{LIVE}.current_numbers({SPHERE}).measurement.volume"
