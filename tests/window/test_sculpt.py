@@ -13,8 +13,8 @@ bpy.ops.object.body_moments_measure()
 bpy.ops.object.body_moments_live()
 bpy.ops.object.mode_set(mode="SCULPT")
 """
-SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{0}.{0}']"
-LIVE, STALENESS, RESULTS = (SESSION.format(name) for name in ("live", "staleness", "results"))
+SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
+LIVE, STALENESS, RESULTS = (SESSION.format(name) for name in ("live.live", "tracking.staleness", "stored.results"))
 SPHERE = "bpy.context.object"
 VOLUME = f"{LIVE}.current_numbers({SPHERE}).measurement.volume"
 TRUTH = f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
