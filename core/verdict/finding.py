@@ -55,9 +55,9 @@ class Code(str):
         self.severity, self.text, self.plural = severity, text, plural
         return self
 
-    def __getnewargs__(self) -> tuple[str, Severity, str, str | None]:
-        """Return the arguments of a copy."""
-        return str(self), self.severity, self.text, self.plural
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return the constructor and its arguments, for copies."""
+        return Code, (str(self), self.severity, self.text, self.plural)
 
 
 def note(code: str, text: str, plural: str | None = None) -> Code:

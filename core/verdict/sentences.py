@@ -3,7 +3,7 @@
 """Sentences of findings: their templates, filled.
 
 A template is a `str.format` template over the finding's values. `plural` is taken if the value `count` is not 1.
-Values stay numbers, strings, booleans and lists; only the table formats them:
+Values stay numbers, strings, booleans and lists; only the template formats them:
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
     {thickness:length}   meters, as the scene shows them     {point:point}    three of these
@@ -21,6 +21,7 @@ import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+from . import findings
 from .catalog import declared
 from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
 from .findings import AND_MORE
@@ -139,17 +140,9 @@ def method_key(method: Method | None, walled: bool) -> str:
 
 # Counts of the health record, as the text report and Select Defects name them: one, several.
 HEALTH = {
-    "boundary_edges": ("boundary edge", "boundary edges"),
-    "non_manifold_edges": ("non-manifold edge", "non-manifold edges"),
-    "inconsistent_edges": ("edge with opposite normals", "edges with opposite normals"),
-    "inverted_components": ("inside-out component", "inside-out components"),
-    "nested_components": ("component inside another, counted twice", "components inside others, counted twice"),
-    "overlapping_components": ("overlapping component", "overlapping components"),
-    "cavities": ("cavity", "cavities"),
-    "duplicate_faces": ("duplicate face", "duplicate faces"),
-    "degenerate_faces": ("zero-area face", "zero-area faces"),
-    "non_planar_faces": ("non-planar face", "non-planar faces"),
-    "flipped_faces": ("flipped face", "flipped faces"),
+    name.removeprefix("DEFECT_").lower(): tuple(text.removeprefix("{count} ") for text in (code.text, code.plural))
+    for name, code in vars(findings).items()
+    if name.startswith("DEFECT_")
 }
 # Relation of a shape to the one that it was compared with (an enum in core/shape).
 SIMILARITY = {
