@@ -8,7 +8,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     MATERIALS="materials",
     SplineAxis="spline_tables",
-    TrivariateSpline="spline_grid",
     density_moments="spline_grid",
     grid_moments="spline_grid",
     inside_moments="voxel_fill",

@@ -154,7 +154,7 @@ def cells_of_nets(
     nets: NDArray,
     anchor: NDArray,
     spaces: tuple[SplineSpace, SplineSpace],
-    spans: tuple[slice, slice],
+    spans: tuple[slice | NDArray[np.intp], slice | NDArray[np.intp]],
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:

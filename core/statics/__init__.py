@@ -7,7 +7,6 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     BalanceResult="balancing",
-    Gradient="gradient",
     RestingPoses="resting",
     Support="support",
     area_gradient="gradient",

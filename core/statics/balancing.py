@@ -37,7 +37,7 @@ from .findings import (
     BALANCE_SHORT_BY_LIMIT,
     BALANCE_ZERO_VOLUME,
 )
-from .gradient import Gradient, area_gradient, volume_gradient
+from .gradient import area_gradient, volume_gradient
 
 MAX_NEWTON_STEPS = 100  # Limit for Newton's method; it takes a few.
 MAX_STEP_HALVINGS = 20  # Limit for one step, until the center comes nearer.
@@ -243,11 +243,11 @@ class _Problem:
             return None
         center = moments.center
         derive = area_gradient if self.shell else volume_gradient
-        gradient: Gradient = derive(replace(self.surface, points=points), center, order=1)
+        gradient = derive(replace(self.surface, points=points), center)
         return (
             center,
             self.across @ (self.target - center),
-            np.einsum("ri,nik->rnk", self.across, gradient.center(moments.total)),
+            np.einsum("ri,nik->rnk", self.across, gradient[:, 1:4] / moments.total),
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
@@ -309,13 +309,13 @@ class _Fans:
         """Return (n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
         if self.shell:  # signed as the faces' own areas are
             parts = [
-                area_gradient(Surface(self.points, triangles), center, order=1).by_vertex[:, 1:4]
+                area_gradient(Surface(self.points, triangles), center)[:, 1:4]
                 for triangles in (self.fan[~self.opposed], self.fan[self.opposed])
             ]
             gradient, total = parts[0] - parts[1], self.areas.sum()
         else:
             surface = Surface(self.points, self.fan)
-            gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
+            gradient = volume_gradient(surface, center)[:, 1:4]
             total = polyhedron_moments(surface)[0].total
         gradient /= total
         vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)

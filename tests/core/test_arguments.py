@@ -21,7 +21,6 @@ from body_moments.core import (
 )
 from body_moments.core.density import (
     SplineAxis,
-    TrivariateSpline,
     density_moments,
     inside_moments,
     solid_mass_moments,
@@ -117,7 +116,6 @@ CALLS = {
     "PrincipalFrame.rotate": (PROPERTIES.principal.rotate, {"rotation": AXES}),
     "Reference": (Reference, {"origin": ORIGIN, "axes": AXES}),
     "Reference.refer": (Reference(ORIGIN).refer, {"properties": PROPERTIES}),
-    "Reference.refer_moments": (Reference(ORIGIN).refer_moments, {"moments": VOLUME}),
     "Reference.through_points": (Reference.through_points, {"first": ORIGIN, "second": np.ones(3)}),
     "SplineAxis": (SplineAxis, {"knots": np.arange(4.0), "order": 2}),
     "SplineAxis.at_positions": (SplineAxis.at_positions, {"positions": np.arange(4.0)}),
@@ -129,11 +127,6 @@ CALLS = {
     "Surface.from_triangles": (Surface.from_triangles, {"points": POINTS, "triangles": TRIANGLES}),
     "Surface.transform": (SURFACE.transform, {"linear": AXES, "offset": ORIGIN}),
     "TrackedSolid": (lambda patches: TrackedSolid([patches]), {"patches": PATCH}),
-    "TrivariateSpline": (TrivariateSpline, {"coefficients": SAMPLES, "axes": GRID_AXES}),
-    "TrivariateSpline.set_block": (
-        lambda values: TrivariateSpline(SAMPLES, GRID_AXES).set_block((0, 0, 0), values),
-        {"values": 2.0 * SAMPLES},
-    ),
     "VertexWeights": (
         VertexWeights,
         {"vertex": np.array([0, 1]), "bone": np.array([0, 0]), "weight": np.array([0.5, 1.0])},

@@ -59,7 +59,7 @@ def test_no_other_move_is_smaller_to_first_order(shell):
     movable = upper(part, 0.4)
     moments = polyhedron_moments(bodies.surface(part), area_order=3)[shell]
     derive = area_gradient if shell else volume_gradient
-    slope = derive(bodies.surface(part), moments.center).center(moments.total)[movable, :2]
+    slope = derive(bodies.surface(part), moments.center)[movable, 1:3] / moments.total
     root = np.sqrt(np.repeat(areas(part)[movable], 3))
     rows = slope.transpose(1, 0, 2).reshape(2, -1) / root
     off = []
