@@ -27,10 +27,10 @@ from ..mesh.surface import Surface
 from ..numerics.arguments import check_type
 from ..numerics.arrays import indices_in_range, spread_bits
 from ..numerics.compensated import compensated_normals
+from ..solid.findings import OBJECT_TOO_LARGE
 from ..verdict.finding import MeasureError
 from ..verdict.findings import NO_FACES
-from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE
-from .findings import FOURIER_TOO_LARGE, FOURIER_TOO_SMALL
+from ..verdict.tolerances import MAX_COORDINATE, check_size
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles
@@ -70,9 +70,8 @@ class SortedTriangles:
         self.center = center
         reach = hypot(*np.maximum(high - center, center - low).tolist())
         if not reach < MAX_COORDINATE:
-            raise MeasureError(FOURIER_TOO_LARGE)
-        if 0.0 < reach < MIN_SIZE:
-            raise MeasureError(FOURIER_TOO_SMALL)
+            raise MeasureError(OBJECT_TOO_LARGE)
+        check_size(reach)
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))
         self.points = np.ascontiguousarray(np.ldexp(points.astype(np.float64) - center, -exponent))

@@ -33,13 +33,9 @@ from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import choose_about_axis, choose_half_turns
 from .findings import (
-    AXES_1_2_FREE,
-    AXES_1_2_FREE_BY_SHAPE,
-    AXES_2_3_FREE,
-    AXES_2_3_FREE_BY_SHAPE,
-    AXES_ALL_FREE,
-    AXES_ALL_FREE_BY_SHAPE,
     AXES_AMBIGUOUS,
+    AXES_FREE,
+    AXES_FREE_BY_SHAPE,
     NEGATIVE_INERTIA,
     STRICT_RULE_EQUAL_MOMENTS,
     STRICT_RULE_NO_SKEWNESS,
@@ -52,18 +48,11 @@ NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed
 
 # The choice if the body leaves one: the object's own directions, or the nearest of the body's own.
-FREE = {
-    "isotropic": finding(AXES_ALL_FREE),
-    "prolate": finding(AXES_2_3_FREE),
-    "oblate": finding(AXES_1_2_FREE),
-    "asymmetric": finding(AXES_AMBIGUOUS),
-}
-FREE_BY_SHAPE = {
-    "isotropic": finding(AXES_ALL_FREE_BY_SHAPE),
-    "prolate": finding(AXES_2_3_FREE_BY_SHAPE),
-    "oblate": finding(AXES_1_2_FREE_BY_SHAPE),
-    "asymmetric": finding(AXES_AMBIGUOUS),
-}
+FREE, FREE_BY_SHAPE = (
+    {name: finding(code, axes=[axis + 1 for axis in axes]) for name, axes in EQUAL_AXES.items() if axes}
+    | {"asymmetric": finding(AXES_AMBIGUOUS)}
+    for code in (AXES_FREE, AXES_FREE_BY_SHAPE)
+)
 
 
 @dataclass(frozen=True, eq=False)

@@ -57,8 +57,8 @@ class Side:
 class BoundaryLoop:
     """Open sides that run round a hole.
 
-    caps: the patches that close it and face as theirs do. patch: one of theirs. is_planar: True if it lies in a plane;
-    out_of_plane: its distance from one. zero_area: True if it has no area, so that it is closed already. area: of the
+    caps: the patches that close it and face as theirs do. patch: one of theirs. is_planar: True if it lies in a plane.
+    zero_area: True if it has no area, so that it is closed already. area: of the
     cap, an estimate. self_intersecting: True if it is flat and crosses itself.
     """
 
@@ -67,7 +67,6 @@ class BoundaryLoop:
     is_planar: bool
     zero_area: bool
     area: float
-    out_of_plane: float
     self_intersecting: bool
 
 
@@ -383,7 +382,6 @@ def _cap_loop(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_]
     center = ((run + steps / 2.0) * weigh[:, None]).sum(axis=0) / weigh.sum()
     arms = run - center
     _, _, axes = np.linalg.svd(arms, full_matrices=False)
-    off = float(np.abs(arms @ axes[2]).max())
     width = np.linalg.norm(np.cross(arms, steps), axis=1).sum() / 2.0
     caps = []
     for side, ahead in zip(sides, forward):
@@ -391,9 +389,9 @@ def _cap_loop(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_]
         ends = (np.broadcast_to(center, curve.points.shape), curve.points)[:: 1 if ahead else -1]
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         caps.append(Patch((curve.space, clamped_space(2)), np.stack(ends, axis=1), weights))
-    flat = off <= tolerance
+    flat = bool(np.abs(arms @ axes[2]).max() <= tolerance)
     # A way there and back has no net area; of a loop in space only its cone's area shows that.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
     slim = area <= tolerance * weigh.sum()
     crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)
-    return BoundaryLoop(tuple(caps), sides[0].patch, flat, slim, area, off, crossing)
+    return BoundaryLoop(tuple(caps), sides[0].patch, flat, slim, area, crossing)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, sum_moments
+from ..numerics.arguments import check_filled
 from ..solid.findings import (
     CAVITIES_BREAK_THROUGH,
     CAVITIES_SUBTRACTED,
@@ -35,16 +36,13 @@ from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE, welding_tolerance
 from .findings import (
     AMBIGUOUS_PATCH_SIDES,
-    AREA_ERROR_ESTIMATE_LARGE,
-    CURVED_PATCH_HOLES_CAPPED,
-    FLAT_PATCH_HOLES_CAPPED,
+    ERROR_ESTIMATE_LARGE,
     FLIPPED_PATCHES,
     INVERTED_PATCH_COMPONENTS,
     NO_EXTENT,
-    NO_PATCHES,
     OPEN_PATCH_SIDES,
     PATCH_BOUNDARY_CROSSES_ITSELF,
-    VOLUME_ERROR_ESTIMATE_LARGE,
+    PATCH_HOLES_CAPPED,
 )
 from .input_error import with_area_error, with_swept_error
 from .patch import Patch, patches_center, patches_size
@@ -130,15 +128,14 @@ def measure_patches(
     >>> str(body.method), round(body.volume.total, 9)
     ('capped', 1.0)
     """
-    if not patches:
-        raise MeasureError(NO_PATCHES)
+    check_filled("patches", patches)
     size = patches_size(patches)
     if not size > 0.0:
         raise MeasureError(NO_EXTENT)
     about = patches_center(patches)
     topology = find_topology(patches, welding_tolerance(size, stored))
     area, converged = area_moments(patches, area_order, about)
-    findings = () if converged else (finding(AREA_ERROR_ESTIMATE_LARGE),)
+    findings = () if converged else (finding(ERROR_ESTIMATE_LARGE, quantity="area"),)
     parts = oriented_parts(patches, topology)
     measured = [volume_moments(part, order, about) for part in parts]
     return assess(patches, topology, parts, measured, area, area_slope(patches), stored, findings)
@@ -189,7 +186,7 @@ def assess(
     misoriented = np.flatnonzero(topology.flipped).tolist()
     further = list(findings)
     if not all(converged for *_, converged, _ in turned_parts):
-        further.append(finding(VOLUME_ERROR_ESTIMATE_LARGE))
+        further.append(finding(ERROR_ESTIMATE_LARGE, quantity="volume"))
     outward = tuple(
         patch.reverse_orientation() if whole_sign * sign < 0.0 else patch
         for part, *_, sign in turned_parts
@@ -437,18 +434,12 @@ def _closing_findings(
     if flattened:
         findings.append(finding(FLAT_COMPONENTS, count=flattened, total=int(closure.number)))
     loops = [loop for loop in closure.loops if solid[closure.component[loop.patch]]]
-    flat, curved = (
-        [loop for loop in loops if not loop.zero_area and loop.is_planar == level] for level in (True, False)
-    )
-    if flat:
-        capped = sum(loop.area for loop in flat)
-        slight = capped * size < NEGLIGIBLE * volume
-        findings.append(finding(FLAT_PATCH_HOLES_CAPPED, slight=slight, count=len(flat), share=float(capped / area)))
-    crossing = sum(bool(loop.self_intersecting) for loop in loops)
+    caps = [loop for loop in loops if not loop.zero_area]
+    if caps:
+        capped, flat = sum(loop.area for loop in caps), sum(loop.is_planar for loop in caps)
+        values = {"flat": flat, "curved": len(caps) - flat, "share": float(capped / area)}
+        findings.append(finding(PATCH_HOLES_CAPPED, slight=capped * size < NEGLIGIBLE * volume, **values))
+    crossing = sum(loop.self_intersecting for loop in loops)
     if crossing:
         findings.append(finding(PATCH_BOUNDARY_CROSSES_ITSELF, count=crossing))
-    if curved:
-        capped, worst = sum(loop.area for loop in curved), max(loop.out_of_plane for loop in curved)
-        values = {"count": len(curved), "share": float(capped / area), "out_of_plane": float(worst / size)}
-        findings.append(finding(CURVED_PATCH_HOLES_CAPPED, slight=capped * size < NEGLIGIBLE * volume, **values))
     return findings

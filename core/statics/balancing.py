@@ -22,6 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia.findings import NO_CERTAIN_VOLUME
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
 from ..numerics.arguments import check_type, float_array, index_array
@@ -31,11 +32,8 @@ from ..verdict.finding import MeasureError
 from ..wall.walls import first_positive_root
 from .findings import (
     BALANCE_FOLDS_FACES,
-    BALANCE_NO_AREA,
     BALANCE_NO_EFFECT,
     BALANCE_SHORT,
-    BALANCE_SHORT_BY_LIMIT,
-    BALANCE_ZERO_VOLUME,
 )
 from .gradient import area_gradient, volume_gradient
 
@@ -124,11 +122,11 @@ def balance(
     area = fans.areas[movable]
     used = (area > 0.0) & (weights > 0.0)
     if not used.any():
-        raise MeasureError(BALANCE_NO_AREA)
+        raise MeasureError(BALANCE_NO_EFFECT)
     movable = movable[used]
     start = problem.evaluate(problem.start)
     if start is None:
-        raise MeasureError(BALANCE_ZERO_VOLUME)
+        raise MeasureError(NO_CERTAIN_VOLUME)
     before, _, gradient = start
     step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     step_directions *= (weights[used] / area[used])[:, None]
@@ -138,10 +136,8 @@ def balance(
     left = far
     if far or np.linalg.norm(points - problem.start, axis=1).max() > limit:
         points, center, left = _newton_solve(problem, start, step_directions, movable, limit)
-    if left and far:  # without a limit too: it is not the limit that stands against it
-        raise MeasureError(BALANCE_SHORT, distance=float(far))
     if left:
-        raise MeasureError(BALANCE_SHORT_BY_LIMIT, limit=float(limit), distance=float(left))
+        raise MeasureError(BALANCE_SHORT, distance=float(far or left), limit=float(limit))
     problem.check(points, movable)
     return BalanceResult(points, before, center)
 

@@ -22,7 +22,6 @@ import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from . import findings
 from .catalog import declared
 from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
 from .findings import AND_MORE
@@ -140,11 +139,19 @@ def method_key(method: Method | None, walled: bool) -> str:
     return str(method) if str(method) in METHODS else method.verdict.value
 
 
-# Counts of the health record, as the text report and Select Defects name them: one, several.
+# Counts of the health record, as the text report names them: one, several.
 HEALTH = {
-    name.removeprefix("DEFECT_").lower(): tuple(text.removeprefix("{count} ") for text in (code.text, code.plural))
-    for name, code in vars(findings).items()
-    if name.startswith("DEFECT_")
+    "boundary_edges": ("boundary edge", "boundary edges"),
+    "non_manifold_edges": ("non-manifold edge", "non-manifold edges"),
+    "inconsistent_edges": ("edge with opposite normals", "edges with opposite normals"),
+    "inverted_components": ("inside-out component", "inside-out components"),
+    "nested_components": ("component inside another, counted twice", "components inside others, counted twice"),
+    "overlapping_components": ("overlapping component", "overlapping components"),
+    "cavities": ("cavity", "cavities"),
+    "duplicate_faces": ("duplicate face", "duplicate faces"),
+    "degenerate_faces": ("zero-area face", "zero-area faces"),
+    "non_planar_faces": ("non-planar face", "non-planar faces"),
+    "flipped_faces": ("flipped face", "flipped faces"),
 }
 # Relation of a shape to the one that it was compared with (an enum in core/shape).
 SIMILARITY = {
@@ -157,5 +164,3 @@ SIMILARITY = {
     "similar": "similar",
     "different": "different",
 }
-# Sides of a wall, for {side}.
-SIDES = {"inward": "inward", "outward": "outward", "centered": "centered"}
