@@ -10,8 +10,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     SplineAxis="spline_tables",
     density_moments="spline_grid",
     grid_moments="spline_grid",
-    inside_moments="voxel_fill",
     parse_polynomial="polynomial",
-    solid_mass_moments="piecewise_mass",
     threshold_body="threshold",
 )

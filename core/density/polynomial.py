@@ -51,19 +51,13 @@ CORNERS = tuple(product((0, -1), repeat=3))
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """A polynomial density, Σ c x^p y^q z^r, with exact nonzero coefficients by exponents (p, q, r).
-
-    Call it with (n, 3) points for its values.
-    """
+    """A polynomial density with exact nonzero coefficients by (p, q, r); call it with (n, 3) points for its values."""
 
     terms: dict[Exponents, Fraction]
 
     @classmethod
     def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
-        """Make a polynomial from the coefficients of 1, x, y, z, x², xy, xz, y², yz, z², …, taken exactly.
-
-        Raise ValueError if one is not finite, MeasureError if there are too many.
-        """
+        """Make a polynomial from finite coefficients of 1, x, y, z, x², xy, xz, y², yz, z², …, taken exactly."""
         values = np.asarray(coefficients, float).tolist()
         if not all(map(math.isfinite, values)):
             raise ValueError("coefficients must be finite")
@@ -109,10 +103,9 @@ class Polynomial:
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
-        """Return a lower bound of the polynomial on the box with opposite corners `low` and `high`.
+        """Return a lower bound of the polynomial on a box, less rounding: some 1e-13 of the sum of the terms' sizes.
 
-        The box is halved as long as that may still prove it not negative, at most `MAX_BOXES` times; rounding, some
-        1e-13 of the sum of the terms' sizes, is subtracted.
+        The box is halved as long as that may still prove it not negative, at most `MAX_BOXES` times.
         """
         low, high = np.asarray(low, float), np.asarray(high, float)
         local = self.translate(low).coefficients()

@@ -70,8 +70,7 @@ class SplineAxis:
         """Return one function for each sample, with knots around it: samples as coefficients, full supports.
 
         With an even order the knots are the positions, with an odd one the middles between them; beyond the ends they
-        go on with the last distance. Even positions give `uniform`. ValueError if positions do not ascend, or there
-        are fewer than two.
+        go on with the last distance. ValueError if positions do not ascend, or there are fewer than two.
         """
         x = float_array("positions", positions, "n")
         if len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
@@ -102,8 +101,7 @@ class SplineAxis:
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
         """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt.
 
-        Each entry is off by at most `rounding_counts` units of ∫ B_i times the l-th power of the largest |t - center|
-        in the support.
+        Off by at most `rounding_counts` units of ∫ B_i times the l-th power of the largest |t - center| in the support.
         """
         return full_support_integrals(self.knots - center, self.order, degree)
 

@@ -160,10 +160,7 @@ def threshold_body(
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    """Yield slabs of planes of samples as float64, each with the first plane of the next, and its first index.
-
-    If there is a background, a layer of it is added on every side.
-    """
+    """Yield each slab's first index, and its planes of samples with the next one's first, padded by a background."""
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
     step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))
@@ -357,10 +354,7 @@ class _Sums:
         self._add_largest("estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
 
     def _add_largest(self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
-        """Add the largest possible moments of given volumes, areas and masses in cells to the totals called `name`.
-
-        name: "estimate", of the error, or "size", of the absolute sum of the terms.
-        """
+        """Add the largest moments of volumes, areas and masses in cells to the totals "estimate" or "size"."""
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
         density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
         largest = np.stack([reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()])

@@ -22,10 +22,7 @@ CT_DENSITIES = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 
 
 
 def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n,) values, ascending, and (n,) densities in kg/m³.
-
-    MeasureError if the text is not such a table.
-    """
+    """Return (n,) values, ascending, and (n,) densities in kg/m³; MeasureError if the text is no such table."""
     entries = []
     for pair in re.split(r"[,;\n]", text):
         words = pair.split()

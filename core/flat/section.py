@@ -150,10 +150,7 @@ class Section:
 
 
 def principal_angle(second: NDArray, noise: float) -> float:
-    """Return the angle of axis 1, in (-π/2, π/2].
-
-    A product of inertia below `noise` is none, so that it cannot turn the axis over.
-    """
+    """Return the angle of axis 1, in (-π/2, π/2]; a product of inertia below `noise` cannot turn the axis over."""
     first, last, mixed = second.tolist()
     if abs(mixed) <= noise:
         return 0.0 if first >= last else pi / 2.0
@@ -239,9 +236,7 @@ def region(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m, 2) directed edges of the region covered by triangles near the plane, and the number of turned faces.
 
-    Points at one place are merged. Faces that look against the plane are turned.
-
-    faces: (k,) the face of each triangle; a face is turned as a whole.
+    Points at one place are merged. Faces, (k,) of each triangle, that look against the plane are turned as a whole.
     """
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = (plane.project(points)[triangles[:, i]] for i in range(3))

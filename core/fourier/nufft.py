@@ -73,10 +73,7 @@ class Spreading:
             cells[run] += np.bincount(index, weights.reshape(-1), minlength=run.stop - run.start)
 
     def sums(self) -> Iterator[NDArray[np.complex128]]:
-        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z from 0 on.
-
-        Uses the cells up.
-        """
+        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z from 0 on, using the cells up."""
         n, along = self.side, np.arange(-self.half, self.half + 1)
         factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(along / n, self.width)
         while self.cells:
@@ -109,10 +106,7 @@ def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _grid_side(half: int, width: int) -> int:
-    """Return the cells along a side of the fine grid: an even number with small prime factors only.
-
-    For such a number a fast Fourier transform is fast.
-    """
+    """Return the cells along a side of the fine grid: even, with small prime factors only, for a fast transform."""
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
     while _has_large_prime(n):

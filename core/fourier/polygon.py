@@ -129,10 +129,7 @@ class RegionTransform:
 
 
 def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
-    """Return ((h+1)(2h+1), 2) the wave vectors of a grid from 0 on along x, and from -h to h along y.
-
-    The values at the others are conjugates.
-    """
+    """Return ((h+1)(2h+1), 2) wave vectors of a grid with x ≥ 0; the values at the others are conjugates."""
     x, y = np.arange(grid.half + 1) * grid.step, (np.arange(2 * grid.half + 1) - grid.half) * grid.step
     return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2).astype(np.float64, copy=False)
 

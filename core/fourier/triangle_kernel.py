@@ -27,9 +27,8 @@ from ..mesh.surface import Surface
 from ..numerics.arguments import check_type
 from ..numerics.arrays import indices_in_range, spread_bits
 from ..numerics.compensated import compensated_normals
-from ..solid.findings import OBJECT_TOO_LARGE
 from ..verdict.finding import MeasureError
-from ..verdict.findings import NO_FACES
+from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
 from ..verdict.tolerances import MAX_COORDINATE, check_size
 from .wave_vectors import GridWaves, ListWaves
 
@@ -45,9 +44,8 @@ TINY = 1e-300
 class SortedTriangles:
     """The triangles of a surface about its center and at unit size, sorted so that blocks of them are alike.
 
-    center: (3,). scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. triangles: (m, 3);
-    area: of all of them; diameters: (m,), their longest sides; heights: (m,), over the shortest sides; in units of the
-    scale.
+    scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. area: of all triangles (m, 3);
+    diameters: (m,), their longest sides; heights: (m,), over the shortest sides; in units of the scale.
     """
 
     def __init__(self, surface: Surface):

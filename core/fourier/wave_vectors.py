@@ -103,10 +103,7 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
 
 
 class ListWaves:
-    """A list of wave vectors (M, 3), by size, so that a block can be treated alike.
-
-    Rows are single ones.
-    """
+    """A list of wave vectors (M, 3), by size, so that a block can be treated alike; rows are single ones."""
 
     columns = 1
 

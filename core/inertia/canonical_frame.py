@@ -151,10 +151,9 @@ def _fix_rotation_about_axis(
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
     """Turn the bases about that axis of theirs as the first clear harmonic asks.
 
-    Return them, its degree, m and k if there is one, and the angle by which noise may have turned it.
-
-    fourfold: the sign of a harmonic with m = 4; others get a positive one. E[cos 4φ] is negative for a square with
-    sides along the axes.
+    Return them, its degree, m and k if there is one, and the angle by which noise may have turned it. fourfold: the
+    sign of a harmonic with m = 4; others get a positive one. E[cos 4φ] is negative for a square with sides along the
+    axes.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
@@ -244,13 +243,12 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
-    """Return the maxima on the sphere, the best approached first, no more than `within` below the largest.
-
-    Some of them are returned several times. span: between the largest and the least value.
+    """Return maxima on the sphere, some repeated, the best approached first, at most `within` below the largest.
 
     The search starts from the highest points of a grid over the sphere: along the sphere the function is a
-    trigonometric polynomial, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the
-    way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and always uphill.
+    trigonometric polynomial of this span, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)²
+    span / 4 on the way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and
+    always uphill.
     """
     points, scale = _sphere_directions(), degree**2 * span
     height = _contract(tensor, degree, points)
@@ -307,10 +305,7 @@ def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDAr
 
 
 def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
-    """Return for each monomial of a degree its scale and the noise of its normalized moment.
-
-    The scale is the product of the extents along its axes; the noise comes from float32 coordinates and from rounding.
-    """
+    """Return for monomials of a degree their scales, products of extents, and their normalized moments' noise."""
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
     size = _extents(spread)
     unit = np.prod(size**powers, axis=1)

@@ -32,10 +32,7 @@ HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.
 
 
 def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Choose the half turns of `canonical_frames` for bodies without axes of equal moments.
-
-    Return an (n, 4) mask of `third_moment_frames.HALF_TURN_SIGNS`. The moments are to sixth order, `bodies` indices.
-    """
+    """Return (n, 4) the HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
 
@@ -68,9 +65,9 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the allowed half turns with the largest normalized moments.
+    """Return (n, 4) mask of the allowed half turns with the largest normalized moments (n, columns).
 
-    Moments: (n, columns), compared column after column; values that differ by no more than `least` are equal.
+    They are compared column after column; values that differ by no more than `least` are equal.
     """
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
@@ -88,10 +85,7 @@ def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDAr
 def _along_axes(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n, columns) the normalized central moments of third to the highest order along the axes, and their noise.
-
-    Return also (n, K) the central moments along the axes by the total.
-    """
+    """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central ones."""
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
     with np.errstate(over="ignore"):

@@ -52,19 +52,7 @@ class Reference:
     def through_points(cls, first: ArrayLike, second: ArrayLike) -> Reference:
         """Return the frame with its origin at the first point and its Z axis from there to the second.
 
-        Parameters
-        ----------
-        first, second : (3,) array_like
-
-        Returns
-        -------
-        Reference
-            Its other axes are as near as possible to the coordinate axes.
-
-        Raises
-        ------
-        QueryError
-            If the points are one, or so near that they fix no direction.
+        Its other axes are as near as possible to the coordinate axes. QueryError if the points fix no direction.
         """
         first, second = float_array("first", first, 3), float_array("second", second, 3)
         way = second - first
@@ -78,30 +66,10 @@ class Reference:
         return cls(first, np.column_stack([side, np.cross(along, side), along]).astype(np.float64))
 
     def refer(self, properties: MassProperties) -> ReferredInertia:
-        """Refer the inertia of one body to this frame, from its mass properties.
+        """Refer the inertia of one body, given in the same coordinates, to this frame, by the parallel-axis theorem.
 
-        Parameters
-        ----------
-        properties : MassProperties
-            Of one body, in the coordinates that this frame is given in.
-
-        Returns
-        -------
-        ReferredInertia
-
-        Notes
-        -----
-        The parallel-axis theorem. With e the bound of the center, and d = |c - p|, the tensor is off by at most its own
-        bound plus √2 d² times that of the mass plus m (6 d e + 2 e²).
-
-        Examples
-        --------
-        >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
-        >>> from body_moments.core.inertia import Reference
-        >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-        >>> properties = MassProperties.from_moments(polyhedron_moments(surface)[0], density=60.0)
-        >>> np.round(Reference(np.zeros(3)).refer(properties).inertia[0], 9).tolist()
-        [2.0, -0.5, -0.5]
+        With e the bound of the center, and d = |c - p|, the tensor is off by at most its own bound plus √2 d² times
+        that of the mass plus m (6 d e + 2 e²).
         """
         check_type("properties", properties, MassProperties)
         arm = properties.center - self.origin

@@ -148,10 +148,7 @@ def third_moment_frames(
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n,) whether better third moments could change no decision.
-
-    They could change neither the scores of fixed axes that count, nor their signs, nor their order.
-    """
+    """Return (n,) whether better third moments could change no score that counts, no sign and no order."""
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
@@ -164,10 +161,7 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
 
 
 def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
-    """Return (n, 3, 3) for each body and axis i its skewness and two normalized third moments, and their error bounds.
-
-    The three are M_iii, M_ijj and M_ikk: the two are odd in i and even in another axis.
-    """
+    """Return (n, 3, 3) for each axis i its normalized M_iii, M_ijj and M_ikk, all odd in i, and their error bounds."""
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
     third = moments.raw[:, THIRD_MOMENT_INDEX] / total[:, None, None, None]

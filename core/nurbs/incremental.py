@@ -27,9 +27,8 @@ RATIONAL_GAUSS_POINTS = 16  # Gauss points in a span of a rational patch
 class IncrementalPatchMoments:
     """Moments of a patch in a fixed function space and with fixed weights, its control points free to move.
 
-    Gauss rules are exact for polynomial patches. For rational ones they have 16 points a span and come without an
-    estimate, which `patch_moments` gives. The flux of one patch is a body's only together with those of the others.
-    `area` is the area of the patch as last evaluated, by the same points: an approximation.
+    Gauss rules are exact for polynomial patches; for rational ones they come without an estimate. `area` is the area of
+    the patch as last evaluated, by the same points: an approximation.
     """
 
     def __init__(self, patch: Patch, order: int, about: NDArray):
@@ -48,7 +47,7 @@ class IncrementalPatchMoments:
     def moments(self, points: NDArray) -> Moments:
         """Return the flux through the patch with these control points (count_s, count_t, 3), about `about`.
 
-        Only spans on which control points act that have moved since the last call are evaluated.
+        Only spans on which moved control points act are evaluated.
         """
         moved = (points != self._points).any(axis=2)
         self._points = points.copy()

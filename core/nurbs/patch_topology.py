@@ -43,10 +43,7 @@ SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """One side of a patch.
-
-    forward: True if the patch's boundary runs the way of its curve.
-    """
+    """One side of a patch; `forward` if the patch's boundary runs the way of its curve."""
 
     patch: int
     curve: Curve
@@ -57,9 +54,8 @@ class Side:
 class BoundaryLoop:
     """Open sides that run round a hole.
 
-    caps: the patches that close it and face as theirs do. patch: one of theirs. is_planar: True if it lies in a plane.
-    zero_area: True if it has no area, so that it is closed already. area: of the
-    cap, an estimate. self_intersecting: True if it is flat and crosses itself.
+    caps: the patches that close it and face as theirs do. patch: one of theirs. zero_area: closed already. area: of the
+    cap, an estimate. self_intersecting: flat, and crossing itself.
     """
 
     caps: tuple[Patch, ...]
@@ -95,9 +91,7 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
-    """Find the seams, orientation and holes of patches.
-
-    tolerance: the distance within which points are the same.
+    """Find the seams, orientation and holes of patches; points within the tolerance are the same.
 
     MeasureError if knots may tear one: a gap within a patch is not one of its sides.
     """
@@ -159,10 +153,7 @@ def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
 def _coincident_sides(
     sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Return pairs of coinciding sides, the nearest first: distance, the two indices, and True for equal direction.
-
-    The direction is that of the sides' curves.
-    """
+    """Return coinciding sides, the nearest first: distance, two indices, and whether their curves run alike."""
     middle = points.shape[1] // 2
     side_points = points[wide]
     first, last = side_points[:, 0], side_points[:, -1]
@@ -189,10 +180,7 @@ def _pair_sides(
     owner: NDArray[np.intp],
     forward: NDArray[np.bool_],
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
-    """Return the joined pairs of coinciding sides, masks, distances, and the number of non-manifold sides.
-
-    The pairs are (k,) and (k,). The masks are of curves that run the same way. Non-manifold sides coincide with more
-    than one other.
+    """Return joined sides (k,) and (k,), whether their curves run alike, distances; and non-manifold sides' number.
 
     If more than two meet, as for touching bodies, sides of patches already joined by other sides come first, then a
     patch by itself to one that it fits as it faces, then any that fit as they face: so no patch is turned needlessly.
@@ -258,10 +246,7 @@ def _pair_sides(
 
 
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return pairs of rows i < j of (n, d) that differ by no more than a limit in any column.
-
-    Their projections on a line that is parallel to nothing are neighbors.
-    """
+    """Return pairs of rows i < j of (n, d) that differ by no more than a limit: neighbors along a slanted line."""
     keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)

@@ -75,10 +75,9 @@ class PatchIntegrals:
 
 @dataclass(frozen=True, eq=False)
 class _PatchVerdict:
-    """Decisions about parts.
+    """Decisions about parts: (c,) masks of those with a volume, to turn, and in the sum; their comparison.
 
-    solid, flipped, counted: (c,) masks of parts with a volume, to turn, and in the sum. caps: (c, 3) numbers of capped
-    flat and curved holes of each, and the caps' area. comparison: for several parts.
+    caps: (c, 3) numbers of capped flat and curved holes of each, and the caps' area.
     """
 
     solid: NDArray[np.bool_]
@@ -163,7 +162,7 @@ def assess(
 ) -> PatchIntegrals:
     """Judge the moments of parts, as they face.
 
-    parts: from `oriented_parts`. measured: of each part, from `volume_moments`. area: of all patches. slope: from
+    parts: from `oriented_parts`, measured: of each, from `volume_moments`. area: of all patches, slope: from
     `area_slope`. stored: as for `measure_patches`. findings: further ones.
     """
     size = patches_size(patches)
@@ -238,10 +237,7 @@ def _judge_parts(
 
 
 def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
-    """Return the verdict's method.
-
-    misoriented: the number of patches that face against the rest of their part.
-    """
+    """Return the verdict's method, given the number of patches that face against the rest of their part."""
     if is_open:
         return Verdict.OPEN
     if verdict.caps[verdict.solid].any():
@@ -265,40 +261,11 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
 def measure_sheet(
     patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
-    """Measure a sheet of real thickness along patches.
+    """Measure a sheet of real thickness along patches, about the middle of the control points' bounding box.
 
-    Its moments are about the middle of the control points' bounding box.
-
-    Parameters
-    ----------
-    patches : sequence of Patch
-    inner, outer : float
-        The heights along the patches' normals between which the sheet lies.
-    stored : float
-        As for `measure_patches`.
-
-    Returns
-    -------
-    sheet : Moments
-        Of the sheet's volume, to order 3.
-    area : Moments
-        Of the patches, to order 3.
-    precise : bool
-        True if both error estimates are below the tolerance.
-
-    Raises
-    ------
-    MeasureError
-        If the sheet would run through itself.
-
-    Examples
-    --------
-    >>> from body_moments.core.nurbs import Patch, measure_sheet
-    >>> from body_moments.core.numerics import clamped_space
-    >>> square = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
-    >>> sheet, area, precise = measure_sheet([Patch((clamped_space(2), clamped_space(2)), square)], 0.0, 0.1)
-    >>> round(sheet.total, 9), round(area.total, 9), precise
-    (0.1, 1.0, True)
+    inner, outer: the heights along the patches' normals between which it lies. stored: as for `measure_patches`. Return
+    the moments of its volume and of the patches' area, to order 3, and whether both error estimates are below the
+    tolerance. MeasureError if the sheet would run through itself.
     """
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
@@ -393,20 +360,14 @@ def _sagitta(grid: NDArray, each: int) -> float:
 
 
 def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
-    """Return whether patches are too small to matter, as `_is_slight` of meshes.
-
-    The area is taken from the box around the control points of each group, at most twice the square of its diagonal.
-    """
+    """Return whether patches are too small to matter, their areas twice their groups' squared diagonals."""
     return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
 
 
 def _orientation_findings(
     closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
 ) -> list[Finding]:
-    """Return findings about patches, and whole parts, that were turned.
-
-    mixed: patches that face against the rest of their part.
-    """
+    """Return findings about `mixed` patches turned to agree with their part, and about whole parts turned."""
     findings = []
     if mixed:
         findings.append(finding(FLIPPED_PATCHES, slight=slight_patches, count=mixed))
@@ -421,10 +382,7 @@ def _orientation_findings(
 def _closing_findings(
     closure: PatchTopology, solid: NDArray[np.bool_], area: float, volume: float, size: float
 ) -> list[Finding]:
-    """Return findings about open, flat and capped parts.
-
-    solid: (c,) the parts with a volume.
-    """
+    """Return findings about open, flat and capped parts; solid: (c,) the parts with a volume."""
     findings = []
     if closure.unclosable.any():
         findings.append(finding(OPEN_PATCH_SIDES))

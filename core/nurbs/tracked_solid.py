@@ -88,19 +88,7 @@ class TrackedSolid:
         return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now.
-
-        Parameters
-        ----------
-        patches : sequence of Patch
-        stored : float
-            As for `measure_patches`.
-
-        Returns
-        -------
-        bool
-            True if tables were enough; otherwise everything was measured anew.
-        """
+        """Measure the patches as they are now; return True if tables were enough, else all is measured anew."""
         size, about = patches_size(patches), self.measure.volume.about
         if not (
             self._is_tracking

@@ -200,10 +200,7 @@ def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]])
 
 
 def _plane(corners: Sequence[Vector]) -> tuple[Vector, Vector]:
-    """Return Newell's normal, twice the area long, and the foot of the perpendicular from the origin.
-
-    A face that is not flat has its mean plane.
-    """
+    """Return Newell's normal, twice the area long, and the perpendicular's foot from the origin, of the mean plane."""
     normal = (0, 0, 0)
     for a, b in zip(corners, [*corners[1:], corners[0]]):
         normal = tuple(n + c for n, c in zip(normal, cross(a, b)))

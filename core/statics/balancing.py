@@ -46,21 +46,7 @@ SLIVER_RTOL = 1e-9  # Relative to the longest side squared: smaller triangles ha
 
 @dataclass(frozen=True, eq=False)
 class BalanceResult:
-    """Moved vertices that bring the center to its target.
-
-    Attributes
-    ----------
-    points : (n, 3) array
-        float64.
-    before, after : (3,) arrays
-        The center.
-
-    Examples
-    --------
-    >>> from body_moments.core.statics import BalanceResult
-    >>> BalanceResult(np.zeros((4, 3)), np.zeros(3), np.ones(3)).after.tolist()
-    [1.0, 1.0, 1.0]
-    """
+    """Moved vertices (n, 3) that bring the center of mass to its target, and the center before and after."""
 
     points: NDArray[np.float64]
     before: NDArray[np.float64]
@@ -145,10 +131,7 @@ def balance(
 def _newton_solve(
     problem: _Problem, start: tuple[NDArray, NDArray, NDArray], step_directions: NDArray, movable: NDArray, limit: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached.
-
-    start: as of `_Problem.evaluate`.
-    """
+    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached."""
     points, (center, residual, gradient) = problem.start, start
     multiplier = np.zeros(len(step_directions))
     slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
@@ -192,10 +175,7 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (r, r) the derivative of the center by the multiplier.
-
-    A move that is cut can still turn, not grow.
-    """
+    """Return (r, r) the derivative of the center by the multiplier; a move that is cut can still turn, not grow."""
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -230,10 +210,7 @@ class _Problem:
         return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """Return (3,) the center, (r,) its distances from the target, and (r, n, 3) its derivatives.
-
-        None if the body has turned inside out.
-        """
+        """Return (3,) the center, (r,) its distances from the target, (r, n, 3) derivatives; None if inside out."""
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
             return None
@@ -247,10 +224,7 @@ class _Problem:
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
-        """Raise MeasureError if a triangle turns by a right angle or more on its way.
-
-        N(s)·N(0), a quadratic in s, must stay positive to s = 1.
-        """
+        """Raise MeasureError if a triangle turns by a right angle: N(s)·N(0), a quadratic, has a root in [0, 1]."""
         moved = np.zeros(len(points), bool)
         moved[movable] = True
         triangles = self.triangles[moved[self.triangles].any(axis=1)]
@@ -272,10 +246,7 @@ class _Problem:
 
 
 class _Fans:
-    """The faces of a surface as triangles around the mean of each face's vertices; triangles stay as they are.
-
-    areas: (n,) the area for each vertex, an equal share of each of its faces.
-    """
+    """Faces as triangles around the means of their vertices; areas: (n,) equal shares of each vertex's faces."""
 
     def __init__(self, surface: Surface, shell: bool):
         triangles, faces = surface.all_triangles()

@@ -5,6 +5,7 @@
 from .finding import error, note, warning
 
 NO_FACES = error("no_faces", "No faces. Add faces, or select another object.")
+OBJECT_TOO_LARGE = error("object_too_large", "Too large to be measured. Scale the object down.")
 OBJECT_TOO_SMALL = error("object_too_small", "Too small to be measured. Scale the object up.")
 FLIPPED_FACES = warning(
     "flipped_faces",

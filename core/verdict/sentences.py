@@ -41,11 +41,7 @@ def _item(item: Any, translate: Callable[[str], str]) -> str:
 
 
 def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
-    """Write the first items of a list, names in quotation marks, and how many more there are: “A”, “B”, and 3 more.
-
-    Items are names, numbers, or pairs of them; `count` is the number in all if `items` are only the first of them.
-    `translate` is applied to the template of the words around the items.
-    """
+    """Write the first names, numbers or pairs of a list, and how many more there are: “A”, “B”, and 3 more."""
     shown, more = truncate(items, MAX_LISTED, count)
     texts = [_item(item, translate) for item in shown]
     if more:
@@ -89,10 +85,7 @@ class _Formatter(string.Formatter):
 def sentence(
     finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
 ) -> str:
-    """Return the sentence of a finding.
-
-    translate: applied to each template before it is filled. lengths: formats a length in meters, by default in meters.
-    """
+    """Return the sentence of a finding; templates are translated before they are filled, lengths are meters."""
     entry, values = declared(finding.code), finding.values
     template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
     elements = truncate_list(finding.elements, values.get("count"), translate)
