@@ -314,14 +314,15 @@ class _Sums:
             z = low + node * height
             density = threshold + columns.density[kept] + columns.growth[kept] * z
             points = [*place, first + size * z]
-            self._add_points(floor * size * height * weight * density, points, turn)
+            self._add_points("mass", floor * size * height * weight * density, points, turn)
 
-    def _add_points(self, masses: NDArray, points: list[NDArray], turn: tuple) -> None:
-        tables = [power_table(values, self.order) for values in points]
-        for number, powers in enumerate(self.powers[:, turn].tolist()):
-            term = masses * tables[0][powers[0]] * tables[1][powers[1]] * tables[2][powers[2]]
-            self.mass[number] += term.sum()
-            self.mass_size[number] += np.abs(term).sum()
+    def _add_points(self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]) -> None:
+        total, size = getattr(self, measure), getattr(self, measure + "_size")
+        xs, ys, zs = (power_table(values, self.order) for values in points)
+        for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
+            term = amounts * xs[p] * ys[q] * zs[r]
+            total[number] += term.sum()
+            size[number] += np.abs(term).sum()
 
     def _add_boxes(self, cells: Cells, threshold: float) -> None:
         """Add parts of cells that lie inside altogether."""
@@ -332,13 +333,9 @@ class _Sums:
             u, v, w = nodes[list(place)]
             points = list((cells.origin + cells.size[:, None] * np.array([u, v, w])).T)
             volumes = weights[list(place)].prod() * cells.size**3
-            tables = [power_table(values, self.order) for values in points]
-            for number, (p, q, r) in enumerate(self.powers.tolist()):
-                term = volumes * tables[0][p] * tables[1][q] * tables[2][r]
-                self.volume[number] += term.sum()
-                self.volume_size[number] += np.abs(term).sum()
+            self._add_points("volume", volumes, points)
             if self.with_density:
-                self._add_points(volumes * (threshold + interpolate(cells.corners, u, v, w)), points, TURNS[2])
+                self._add_points("mass", volumes * (threshold + interpolate(cells.corners, u, v, w)), points)
         self.terms += len(cells.size)
 
     def _give_up(self, cells: Cells, threshold: float) -> None:

@@ -20,7 +20,7 @@ from ..moments.affine_maps import rotate_moments
 from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
 from ..moments.moments import Moments
 from ..verdict.finding import MeasureError
-from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
+from .canonical_frame import NOISE_GROWTH, extents_of
 from .findings import MOMENTS_OVERFLOW
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
@@ -52,7 +52,7 @@ def choose_about_axis(
         weights, columns, forms = _harmonics(axis, moments.order)
         size = fixed.size[bodies[rows]]
         powers = monomials(moments.order)[columns + THIRD]
-        unit = np.multiply.reduce(_extents(size)[:, None] ** powers, axis=2)
+        unit = np.multiply.reduce(extents_of(size)[:, None] ** powers, axis=2)
         harmonic = np.abs(raw[rows][:, THIRD:] @ forms.T) / unit
         is_round[rows] = ~(harmonic > weights * least[rows][:, columns]).any(axis=1)
         # keep only the first frame for each direction of the axis
@@ -96,16 +96,11 @@ def _along_axes(
     raw = rotate_moments(central.raw / total, order, turned)
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]
     powers = monomials(order)[THIRD:]
-    degree, extents = powers.sum(axis=1), _extents(size)
+    degree, extents = powers.sum(axis=1), extents_of(size)
     unit = np.multiply.reduce(extents[:, None] ** powers, axis=2)
     thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
     noise = fixed.noise + 4.0 * fixed.step[bodies, None] / thin + degree * fixed.tilt[bodies, None]
     return raw[:, THIRD:] / unit, np.array(NOISE_GROWTH)[degree] * noise + error / unit, raw
-
-
-def _extents(size: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3) the extents; infinite along an axis that has hardly any."""
-    return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=1, keepdims=True), size, np.inf)
 
 
 @lru_cache

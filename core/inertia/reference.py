@@ -16,6 +16,7 @@ from ..moments.moments import U
 from ..numerics.arguments import check_type, float_array
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import QueryError
+from .canonical_frame import frame_about
 from .findings import AXIS_POINTS_COINCIDE
 from .mass_properties import MassProperties
 
@@ -59,11 +60,7 @@ class Reference:
         length = float(np.linalg.norm(way))
         if not length > MIN_AXIS_RATIO * max(np.abs(first).max(), np.abs(second).max()):
             raise QueryError(AXIS_POINTS_COINCIDE)
-        along = way / length
-        side = IDENTITY_3[np.abs(along).argmin()]
-        side = side - (side @ along) * along
-        side = side / float(np.linalg.norm(side))
-        return cls(first, np.column_stack([side, np.cross(along, side), along]).astype(np.float64))
+        return cls(first, frame_about(way / length))
 
     def refer(self, properties: MassProperties) -> ReferredInertia:
         """Refer the inertia of one body, given in the same coordinates, to this frame, by the parallel-axis theorem.

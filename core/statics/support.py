@@ -15,6 +15,7 @@ from math import atan2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia.canonical_frame import frame_about
 from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import check_filled, float_array
 
@@ -54,11 +55,7 @@ class Support:
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
     """Return two directions on the ground and the one up, as columns of a rotation, by the direction of gravity."""
     up = -float_array("down", down, 3)
-    up = up / float(np.linalg.norm(up))
-    first = np.eye(3)[np.argmin(np.abs(up))]
-    first = first - (first @ up) * up
-    first = first / float(np.linalg.norm(first))
-    return np.stack([first, np.cross(up, first), up], axis=1).astype(np.float64)
+    return frame_about(up / float(np.linalg.norm(up)))
 
 
 def find_support(
