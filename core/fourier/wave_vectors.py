@@ -81,13 +81,12 @@ class FrequencyGrid:
         return np.stack(axes, axis=-1).reshape(-1, self.dimension)
 
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """Return the (count³,) values everywhere from the values of `GridWaves`, which are at half of the places."""
-        side, n, h = 2 * self.half + 1, self.count, self.half
-        values = np.asarray(values).reshape(side, side, h + 1)
-        full = np.empty((n, n, n), np.complex128)
-        upper = n - h  # 0 and above
-        full[:, :, h:] = values[:n, :n, :upper]
-        full[:, :, :h] = values[::-1, ::-1, :0:-1][:n, :n].conj()
+        """Return all (count³,) or (count²,) values from those with the last coordinate from 0 on, ends included."""
+        n, h, others = self.count, self.half, (slice(None, self.count),) * (self.dimension - 1)
+        values = np.asarray(values).reshape(*[2 * h + 1] * (self.dimension - 1), h + 1)
+        full = np.empty((n,) * self.dimension, np.complex128)
+        full[..., h:] = values[others + (slice(None, n - h),)]
+        full[..., :h] = np.flip(values, axis=(*range(self.dimension - 1), -1))[..., :h][others].conj()
         return full.reshape(-1)
 
 

@@ -121,15 +121,16 @@ class MassProperties:
 
     def at(self, which: int | list[int]) -> MassProperties:
         """Return one body of a stack, or a stack of some of them."""
+
+        def pick(values: PerBody) -> PerBody:
+            return values[which] if isinstance(which, list) else float(values[which])
+
         rounding, inputs = (
-            {
-                name: values[which] if isinstance(which, list) else float(values[which])
-                for name, values in bounds.items()
-            }
+            {name: pick(values) for name, values in bounds.items()}
             for bounds in (self.rounding_error, self.input_error)
         )
-        mass = self.mass[which] if isinstance(which, list) else float(self.mass[which])
-        return MassProperties(mass, self.center[which], self.inertia[which], self.principal.at(which), rounding, inputs)
+        principal = self.principal.at(which)
+        return MassProperties(pick(self.mass), self.center[which], self.inertia[which], principal, rounding, inputs)
 
     def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
         """Return the (3, 3) tensor about another point, by the parallel-axis theorem."""

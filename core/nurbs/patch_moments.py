@@ -99,7 +99,7 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
     terms = weighted_monomials(s, dot(s, normal), order, 1)
-    np.sqrt(dot(normal, normal) if area else _square(along) * _square(across), out=terms[-1])
+    np.sqrt(dot(normal, normal) if area else dot(along, along) * dot(across, across), out=terms[-1])
     return sum_over_points(terms, weights)
 
 
@@ -408,10 +408,6 @@ def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
 def _degrees(order: int) -> NDArray[np.float64]:
     """Return (K,) the degree of each monomial."""
     return monomials(order).sum(axis=1).astype(np.float64)
-
-
-def _square(a: NDArray) -> NDArray[np.float64]:
-    return np.add.reduce(a * a, axis=0)
 
 
 def _length(a: NDArray) -> NDArray[np.float64]:

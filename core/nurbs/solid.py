@@ -75,10 +75,7 @@ class PatchIntegrals:
 
 @dataclass(frozen=True, eq=False)
 class _PatchVerdict:
-    """Decisions about parts: (c,) masks of those with a volume, to turn, and in the sum; their comparison.
-
-    caps: (c, 3) numbers of capped flat and curved holes of each, and the caps' area.
-    """
+    """Decisions about parts: (c,) masks of those with a volume, to turn, and in the sum; cap areas; comparison."""
 
     solid: NDArray[np.bool_]
     flipped: NDArray[np.bool_]
@@ -146,7 +143,7 @@ def oriented_parts(patches: Sequence[Patch], topology: PatchTopology) -> list[li
     for patch, turn, part in zip(patches, topology.flipped, topology.component):
         parts[part].append(patch.reverse_orientation() if turn else patch)
     for loop in topology.loops:
-        parts[topology.component[loop.patch]] += loop.caps
+        parts[loop.component] += loop.caps
     return parts
 
 
@@ -200,11 +197,7 @@ def assess(
         _method(is_open, verdict, len(misoriented)),
         (
             *_orientation_findings(
-                topology,
-                len(misoriented),
-                verdict.flipped,
-                slight_patches=_are_slight([[patches[k]] for k in misoriented], size, volume.total),
-                slight_parts=_are_slight([parts[k] for k in turned], size, volume.total),
+                topology, [[patches[k]] for k in misoriented], [parts[k] for k in turned], size, volume.total
             ),
             *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
             *_component_findings(verdict.comparison, size),
@@ -225,12 +218,11 @@ def _judge_parts(
     stored: float,
 ) -> _PatchVerdict:
     """Find the parts with a volume, and the ones inside out."""
-    caps = np.zeros((topology.number, 3))
+    caps = np.zeros(topology.number)
     for loop in topology.loops:
-        if not loop.zero_area:
-            caps[topology.component[loop.patch]] += (loop.is_planar, not loop.is_planar, loop.area)
+        caps[loop.component] += 0.0 if loop.zero_area else loop.area
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area, caps.any(axis=1), stored))
+    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area, caps > 0.0, stored))
     comparison = _compare_parts(parts, total, solid, welding_tolerance(size, stored))
     flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
     return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)
@@ -253,7 +245,7 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
         inconsistent_edges=topology.misoriented_sides,
         components=topology.number,
         inverted_components=int(verdict.flipped.sum()),
-        cap_area_share=float(verdict.caps[verdict.solid, 2].sum() / area) if area > 0.0 else 0.0,
+        cap_area_share=float(verdict.caps[verdict.solid].sum() / area) if area > 0.0 else 0.0,
     )
     return report if verdict.comparison is None else verdict.comparison.add_to(report)
 
@@ -359,23 +351,22 @@ def _sagitta(grid: NDArray, each: int) -> float:
     return float(bend.max())
 
 
-def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
-    """Return whether patches are too small to matter, their areas twice their groups' squared diagonals."""
-    return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
-
-
 def _orientation_findings(
-    closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
+    topology: PatchTopology, mixed: list[list[Patch]], turned: list[list[Patch]], size: float, volume: float
 ) -> list[Finding]:
-    """Return findings about `mixed` patches turned to agree with their part, and about whole parts turned."""
+    """Return findings about single patches turned to agree with their part, and about whole parts turned."""
+
+    def are_slight(groups: list[list[Patch]]) -> bool:  # an area is at most twice the square of a box's diagonal
+        return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
+
     findings = []
     if mixed:
-        findings.append(finding(FLIPPED_PATCHES, slight=slight_patches, count=mixed))
-        if closure.non_manifold_sides:
-            findings.append(finding(AMBIGUOUS_PATCH_SIDES, count=int(closure.non_manifold_sides)))
-    if turn.any():
-        values = {"count": int(turn.sum()), "total": int(closure.number)}
-        findings.append(finding(INVERTED_PATCH_COMPONENTS, slight=slight_parts, **values))
+        findings.append(finding(FLIPPED_PATCHES, slight=are_slight(mixed), count=len(mixed)))
+        if topology.non_manifold_sides:
+            findings.append(finding(AMBIGUOUS_PATCH_SIDES, count=int(topology.non_manifold_sides)))
+    if turned:
+        values = {"count": len(turned), "total": int(topology.number)}
+        findings.append(finding(INVERTED_PATCH_COMPONENTS, slight=are_slight(turned), **values))
     return findings
 
 
@@ -391,7 +382,7 @@ def _closing_findings(
     flattened = int((~solid & ~closure.unclosable).sum())
     if flattened:
         findings.append(finding(FLAT_COMPONENTS, count=flattened, total=int(closure.number)))
-    loops = [loop for loop in closure.loops if solid[closure.component[loop.patch]]]
+    loops = [loop for loop in closure.loops if solid[loop.component]]
     caps = [loop for loop in loops if not loop.zero_area]
     if caps:
         capped, flat = sum(loop.area for loop in caps), sum(loop.is_planar for loop in caps)

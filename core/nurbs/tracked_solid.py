@@ -114,7 +114,7 @@ class TrackedSolid:
         for flux, turn, part in zip(self._fluxes, topology.flipped, topology.component):
             fluxes[part].append(flux * -1.0 if turn else flux)
         for loop in topology.loops:
-            fluxes[topology.component[loop.patch]].append(volume_moments(loop.caps, 3, about)[0])
+            fluxes[loop.component].append(volume_moments(loop.caps, 3, about)[0])
         measure = assess(
             patches,
             topology,

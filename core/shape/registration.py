@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from ..inertia.canonical_frame import EquivalentFrames
 from ..inertia.frame_choice import complete_free_axes
 from ..inertia.principal_frames import equivalent_frames, undetermined_axes
+from ..inertia.third_moment_frames import HALF_TURN_SIGNS
 from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 
-HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
 EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
 MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
 FIRST_SAMPLES = 32  # points of each surface that are looked at first
@@ -67,7 +67,7 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
     """Return (k, 3, 3) the rotations from a frame of the source to the frames of the target and their half turns."""
-    frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
+    frames = (target.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
     frames = np.array([complete_free_axes(frame, undetermined_axes(target.revolution_axes), first) for frame in frames])
     return distinct_arrays(frames @ first.T, 1e-9)
 
