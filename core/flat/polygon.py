@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.arguments import float_array, index_array
 from ..numerics.arrays import segment_ranges, sums_by_index
 from ..numerics.graph import connected_components
-from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
+from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments
 from ..verdict.finding import MeasureError
 from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE
 
@@ -95,13 +95,6 @@ def edge_arrays(
     """Return (n, 2) points, or in space (n, 3), and (m, 2) edges between them as arrays."""
     points = float_array("points", points, "n", dimension)
     return points, index_array("edges", edges, "m", 2, count=len(points))
-
-
-def outline_moments(
-    points: ArrayLike, edges: ArrayLike, order: int = 0, about: ArrayLike | None = None
-) -> SimplexMoments:
-    """Return ∫ x^p y^q ds along the edges; of order 0 the perimeter."""
-    return facet_moments(points, edges, order, about)
 
 
 def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:

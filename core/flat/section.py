@@ -21,9 +21,10 @@ from ..mesh.surface import normals
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
 from ..numerics.arguments import check_type, float_array, index_array
+from ..polyhedron.n_dimensions import facet_moments
 from ..verdict.finding import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
-from .polygon import boundary_edges, edge_arrays, outline_areas, outline_moments
+from .polygon import boundary_edges, edge_arrays, outline_areas
 from .regions import plane_positions, region_moments
 
 # Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
@@ -299,7 +300,7 @@ def measure_section(
         raise MeasureError(SECTION_ENCLOSES_NOTHING)
     about, positions = moments.about[:2], plane_positions(2)
     raw = moments.raw[positions]
-    length = outline_moments(flat, edges)
+    length = facet_moments(flat, edges, 0)
     bounds = [_bounds(raw, about, delta[positions]) for delta in (moments.rounding_error, moments.input_error)]
     # For at most 2 len(edges) shared pieces, each taken twice.
     ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)

@@ -10,10 +10,11 @@ error is about 10^(1 - width) of Σ |c|.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ..numerics.quadrature import gauss_legendre
 
 OVERSAMPLING = 2.0
 BETA = 2.30  # per unit of width, for that oversampling
@@ -95,14 +96,10 @@ def _kernel(z: NDArray, width: int) -> NDArray[np.float64]:
 
 def _kernel_transform(frequencies: NDArray, width: int) -> NDArray[np.float64]:
     """Return ∫ kernel(2 t / width) exp(-2πi f t) dt over its support, by Gauss's rule."""
-    z, weights = _gauss(8 * width + 32)
+    nodes, weights = gauss_legendre(8 * width + 32)
+    z = 2.0 * nodes - 1.0
     phases = np.pi * width * np.multiply.outer(frequencies, z)
-    return (np.cos(phases) * (weights * _kernel(z, width))).sum(axis=-1) * (width / 2.0)
-
-
-@lru_cache
-def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    return np.polynomial.legendre.leggauss(count)
+    return (np.cos(phases) * (weights * _kernel(z, width))).sum(axis=-1) * width
 
 
 def _grid_side(half: int, width: int) -> int:

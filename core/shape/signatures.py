@@ -218,7 +218,8 @@ def _numbers(
     if moments.measure == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
         power = radial_power(zernike, FREQUENCIES)[0] / volume**2
-    return _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error
+    chirality = np.array(_couplings(harmonic, _chiral_triples()))
+    return _invariants(harmonic), descriptors(zernike), power, chirality, error
 
 
 def similarity(a: Signature, b: Signature) -> Likeness:
@@ -278,12 +279,11 @@ def _relative_difference(a: NDArray, b: NDArray) -> float:
 def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
     scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
     products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
-    triples = [couple(*(harmonic[key] for key in triple)) for triple in _even_triples()]
-    return np.array(scalars + products + triples)
+    return np.array(scalars + products + _couplings(harmonic, _even_triples()))
 
 
-def _chirality(harmonic: Multiplets) -> NDArray[np.float64]:
-    return np.array([couple(*(harmonic[key] for key in triple)) for triple in _chiral_triples()])
+def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> list[NDArray[np.float64]]:
+    return [couple(*(harmonic[key] for key in triple)) for triple in triples]
 
 
 def _multiplets(order: int) -> list[Key]:
