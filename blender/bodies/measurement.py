@@ -17,8 +17,8 @@ from ...core.inertia.principal_frames import OwnMoments
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Moments
-from ...core.solid.findings import OBJECT_TOO_LARGE
 from ...core.verdict.finding import ReadError, finding
+from ...core.verdict.findings import OBJECT_TOO_LARGE
 from ...core.verdict.method import Method, Verdict
 from ...core.wall.findings import NO_FACE_AREA
 from ..read.fingerprint import effective_hash, fingerprint, transform_key

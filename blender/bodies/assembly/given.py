@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.inertia.findings import AXES_ALL_FREE
+from ....core.inertia.findings import AXES_FREE
 from ....core.inertia.mass_properties import MassProperties
 from ....core.inertia.principal_frames import PrincipalFrame
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
@@ -186,7 +186,11 @@ def properties_of(mass: Moments, preferred_axes: NDArray) -> MassProperties:
         center=central.about,
         inertia=np.zeros((3, 3)),
         principal=PrincipalFrame(
-            np.zeros(3), np.asarray(preferred_axes, np.float64), NO_AXES_FIXED, False, finding(AXES_ALL_FREE)
+            np.zeros(3),
+            np.asarray(preferred_axes, np.float64),
+            NO_AXES_FIXED,
+            False,
+            finding(AXES_FREE, axes=[1, 2, 3]),
         ),
         rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
