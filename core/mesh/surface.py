@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_type, float_array, index_array, number_array
+from ..numerics.arguments import float_array, index_array, number_array
 from ..numerics.vectors import cross, dot
 
 POINTS_PER_ROW = 512  # points whose coordinates are compared as one row
@@ -178,53 +178,16 @@ class Surface:
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
 
 
-def normals(points: ArrayLike, triangles: ArrayLike) -> NDArray[np.float64]:
-    """Return the normals of triangles, each twice as long as its triangle's area.
-
-    Parameters
-    ----------
-    points : (n, 3) array_like
-    triangles : (m, 3) array_like of int
-
-    Returns
-    -------
-    (m, 3) array
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import normals
-    >>> normals(np.eye(4, 3, -1), np.array([[0, 1, 2]])).tolist()
-    [[0.0, 0.0, 1.0]]
-    """
-    points, triangles = number_array("points", points, "n", 3), index_array("triangles", triangles, "m", 3)
+def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
     return np.cross(b - a, c - a)
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
-    """Join several surfaces, in the same coordinates, into one of triangles in float64.
-
-    Parameters
-    ----------
-    surfaces : sequence of Surface
-        At least one.
-
-    Returns
-    -------
-    Surface
-        Its faces are numbered one surface after the other.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface, join_surfaces
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> joined = join_surfaces([surface, surface.transform(np.eye(3), (2.0, 0.0, 0.0))])
-    >>> len(joined.triangles), joined.box[1].tolist()
-    (8, [3.0, 1.0, 1.0])
-    """
+    """Join surfaces, in the same coordinates, into one of float64 triangles; faces are numbered on."""
     points, triangles, faces, start, face = [], [], [], 0, 0
     for surface in surfaces:
-        check_type("surfaces", surface, Surface)
         cut, source_face = surface.all_triangles()
         points.append(surface.points.astype(np.float64))
         triangles.append(cut + start)
@@ -241,8 +204,8 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
     """Return (q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
 
-    Blender's own rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): it flips
-    if the normals of the two triangles at the first diagonal face away from each other.
+    Blender's rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): it flips if
+    the normals of the two triangles at the first diagonal face away from each other.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)

@@ -18,9 +18,9 @@ from .surface import Surface, flipped_quads
 
 @dataclass(frozen=True, eq=False)
 class TriangleStack:
-    """The triangles of n surfaces, each with its indices moved behind the points of the surfaces before it.
+    """The triangles of n surfaces, with indices moved behind the points of the surfaces before. None lacks any.
 
-    `points` are (p, 3), float32 or float64, `triangles` (t, 3), the counts (n,). No surface lacks points or triangles.
+    `points` are (p, 3), float32 or float64, `triangles` (t, 3), the counts (n,).
     """
 
     points: NDArray[np.floating]
@@ -79,9 +79,8 @@ class TriangleStack:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceStack(TriangleStack):
-    """The arrays of n surfaces.
+    """The arrays of n surfaces, by `from_surfaces`. Faces are the meshes' own, numbered on from surface to surface.
 
-    Make them by `of`. Faces are the meshes' own, numbered one surface after the other.
     `triangles`: (t, 3) all faces, quads cut as drawn; of each surface first its triangles, then its quads.
     `triangle_faces`, `quad_faces`: the face of each triangle, (t,), and of each of the (q, 4) quads.
     `corner_vertices`, `corner_edges`: (c,) the meshes' corners and the edges that start there.
@@ -231,10 +230,8 @@ class SurfaceStack(TriangleStack):
 class Connections:
     """Connections of the faces of n surfaces, by their meshes' own edges.
 
-    `is_closed`: True if every edge that has faces has two, which run along it in opposite directions.
-    `is_open`: True if that is so but for some edges with one face.
-    `component_counts`: (n,) components of each closed or open surface; meaningless for the others.
-    `component`: (f,) the component of each face, numbered in the order of their first faces.
+    `is_closed`: every edge with faces has two, which run oppositely; `is_open`: all but some with a single face.
+    `component_counts`: (n,); meaningless unless closed or open. `component`: (f,) of each face, by first faces.
     `open_sides`: (2, k) start and end vertices of the sides with no other side, for the open surfaces.
     """
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, edges_from_mesh, find_edges
+from ..mesh.edges import Edges, find_edges
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups, vertex_tolerance
 from ..numerics.graph import connected_components
@@ -29,7 +29,7 @@ def split_into_triangles(surface: Surface) -> RepairedMesh:
     """
     triangles, face = surface.all_triangles()
     triangles, count = triangles.astype(np.intp), len(triangles)
-    edges, open_parts = _find_open_parts(surface, triangles, np.asarray(face, np.intp))
+    edges, open_parts = _find_open_parts(len(surface.points), triangles, np.asarray(face, np.intp))
     return RepairedMesh(
         surface.points,
         triangles,
@@ -93,20 +93,19 @@ def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMe
 
 
 def _find_open_parts(
-    surface: Surface, triangles: NDArray[np.intp], face: NDArray[np.intp]
+    count: int, triangles: NDArray[np.intp], face: NDArray[np.intp]
 ) -> tuple[Edges | None, OpenParts | None]:
     """Return the edges of the triangles with three different vertices, if known, and the parts to weld."""
     rows = np.flatnonzero(has_distinct_vertices(triangles))
     if not len(rows):
         return None, None
-    if len(triangles) * 3 == len(surface.points):  # a soup: no edge has two triangles
-        return None, OpenParts(rows, _unique_sorted(triangles[rows], len(surface.points)), True)
-    edges = edges_from_mesh(surface, triangles) if len(rows) == len(triangles) else None
-    edges = edges or find_edges(triangles[rows])
+    if len(triangles) * 3 == count:  # a soup: no edge has two triangles
+        return None, OpenParts(rows, _unique_sorted(triangles[rows], count), True)
+    edges = find_edges(triangles[rows])
     odd = edges.count % 2 == 1
     if not odd.any():
         return edges, None
-    vertices = _unique_sorted(np.concatenate(side_ends(triangles[rows], edges.first[odd])), len(surface.points))
+    vertices = _unique_sorted(np.concatenate(side_ends(triangles[rows], edges.first[odd])), count)
     part, number = connected_components(len(rows), *edges.adjacency())
     is_open = np.zeros(number, bool)
     is_open[part[edges.first[odd] // 3]] = True

@@ -39,7 +39,7 @@ from body_moments.core.flat import (
 )
 from body_moments.core.fourier import BodyTransform, FrequencyGrid, GridTransform, polygon_transform, surface_transform
 from body_moments.core.inertia import Reference, combine, equivalent_frames, nearest_frame, zhang_chen_frame
-from body_moments.core.mesh import convex_hull, convex_polygon, join_surfaces, normals, winding_number
+from body_moments.core.mesh import convex_hull
 from body_moments.core.moments import complex_moments, normalize, sum_moments, sum_of_images
 from body_moments.core.numerics import SplineSpace, clamped_space, connected_components, quaternion, rotation_matrix
 from body_moments.core.nurbs import (
@@ -162,7 +162,6 @@ CALLS = {
     "complex_moments": (complex_moments, {"moments": FLAT, "bounds": np.ones(len(FLAT.raw))}),
     "connected_components": (connected_components, {"count": 4, "a": np.array([0, 2]), "b": np.array([1, 3])}),
     "convex_hull": (convex_hull, {"points": POINTS}),
-    "convex_polygon": (convex_polygon, {"points": SQUARE}),
     "density_moments": (density_moments, {"coefficients": SAMPLES, "axes": GRID_AXES}),
     "directed_edges": (lambda loops: directed_edges([loops]), {"loops": np.arange(4)}),
     "dominant_bones": (
@@ -191,7 +190,6 @@ CALLS = {
     "flat_signature": (flat_signature, {"moments": FLAT, "radius": 2.0}),
     "grid_moments": (grid_moments, {"samples": SAMPLES, "shape": (2, 2, 2), "matrix": MATRIX}),
     "inside_moments": (inside_moments, {"triangles": POINTS[TRIANGLES], "densities": SAMPLES}),
-    "join_surfaces": (lambda surfaces: join_surfaces([surfaces]), {"surfaces": SURFACE}),
     "length_moments": (lambda curves: length_moments([curves]), {"curves": CURVE}),
     "match": (
         match,
@@ -203,7 +201,6 @@ CALLS = {
     "measure_solid": (measure_solid, {"surface": SURFACE}),
     "nearest_frame": (nearest_frame, {"equivalent": equivalent_frames(VOLUME), "preferred_axes": AXES}),
     "normalize": (normalize, {"moments": VOLUME}),
-    "normals": (normals, {"points": POINTS, "triangles": TRIANGLES}),
     "offset_solid": (offset_solid, {"surface": SURFACE}),
     "orient_loops": (lambda points, loops: orient_loops(points, [loops]), {"points": SQUARE, "loops": np.arange(4)}),
     "planar_region": (
@@ -237,7 +234,6 @@ CALLS = {
     "threshold_body": (threshold_body, {"samples": SAMPLES, "threshold": 3.5, "matrix": MATRIX}),
     "volume_gradient": (volume_gradient, {"surface": SURFACE, "about": ORIGIN}),
     "wall_moments": (wall_moments, {"wall": offset_solid(SURFACE), "inward": 0.0, "outward": 0.1, "order": 3}),
-    "winding_number": (winding_number, {"points": POINTS, "triangles": TRIANGLES, "point": CENTRAL.about}),
     "zhang_chen_frame": (zhang_chen_frame, {"moments": VOLUME}),
 }
 CALLS["solid_transform"][1]["q"] = Q
