@@ -138,15 +138,21 @@ class Edges:
         return self.first[self.count == 1]
 
 
-def find_edges(triangles: NDArray[np.integer]) -> Edges:
-    """Return the edges of (m, 3) triangles with three different vertices each, m at least 1."""
+def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
+    """Return the edges of (m, 3) triangles with three different vertices each, m at least 1.
+
+    The last of them are the halves of so many quads, a, b, c and a, c, d, whose diagonals are edges of their own.
+    """
     start, stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     width = int(high.max()) + 1
     bits = (len(low) // width).bit_length()  # neighbors in the mesh share the table's cached part
     slots = low.astype(np.intp) << bits
     slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits) if bits else 0
-    first = first_occurrence(low.astype(np.int64) * width + high, slots=slots)
+    keys = low.astype(np.int64) * width + high
+    diagonals = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads))
+    keys[diagonals + 2] = keys[diagonals + 3] = width * width + np.arange(quads)
+    first = first_occurrence(keys, slots=slots)
     begins = first == np.arange(len(first))
     of_side = (np.cumsum(begins) - 1)[first]
     return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))

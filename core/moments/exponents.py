@@ -46,10 +46,7 @@ def order_from_count(count: int) -> int:
 
 
 def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int, ...]:
-    """Return the exponents of one moment.
-
-    TypeError if they are not `dimension` integers, IndexError if no moment to this order has them.
-    """
+    """Return the exponents. TypeError if they are not `dimension` integers, IndexError if beyond the order."""
     powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
     if len(powers) != dimension or not all(isinstance(power, (int, np.integer)) for power in powers):
         raise TypeError("not {:d} integer exponents: {!r}".format(dimension, exponents))
@@ -122,10 +119,7 @@ def count_of_degree(degree: int) -> int:
 
 @lru_cache
 def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
-    """Return (3, rows) the indices of x^α without one factor x, y or z among the monomials one degree lower.
-
-    It is `missing` if x^α has no such factor.
-    """
+    """Return (3, rows) indices, one degree lower, of x^α without a factor x, y or z; `missing` if it has none."""
     table = monomials(degree)[-count_of_degree(degree) :]
     r, s = table[:, 2], table[:, 1] + table[:, 2]
     lower = s * (s - 1) // 2

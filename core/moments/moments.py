@@ -137,10 +137,7 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it.
-
-        It is 0 beyond the order.
-        """
+        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments`; 0 beyond the order."""
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
         return dense
@@ -340,10 +337,7 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
 
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
-    """Stack the moments of bodies along a leading axis, to the lowest of their orders, each about its own point.
-
-    There is at least one body, and all have one measure.
-    """
+    """Stack at least one body's moments, of one measure, along a leading axis, each about its own point."""
     count = min([part.raw.shape[-1] for part in parts])
     raw, rounding, inputs = (
         np.array([getattr(part, name)[:count] for part in parts]) for name in ("raw", "rounding_error", "input_error")
@@ -393,10 +387,7 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (k,) the factors by which (3, 3, k) maps change the measure, their rounding bounds, and the deviations.
-
-    The deviation is that of the map from one factor.
-    """
+    """Return (k,) factors of (3, 3, k) maps on the measure, bounds of rounding, and deviations from a factor."""
     exact = np.zeros(linear.shape[2])
     if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact

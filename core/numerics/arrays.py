@@ -40,10 +40,7 @@ def segment_starts(counts: NDArray) -> NDArray[np.intp]:
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
-    """Return (count or more,) the sum of the weights of each index.
-
-    numpy's types allow `bincount` only without weights.
-    """
+    """Return (count or more,) sums of the weights of each index: `bincount`, typed."""
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
 
@@ -68,10 +65,7 @@ def batches(weights: NDArray, size: float) -> Iterator[slice]:
 def following_pairs(
     order: NDArray[np.intp], counts: NDArray[np.intp], size: int
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """Yield the pairs of each item of a sequence with the next ones, in pieces of about `size` pairs.
-
-    order: (n,) the sequence. counts: (n,) the number of following items that each one is paired with.
-    """
+    """Yield pairs of each item of `order`, (n,), with the next `counts`, (n,), items, about `size` at a time."""
     for part in batches(counts, size):
         row = np.repeat(np.arange(part.start, part.stop), counts[part])
         if len(row):

@@ -92,10 +92,10 @@ MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show
 
 
 def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (k, 3, 3) right-angled unit axes, as columns, of (k, 4, 4) maps; and (k,) whether a map shears.
+    """Return (k, 3, 3) right-angled unit axes, as columns, of (k, 4, 4) maps, and (k,) whether a map shears.
 
-    With shear the axes are only the nearest ones. They are the polar factor of the map with its columns at unit length
-    (N. J. Higham, SIAM J. Sci. Stat. Comput. 7, 1986): without shear, the columns themselves, mirrored ones too.
+    The polar factor of the map with columns of length 1 (Higham, SIAM J. Sci. Stat. Comput. 7, 1986): mirrored if it
+    is.
     """
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt((linear * linear).sum(axis=1, keepdims=True))

@@ -75,10 +75,7 @@ class _FaceBatch:
 
 
 class _CompensatedSum:
-    """A running sum of arrays, with the rounding errors of the additions (Neumaier) and the sums for its bounds.
-
-    faces: number of faces added.
-    """
+    """A running sum of arrays, with the rounding errors of the additions (Neumaier), and the sums for its bounds."""
 
     def __init__(self, order: int, weights: int):
         self.order, self.weights = order, weights
@@ -192,10 +189,7 @@ class _StreamIntegrator:
                     yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
 
     def _size(self, faces: NDArray) -> int:
-        """Return the number of faces in a block: blocks are of even length, and as many for each of 2 or 4 threads.
-
-        The blocks, and so their sum, do not depend on the number of threads.
-        """
+        """Return the number of faces in a block: even, equal for each of 2 or 4 threads."""
         corners = faces.shape[1]
         # 2 if two triangles make one face here
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
@@ -233,11 +227,7 @@ class _StreamIntegrator:
 
     @staticmethod
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """Yield the corners of faces, a block at a time, and the number of faces in a full block.
-
-        The faces are quads as Blender cuts them, pairs of triangles, or triangles. Each block is judged by itself, so
-        that it does not depend on its neighbors.
-        """
+        """Yield corners of blocks of faces, quads as cut, pairs of triangles or triangles, and a full size."""
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
@@ -270,11 +260,7 @@ class _StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """Return the change if the vertices move by their half ulps.
-
-        It is integrated over the volume that they sweep; for areas, over the added area, and with the change of the
-        integrand.
-        """
+        """Return the change if vertices move by half ulps, over the volume that they sweep, or added area."""
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept

@@ -29,10 +29,9 @@ def extend_small_moments(
     counts: NDArray[np.integer],
     reach: NDArray,
 ) -> Moments:
-    """Return the moments of n bodies to a higher order.
+    """Return the moments of n bodies, `volume` (n, 20), each about a point in its body, to a higher order.
 
-    `volume` has third order, (n, 20), each about a point in its body; the triangles are sorted by body, at least one
-    each. `reach`, (n, 3), bounds the distances of its points from that point, with their possible shifts by storing.
+    Triangles are sorted by body. reach: (n, 3) of the points from there, with their possible shifts by storing.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers, degree, factors = _new_monomials(known, order)

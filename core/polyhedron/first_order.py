@@ -13,21 +13,10 @@ FACES_PER_BLOCK = 1 << 13  # so that what is computed of them stays in the cache
 
 
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
-    """Return the volume that a closed, outward surface encloses, and its (3,) centroid.
-
-    Quads are cut as Blender draws them. The volume is negative if the surface is inside out; the center is not
-    finite if there is no volume.
+    """Return the volume that a closed surface encloses, negative if inside out, and its (3,) centroid, if finite.
 
     Sum over the tetrahedra from a point near the middle (Zhang and Chen 2001, eq. 6 and 7). Of a quad abcd that is cut
     along ac, both have the face of a, c and that point: with w = a × c six times their volumes are -b·w and d·w.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> volume, center = volume_and_center(surface)
-    >>> round(6.0 * volume, 9), center.tolist()
-    (1.0, [0.25, 0.25, 0.25])
     """
     points = np.ascontiguousarray(surface.points.T, np.float64)
     middle = points.mean(axis=1)

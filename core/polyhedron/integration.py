@@ -213,10 +213,7 @@ def _sum_to_third_order(
     progress: Callable[[int], None] | None,
     **options: Any,
 ) -> tuple[Moments, Moments]:
-    """Return volume and area of all pieces, about the first one's point if no other is given.
-
-    Not finite beyond the range of numbers. options: of `third_order.integrate`.
-    """
+    """Return volume and area of all pieces, about the first one's point if no other is given; perhaps not finite."""
     total: tuple[Moments, Moments] | None = None
     done = 0
     for surface in stream:

@@ -75,10 +75,7 @@ class SimplexMoments:
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
-    """Return (K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only.
-
-    In three dimensions it is the order of `monomials`.
-    """
+    """Return (K, n) all exponents to an order, by degree, the first ones largest first; read-only."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
@@ -264,10 +261,7 @@ def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """Return the n components of the generalized cross product of n-1 edges, and the same with every term positive.
-
-    edges: (n-1, n, k). Minors by Laplace's expansion along the last row, smaller ones shared.
-    """
+    """Return n components of the generalized cross products of n-1 edges, (n-1, n, k), and with all terms positive."""
     dimension = len(edges) + 1
     ones = np.ones(edges.shape[2])
     minors: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {(): (ones, ones)}
@@ -287,10 +281,7 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
 
 
 def _weight_steps(dimension: int) -> int:
-    """Count the roundings on the way of one product to det or |N|.
-
-    There are two of each edge, a product and all sums of each minor.
-    """
+    """Count the roundings of one product on the way to det or |N|."""
     minors = sum(2 + 1 + size for size in range(1, dimension))
     return minors + 2 * dimension + 6
 
@@ -320,10 +311,7 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 
 @lru_cache
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
-    """Return the start of each degree, and for each degree and axis the indices of products.
-
-    The indices are, in the next degree, of the monomials' products with that coordinate.
-    """
+    """Return the starts of degrees, and by degree and axis the indices, in the next degree, of products with it."""
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()
     raised = []

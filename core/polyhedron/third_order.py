@@ -90,8 +90,7 @@ def integrate(
 ) -> tuple[Moments, Moments]:
     """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`.
 
-    exact: the third order to rounding for every size of mesh. about: (3,), by default the center of the bounding box.
-    planarity: is shown the faces, if that costs little.
+    exact: to rounding for every size of mesh. about: (3,), by default the box's center. planarity: is shown the faces.
     """
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
@@ -149,10 +148,7 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """Return the center of a bounding box of points of this type.
-
-    For float32 it is rounded so that subtracting it is exact.
-    """
+    """Return the center of a box of points, rounded for float32 ones so that subtracting it is exact."""
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
@@ -280,10 +276,9 @@ class _Integration:
 
 
 def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Return bounds, from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
+    """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20) `input_error`.
 
-    They are the sum of the |determinants| and the sum of the doubled areas; (2, 20) the errors of Σ w E[f], w the
-    determinants and the doubled areas; and (2, 20) the `input_error` of the moments.
+    They are bounds from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
     """
     sizes, count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
     # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
@@ -325,8 +320,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
     """Return the four corners, (k/2,) each, of quads if triangles 2i and 2i+1 are halves of one for every i; else None.
 
-    Meshes that were triangulated from quads are like that, and two triangles that share an edge cost less than two
-    loose ones. The first pair shows which of their corners meet.
+    Two triangles that share an edge cost less than two loose ones. The first pair shows which of their corners meet.
     """
     return _quad_corners_of(triangles[0::2], triangles[1::2])
 

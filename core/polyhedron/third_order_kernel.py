@@ -54,9 +54,9 @@ class BlockSums:
     """Sums over some blocks.
 
     sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
-    `monomials`, over the cones, and over their faces as if they were cones of unit height.
-    side, base: (3, n) the largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n)
-    Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: their number.
+    `monomials`, over the cones, and over their faces as if they were cones of unit height. side, base: (3, n) the
+    largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n) Σ |determinant| and Σ doubled
+    area. counts: (n,) triangles. blocks: their number.
     """
 
     sums: NDArray[np.float64]
@@ -164,10 +164,9 @@ BlockResult = tuple[int, NDArray, NDArray, list, list]
 
 
 class BlockAccumulator:
-    """The loop body for blocks of faces. results: the sums of each block so far.
+    """The loop body for blocks of faces over contiguous points. results: the sums of each block so far.
 
-    points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: True for doubled areas,
-    area_moments: also for their moments. exact: True for the exact third order.
+    area: True for doubled areas, area_moments: also for their moments. exact: True for the exact third order.
     """
 
     def __init__(self, points: NDArray, center: NDArray, *, area: bool, area_moments: bool, exact: bool):
@@ -181,13 +180,11 @@ class BlockAccumulator:
     def add_faces(
         self, faces: Sequence[NDArray] | NDArray, quads: bool = False, observe: Callable | None = None
     ) -> None:
-        """Add some faces.
+        """Add faces, the vertices a, b, c and perhaps d, (k,) each. ValueError if an index names no point.
 
-        faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave out the quads that Blender cuts along the
-        other diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
-        observe: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
-        corners, (k,), the columns with triangles that may face away from each other, and gets room, (2, k). ValueError
-        if an index names no point.
+        quads: the ones that Blender cuts along the other diagonal are left out, and appended to `flipped`, turned by
+        one corner. observe: is shown the doubled areas, (c - 2, k); of quads also 6 times the corners' tetrahedra,
+        (k,), the columns with triangles that may face away from each other, and gets room, (2, k).
         """
         k = len(faces[0])
         shape = (len(faces), *chunk_shape(k), self.area or quads)
@@ -227,12 +224,10 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the first k columns with quads that Blender may cut along their other diagonal, and the ones it does.
-
-        The latter are appended to `flipped` first.
+        """Return the columns below k with quads that Blender may cut along their other diagonal, and those it does.
 
         The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
-        product is within float32's rounding of zero.
+        product is within float32's rounding of zero. The quads are appended to `flipped`.
         """
         cosine = np.einsum("dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine)
         cosine[k:] = np.inf  # the filling of the block

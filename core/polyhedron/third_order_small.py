@@ -50,11 +50,10 @@ def small_moments(
     area: bool,
     area_moments: bool,
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
-    """Return the volume's moments of n bodies and their areas, stacked, and their cones' sums.
+    """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces, positive and signed.
 
-    The sums are (n, 2), of the cones over the faces of each body, all counted as positive, and signed. The triangles
-    are sorted by body, at least one each. `reach` and `half_ulp`, (n, 3), bound the distances of a body's points from
-    its `center` and their shifts by storing. Without `area` the areas are zero, and the `input_error` is larger.
+    Triangles are sorted by body, at least one each. reach, half_ulp: (n, 3) of points from `center`, and their shifts
+    by storing. Without `area` the areas are zero, and the `input_error` is larger.
     """
     ends, sums = np.cumsum(counts), []
     coordinates, first = np.ascontiguousarray(points.T), 0
@@ -88,8 +87,8 @@ def _segment_sums(
 ) -> tuple[NDArray, ...]:
     """Return the sums of some bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
 
-    They are (n, 20) Σ w f, made moments by `DIVISORS`; the same with doubled areas as weights, or (n, 0); the largest
-    components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
+    They are (n, 20) Σ w f, made moments by `DIVISORS`; the same with doubled areas, or (n, 0); the largest components
+    of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
@@ -128,9 +127,7 @@ def _segment_sums(
 def _error_bounds(
     reach: NDArray, half_ulp: NDArray, side: NDArray, base: NDArray, sizes: NDArray, counts: NDArray, area: bool
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the errors of Σ w E[f], (2, n, 20), and the `input_error` of the moments, (2, n, 20).
-
-    w are the determinants and the doubled areas; see `third_order`.
+    """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled areas as weights w.
 
     side, base: (n, 3) the largest edges. sizes: (n, 2). counts: (n, 1).
     """

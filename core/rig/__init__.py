@@ -9,6 +9,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     BonePiece="cuts",
     VertexWeights="dominance",
     bone_pieces="cuts",
-    bones_of_caps="cuts",
     dominant_bones="dominance",
 )

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
-from ..numerics.arguments import float_array, index_array, number_array
+from ..numerics.arguments import float_array, index_array
 from ..numerics.graph import connected_components
 from ..polyhedron.integration import polyhedron_moments
 
@@ -106,31 +106,10 @@ def bone_pieces(
     return pieces
 
 
-def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> NDArray[np.intp]:
-    """Give the triangles that close holes the bones of the faces beside them.
-
-    Parameters
-    ----------
-    triangles : (t, 3) array_like of int
-    is_cap : (t,) array_like of bool
-    bone : (t,) array_like of int
-        The bone of each face; values at caps are not used.
-
-    Returns
-    -------
-    (t,) integer array
-        The bone of each triangle.
-
-    Examples
-    --------
-    >>> from body_moments.core.rig import bones_of_caps
-    >>> triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> bones_of_caps(triangles, np.array([False, False, False, True]), np.array([5, 5, 5, 0])).tolist()
-    [5, 5, 5, 5]
-    """
-    triangles = index_array("triangles", triangles, "t", 3)
-    is_cap = number_array("is_cap", is_cap, len(triangles)).astype(bool)
-    bone = index_array("bone", bone, len(triangles))
+def bones_of_caps(
+    triangles: NDArray[np.integer], is_cap: NDArray[np.bool_], bone: NDArray[np.integer]
+) -> NDArray[np.intp]:
+    """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside them."""
     result = np.where(is_cap, NO_BONE, bone)
     side_start, side_stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     sides = np.minimum(side_start, side_stop), np.maximum(side_start, side_stop)
@@ -150,10 +129,7 @@ def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> N
 def _cut_edges(
     count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return the boundary of each bone's triangles: (k,) bones, and the start and end vertices of the edges.
-
-    Each edge occurs as often as it is left over.
-    """
+    """Return the boundary of each bone's triangles, as often as it is left over: (k,) bones, starts and ends."""
     start = triangles.ravel().astype(np.int64)
     stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     shape = int(bone.max(initial=0)) + 1, count, count

@@ -41,10 +41,7 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 def _count_caps(
     loops: BoundaryLoops, of_loop: NDArray[np.intp], is_open: NDArray[np.bool_], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (c, 3) the numbers of flat and of curved caps of each component, and their area.
-
-    of_loop: (l,) the component of each loop; is_open: (c,).
-    """
+    """Return (c, 3) numbers of flat and curved caps, and their area, by component. of_loop: (l,); is_open: (c,)."""
     hole = loops.has_area(tolerance) & ~is_open[of_loop]
     counts = [np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in loops.caps(tolerance)]
     return np.stack(counts, axis=1).astype(np.float64, copy=False)

@@ -30,10 +30,9 @@ class StackCaps:
     """The caps of n surfaces.
 
     `triangles`, `part`: t triangles of all surfaces, each surface's caps last, and the component of each.
-    `cap_counts`: (n,) number of triangles that are caps.
-    `counts`: (n, 3) number of holes with flat caps and with curved caps, area of the caps (unit²).
-    `edges`: (k, 2) sorted pairs of the surfaces' own vertices along the holes, one surface after the other.
-    `edge_counts`: (n,) number of them.
+    `cap_counts`: (n,) triangles that are caps. `counts`: (n, 3) holes with flat and with curved caps, and the caps'
+    area.
+    `edges`: (k, 2) sorted pairs of the surfaces' own vertices along the holes, by surface, `edge_counts` each.
     """
 
     is_capped: NDArray[np.bool_]
@@ -80,11 +79,7 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap the surfaces of a stack that need nothing but caps.
-
-    links: of its faces. usable: (n,) mask of surfaces that may be capped at all. tolerance: (n,) distance below which
-    points touch (unit).
-    """
+    """Cap the `usable` surfaces of a stack that need nothing but caps. Points nearer than `tolerance`, (n,), touch."""
     can = usable & links.is_open
     start, stop = links.open_sides
     owner, total = stack.point_owners, len(stack.points)

@@ -176,9 +176,7 @@ def _find_folded_loops(
     unclosable: NDArray[np.bool_],
     tolerance: float,
 ) -> FoldedLoops:
-    """Find components with edges of three faces or more that close nevertheless.
-
-    They leave over only loops without area: letters with an outline that turns back on itself.
+    """Find components that leave over only loops without area: letters with an outline that turns back on itself.
 
     edges: of the components; signed_count: of these edges. unclosable: (c,) the components to look at.
     """

@@ -38,13 +38,11 @@ CLEAR_VOLUME = 4.0  # times what counts as none: a component of less is looked a
 
 @dataclass(frozen=True, eq=False)
 class SolidStack:
-    """The moments of the bodies that n surfaces bound.
+    """The moments of the bodies that n surfaces bound, meaningless unless measured.
 
-    `is_measured`: (n,) closed surfaces, as they are or by caps; the others have to be measured one by one.
-    `volume`, `area`: to order 3 and 0, about each body's own point, meaningless if unmeasured; area without caps.
-    `size`: (n,) diagonal of the bounding box (unit).
-    `intersection`: (n,) objects of type Intersection.
-    `caps`: the boundaries of the bodies.
+    `is_measured`: (n,) surfaces closed as they are or by caps; the others have to be measured one by one.
+    `volume`, `area`: to order 3 and 0, about each body's own point; area without caps.
+    `size`: (n,) diagonal of the bounding box. `intersection`: (n,) objects of type Intersection.
     """
 
     is_measured: NDArray[np.bool_]
@@ -93,10 +91,7 @@ class SolidStack:
 
 
 def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
-    """Return the volumes, to a higher order than third, of solids that were measured by themselves.
-
-    Each solid has at most MAX_SMALL_TRIANGLES triangles.
-    """
+    """Return volumes, to an order above third, of single solids of at most MAX_SMALL_TRIANGLES triangles each."""
     surfaces = [solid.repaired_surface for solid in solids]
     triangles = [surface.all_triangles()[0] for surface in surfaces]
     first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
@@ -125,10 +120,7 @@ def can_be_stacked(surface: Surface) -> bool:
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
-    """Measure the bodies that many small surfaces bound, as far as they are closed as they are, or by caps alone.
-
-    surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates.
-    """
+    """Measure bodies that at least one surface, as `can_be_stacked` requires, bounds, closed as it is or by caps."""
     stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
@@ -194,10 +186,7 @@ def _stand_apart(
     capped: NDArray[np.bool_],
     error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
-    """Return a (k,) mask of the bodies in `rows` with outward components of certain volume and boxes that do not touch.
-
-    part: the component of each triangle of all bodies; counts, tolerance, capped, error: of all bodies.
-    """
+    """Return a (k,) mask of bodies `rows` with outward parts of certain volume and boxes that do not touch."""
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
     body = np.repeat(np.arange(len(rows)), counts[rows])  # The body of each part; parts are numbered body by body.
@@ -220,10 +209,7 @@ def _stand_apart(
 
 
 def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
-    """Return a (n,) mask of surfaces with cones from their points, (n, 3), that agree and surround them once.
-
-    It is known by their solid angles (van Oosterom and Strackee 1983).
-    """
+    """Return (n,) whether cones from points, (n, 3), agree and surround them once (van Oosterom and Strackee 1983)."""
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
     after, before = corners.take(NEXT_AXIS, 0), corners.take(PREVIOUS_AXIS, 0)
@@ -237,10 +223,7 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 
 def _search_self_intersections(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
-    """Return (k,) results of the search for self-intersections along lines, as `find_self_intersection`.
-
-    part: (t,) the component of each triangle.
-    """
+    """Return (k,) what `find_self_intersection` does of each. part: (t,) the component of each triangle."""
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
     grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))

@@ -43,9 +43,6 @@ from .self_intersection import SelfIntersection
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
 
-# Codes about components that have a second one, where the components are too small to matter
-WITH_SLIGHT = (CAVITIES_BREAK_THROUGH, COMPONENTS_NESTED, COMPONENTS_OVERLAP, FLAT_COMPONENTS)
-
 
 @dataclass(frozen=True, eq=False)
 class SolidIntegrals:
@@ -150,10 +147,7 @@ class SolidIntegrals:
 def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
-    """Give a verdict on the measured body, and report all decisions.
-
-    All arguments are of the same surface. intersection: None if not searched.
-    """
+    """Give a verdict on the measured body, and report all decisions. intersection: None if not searched."""
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
@@ -283,10 +277,7 @@ def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[n
 def cap_finding(
     edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
 ) -> Finding:
-    """Return findings about capped holes.
-
-    caps: (3,) flat ones, curved ones, and their area; share: of the surface's.
-    """
+    """Return a finding about capped holes. caps: (3,) flat ones, curved ones, their area; share: of the surface's."""
     flat, curved = map(int, caps[:2])
     slight = caps[2] * size < NEGLIGIBLE * volume  # all their moments together
     return finding(HOLES_CAPPED, edges, slight=slight, count=flat + curved, flat=flat, curved=curved, share=share)
@@ -309,7 +300,7 @@ def _component_findings(
     ):
         if which.any():
             decided = _all_but_largest(mesh, which) if code == COMPONENTS_OVERLAP else which
-            slight = code in WITH_SLIGHT and _is_slight(mesh, decided[mesh.component], size, volume)
+            slight = code != CAVITIES_SUBTRACTED and _is_slight(mesh, decided[mesh.component], size, volume)
             findings.append(finding(code, mesh.faces_of(which), slight=slight, count=int(which.sum()), **values))
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))

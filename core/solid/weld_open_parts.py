@@ -23,13 +23,10 @@ from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_di
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:
-    """Cut a surface into triangles, and find the parts that welding may touch.
-
-    surface: with at least one face; every vertex belongs to one. The result has no components yet.
-    """
+    """Cut a surface, whose vertices all belong to faces, into triangles, and find the parts that welding may touch."""
     triangles, face = surface.all_triangles()
     triangles, count = triangles.astype(np.intp), len(triangles)
-    edges, open_parts = _find_open_parts(len(surface.points), triangles, np.asarray(face, np.intp))
+    edges, open_parts = _find_open_parts(surface, triangles, np.asarray(face, np.intp))
     return RepairedMesh(
         surface.points,
         triangles,
@@ -93,15 +90,16 @@ def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMe
 
 
 def _find_open_parts(
-    count: int, triangles: NDArray[np.intp], face: NDArray[np.intp]
+    surface: Surface, triangles: NDArray[np.intp], face: NDArray[np.intp]
 ) -> tuple[Edges | None, OpenParts | None]:
     """Return the edges of the triangles with three different vertices, if known, and the parts to weld."""
     rows = np.flatnonzero(has_distinct_vertices(triangles))
     if not len(rows):
         return None, None
+    count = len(surface.points)
     if len(triangles) * 3 == count:  # a soup: no edge has two triangles
         return None, OpenParts(rows, _unique_sorted(triangles[rows], count), True)
-    edges = find_edges(triangles[rows])
+    edges = find_edges(triangles[rows], len(surface.quads) if len(rows) == len(triangles) else 0)
     odd = edges.count % 2 == 1
     if not odd.any():
         return edges, None
@@ -121,10 +119,7 @@ def _find_open_parts(
 def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
-    """Return the mesh with some vertices replaced in the triangles `rows`, and (n,) the new vertex of each vertex.
-
-    same: (v,) the position in ``vertices`` of each replacement.
-    """
+    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each."""
     triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]

@@ -40,8 +40,8 @@ from body_moments.core.flat import (
 from body_moments.core.fourier import BodyTransform, FrequencyGrid, GridTransform, polygon_transform, surface_transform
 from body_moments.core.inertia import Reference, combine, equivalent_frames, nearest_frame, zhang_chen_frame
 from body_moments.core.mesh import convex_hull
-from body_moments.core.moments import complex_moments, normalize, sum_moments, sum_of_images
-from body_moments.core.numerics import SplineSpace, clamped_space, connected_components, quaternion, rotation_matrix
+from body_moments.core.moments import normalize, sum_moments
+from body_moments.core.numerics import SplineSpace, clamped_space, quaternion, rotation_matrix
 from body_moments.core.nurbs import (
     Curve,
     Patch,
@@ -52,8 +52,8 @@ from body_moments.core.nurbs import (
     measure_sheet,
     planar_region,
 )
-from body_moments.core.polyhedron import area_of_images, enclosed_moments, facet_moments, facets_of
-from body_moments.core.rig import VertexWeights, bone_pieces, bones_of_caps, dominant_bones
+from body_moments.core.polyhedron import enclosed_moments, facet_moments, facets_of
+from body_moments.core.rig import VertexWeights, bone_pieces, dominant_bones
 from body_moments.core.robots import FreeAxis, Inertial, Link, Pose
 from body_moments.core.scans import Scan, sample_matrix
 from body_moments.core.shape import classify, flat_signature, match, rank, similarity, symmetry
@@ -140,7 +140,6 @@ CALLS = {
     ),
     "area_gradient": (area_gradient, {"surface": SURFACE, "about": ORIGIN}),
     "area_moments": (area_moments, {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]}),
-    "area_of_images": (area_of_images, {"surface": SURFACE, "linear": AXES[None]}),
     "balance": (
         balance,
         {
@@ -153,14 +152,8 @@ CALLS = {
     ),
     "bezier_patches": (bezier_patches, {"patch": PATCH, "domain": (None, None)}),
     "bone_pieces": (bone_pieces, {"points": POINTS, "triangles": TRIANGLES, "bone": np.array([0, 1, 1, 1])}),
-    "bones_of_caps": (
-        bones_of_caps,
-        {"triangles": TRIANGLES, "is_cap": np.arange(4) > 2, "bone": np.array([5, 5, 5, 0])},
-    ),
     "classify": (classify, {"similarity": similarity(SHAPE, SHAPE)}),
     "combine": (lambda bodies: combine([(bodies, 2.0)]), {"bodies": VOLUME}),
-    "complex_moments": (complex_moments, {"moments": FLAT, "bounds": np.ones(len(FLAT.raw))}),
-    "connected_components": (connected_components, {"count": 4, "a": np.array([0, 2]), "b": np.array([1, 3])}),
     "convex_hull": (convex_hull, {"points": POINTS}),
     "density_moments": (density_moments, {"coefficients": SAMPLES, "axes": GRID_AXES}),
     "directed_edges": (lambda loops: directed_edges([loops]), {"loops": np.arange(4)}),
@@ -228,7 +221,6 @@ CALLS = {
     ),
     "solid_transform": (solid_transform, {"surface": SURFACE}),
     "sum_moments": (lambda parts: sum_moments([parts]), {"parts": VOLUME}),
-    "sum_of_images": (sum_of_images, {"moments": VOLUME, "matrices": MATRIX[None], "about": ORIGIN}),
     "surface_transform": (surface_transform, {"surface": SURFACE, "q": Q}),
     "symmetry": (symmetry, {"moments": VOLUME}),
     "threshold_body": (threshold_body, {"samples": SAMPLES, "threshold": 3.5, "matrix": MATRIX}),
