@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
+from ..numerics.arrays import batches
 from ..numerics.vectors import cross, dot
 
 TRIANGLES_PER_BLOCK = 256  # whose levels stay in the cache
@@ -35,19 +36,15 @@ def extend_small_moments(
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers, degree, factors = _new_monomials(known, order)
-    coordinates, first, sums, sizes = np.ascontiguousarray(points.T), 0, [], []
-    while first < len(counts):
-        start = ends[first] - counts[first]
-        last = max(first + 1, int(np.searchsorted(ends, start + TRIANGLES_PER_BLOCK, "right")))
-        part, own = slice(first, last), counts[first:last]
-        corners = coordinates.take(triangles[start : ends[last - 1]].T, axis=1).astype(np.float64, copy=False)
-        corners = corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]
-        a, b, c = corners.transpose(1, 0, 2)
+    coordinates, sums, sizes = np.ascontiguousarray(points.T), [], []
+    for part in batches(counts, TRIANGLES_PER_BLOCK):
+        rows, own = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]], counts[part]
+        corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
+        a, b, c = (corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]).transpose(1, 0, 2)
         det = dot(a, cross(b - a, c - a))
         starts = np.cumsum(own) - own
         sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
         sizes.append(np.add.reduceat(np.abs(det), starts))
-        first = last
     raw = np.concatenate(sums) * factors
     largest = np.multiply.reduce(reach[:, None] ** powers, axis=2)
     # a coefficient is off by (6 n + 8) u, a determinant by what the known total is, and the sums by their lengths

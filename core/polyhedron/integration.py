@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from math import isfinite
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,38 +33,6 @@ MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double pr
 THIRD = 3  # orders up to this one have their own kernel
 
 
-@overload
-def polyhedron_moments(
-    body: Surface | Iterable[Surface | NDArray],
-    order: int = THIRD,
-    *,
-    area_order: None = None,
-    about: ArrayLike | None = None,
-    reach: float | None = None,
-    exact: bool = False,
-    allow_open: bool = False,
-    threads: int = 1,
-    progress: Callable[[int], None] | None = None,
-    planarity: PlanarityAccumulator | None = None,
-) -> tuple[Moments, None]: ...
-
-
-@overload
-def polyhedron_moments(
-    body: Surface | Iterable[Surface | NDArray],
-    order: int = THIRD,
-    *,
-    area_order: int,
-    about: ArrayLike | None = None,
-    reach: float | None = None,
-    exact: bool = False,
-    allow_open: bool = False,
-    threads: int = 1,
-    progress: Callable[[int], None] | None = None,
-    planarity: PlanarityAccumulator | None = None,
-) -> tuple[Moments, Moments]: ...
-
-
 def polyhedron_moments(
     body: Surface | Iterable[Surface | NDArray],
     order: int = THIRD,
@@ -77,7 +45,7 @@ def polyhedron_moments(
     threads: int = 1,
     progress: Callable[[int], None] | None = None,
     planarity: PlanarityAccumulator | None = None,
-) -> tuple[Moments, Moments | None]:
+) -> tuple[Moments, Moments | Any]:
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
     They are about the center of the bounding box, unless `about` says otherwise. The volume's are positive for outward
