@@ -67,9 +67,7 @@ def _sides_at(
         size = 3
     else:
         quad_faces, triangle_faces = face_of_each(surface)
-        pieces = np.bincount(triangle_faces, minlength=quad_faces.max(initial=-1) + 1)
-        sizes = np.where(pieces > 0, pieces + 2, 0)
-        sizes[quad_faces] = 4
+        sizes = ring_sizes(triangle_faces, quad_faces)
         ends = np.cumsum(sizes)
         if not sizes.all() or ends[-1] != len(corners):
             return None
@@ -92,6 +90,16 @@ def _sides_at(
         return faces[: len(vertices)] + np.int32(start // size), upward
 
     return sides_at
+
+
+def ring_sizes(
+    triangle_faces: NDArray[np.integer], quad_faces: NDArray[np.integer], count: int = 0
+) -> NDArray[np.intp]:
+    """Return (count or more,) the number of corners of each mesh face, by its triangles or quad; 0 if it has none."""
+    pieces = np.bincount(triangle_faces, minlength=max(count, int(quad_faces.max(initial=-1)) + 1))
+    sizes = np.where(pieces > 0, pieces + 2, 0)
+    sizes[quad_faces] = 4
+    return sizes
 
 
 def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from ..numerics.arrays import segment_ranges, segment_starts, sums_by_index
 from ..numerics.vectors import cross, dot
-from .edges import face_of_each
+from .edges import face_of_each, ring_sizes
 from .surface import Surface
 from .surface_stack import SurfaceStack
 
@@ -145,11 +145,9 @@ class PlanarityAccumulator:
 
     def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
         """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles of each mesh face."""
-        ring, quad_faces = self.surface.corner_vertices, face_of_each(self.surface)[0]
+        quad_faces, triangle_faces = face_of_each(self.surface)
+        ring, sizes = self.surface.corner_vertices, ring_sizes(triangle_faces, quad_faces)
         polygon = np.flatnonzero(pieces > 1)
-        sizes = np.zeros(max(len(pieces), int(quad_faces.max(initial=-1)) + 1), np.intp)
-        sizes[: len(pieces)] = np.where(pieces > 0, pieces + 2, 0)
-        sizes[quad_faces] = 4
         if ring is None or sizes.sum() != len(ring):
             return NO_FACES, np.empty((0, 4), np.intp)
         return _tetrahedra(ring, (np.cumsum(sizes) - sizes)[polygon], sizes[polygon])

@@ -21,6 +21,7 @@ from ..numerics.vectors import cross, dot
 POINTS_PER_ROW = 512  # points whose coordinates are compared as one row
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
+HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
 INDEX_SHAPES = {
     "triangles": ("m", 3),
     "quads": ("q", 4),
@@ -109,9 +110,7 @@ class Surface:
         if self.points.dtype != np.float32 or not len(self.points):
             return np.zeros(3)
         low, high = self.box
-        # The largest float32 has the ulp of 2^127, although no larger number exists to measure it by.
-        largest = np.minimum(np.maximum(high, -low), 2.0**127)
-        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
+        return half_ulp(np.maximum(high, -low))
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
         """Map the points by `linear @ x + offset` in float64.
@@ -172,9 +171,8 @@ class Surface:
         faces = np.arange(len(self.triangles)) if self.triangle_faces is None else self.triangle_faces
         if not len(self.quads):
             return self.triangles, faces
-        quads = np.where(flipped_quads(self.points, self.quads)[:, None], np.roll(self.quads, -1, axis=1), self.quads)
-        cut = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-        quad_faces = np.arange(len(quads)) if self.quad_faces is None else self.quad_faces
+        cut = turned_quads(self.points, self.quads)[:, HALVES].reshape(-1, 3)
+        quad_faces = np.arange(len(self.quads)) if self.quad_faces is None else self.quad_faces
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
 
 
@@ -199,6 +197,16 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
         triangle_faces=np.concatenate(faces),
         displacement=np.max([surface.coordinate_error for surface in surfaces], axis=0),
     )
+
+
+def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return half an ulp of float32 numbers; the largest one has the ulp of 2^127, though no number is above it."""
+    return np.spacing(np.minimum(largest, 2.0**127).astype(np.float32)).astype(np.float64) / 2.0
+
+
+def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
+    """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third, as `HALVES`."""
+    return np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:

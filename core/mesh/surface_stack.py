@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ..numerics.arrays import indices_in_range
 from ..numerics.graph import connected_components
-from .surface import Surface, flipped_quads
+from .edges import ring_sizes
+from .surface import HALVES, Surface, half_ulp, turned_quads
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +74,7 @@ class TriangleStack:
     def coordinate_error(self) -> NDArray[np.float64]:
         """(n, 3) as `Surface.coordinate_error` of each."""
         low, high = self.box
-        largest = np.minimum(np.maximum(high, -low), 2.0**127)
-        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
+        return half_ulp(np.maximum(high, -low))
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,10 +143,9 @@ class SurfaceStack(TriangleStack):
         faces = [numbers.astype(np.intp) for numbers in faces]
         cut, cut_faces = triangles, faces[0]
         if len(quads):
-            turned = np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
             owner = np.repeat(np.tile(np.arange(len(surfaces)), 2), np.concatenate([single, 2 * quad_counts]))
             order = owner.argsort(kind="stable")
-            cut = np.concatenate([triangles, turned[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)])[order]
+            cut = np.concatenate([triangles, turned_quads(points, quads)[:, HALVES].reshape(-1, 3)])[order]
             cut_faces = np.concatenate([faces[0], np.repeat(faces[1], 2)])[order]
         return cls(
             points,
@@ -172,11 +171,7 @@ class SurfaceStack(TriangleStack):
     @cached_property
     def face_sizes(self) -> NDArray[np.intp]:
         """(f,) the number of corners of each face, by its triangles and quads; 0 if it has none."""
-        count = int(self.face_counts.sum())
-        is_quad = np.zeros(count, bool)
-        is_quad[self.quad_faces] = True
-        pieces = np.bincount(self.triangle_faces, minlength=count)
-        return np.where(is_quad, 4, np.where(pieces > 0, pieces + 2, 0))
+        return ring_sizes(self.triangle_faces, self.quad_faces, int(self.face_counts.sum()))
 
     def uses_all_points(self) -> NDArray[np.bool_]:
         """Return (n,) mask of the surfaces with all points used as corners of faces."""

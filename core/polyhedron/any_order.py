@@ -19,17 +19,17 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 from functools import lru_cache
 from itertools import chain, islice
 from math import factorial, frexp
-from typing import cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.findings import MOMENTS_OVERFLOW
-from ..mesh.surface import Surface, flipped_quads
+from ..mesh.surface import Surface, turned_quads
 from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
 from ..numerics.arrays import indices_in_range
@@ -106,35 +106,19 @@ class _CompensatedSum:
             self.pending = []
 
 
-def integrate(
-    stream: Iterable[Surface],
-    order: int,
-    area: bool,
-    threads: int,
-    progress: Callable[[int], None] | None,
-    about: NDArray | None,
-    reach: float | None,
-) -> tuple[Moments, Moments | None]:
-    """Return the moments of the volume and, if wanted, of the area; arguments as for `polyhedron_moments`."""
-    return _StreamIntegrator(order, area, threads, progress, about, reach).integrate(stream)
+@dataclass(eq=False)
+class StreamIntegrator:
+    """One body being measured, piece by piece: `center` and `exponent` are those of its first piece unless given."""
 
+    order: int
+    area: bool
+    threads: int
+    progress: Callable[[int], None] | None
+    center: NDArray[np.float64] | Any
+    reach: InitVar[float | None]
 
-class _StreamIntegrator:
-    """One body being measured, piece by piece."""
-
-    def __init__(
-        self,
-        order: int,
-        area: bool,
-        threads: int,
-        progress: Callable[[int], None] | None,
-        about: NDArray | None,
-        reach: float | None,
-    ):
-        self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
-        # None until the first piece is seen, where nobody has given them
-        self.center = cast("NDArray[np.float64]", about)
-        self.exponent = cast("int", None if reach is None else _exponent(reach))
+    def __post_init__(self, reach: float | None) -> None:
+        self.exponent: int | Any = None if reach is None else _exponent(reach)
         self.idle: list[AnyOrderKernel] = []
         self.half_ulp = np.zeros(3)
 
@@ -231,7 +215,7 @@ class _StreamIntegrator:
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
-                faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
+                faces = turned_quads(task.points, faces)
             halves = quad_corners(faces) if faces.shape[1] == 3 else None
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 

@@ -24,7 +24,8 @@ from ..moments.moments import Moments
 from ..numerics.arguments import check_order, check_type, float_array, number_array
 from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
-from . import any_order, third_order
+from . import third_order
+from .any_order import StreamIntegrator
 from .findings import SURFACE_NOT_CLOSED
 from .third_order import box_center, finite_box, nothing
 from .third_order_kernel import NO_VERTEX
@@ -135,7 +136,9 @@ def polyhedron_moments(
         if not isfinite(np.add.reduce(volume.rounding_error[: monomial_count(highest)])):
             raise MeasureError(MOMENTS_OVERFLOW, order=int(order))
     else:
-        volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
+        volume, area = StreamIntegrator(
+            highest, area_order is not None, max(1, threads), progress, about, reach
+        ).integrate(stream)
     if not boundary.is_zero:
         raise MeasureError(SURFACE_NOT_CLOSED)
     if area_order is None or area is None:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.scan_lines import FACES_PER_BLOCK, Crossings, LineGrids, find_crossings, line_counts
-from ..mesh.surface import Surface, flipped_quads
+from ..mesh.surface import HALVES, Surface, turned_quads
 from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics.arrays import sums_by_index
 from ..numerics.vectors import cross, dot
@@ -101,9 +101,7 @@ def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
         for start, stop in zip(starts[:-1], starts[1:]):
             block = faces[start:stop]
             if faces is surface.quads:
-                flipped = flipped_quads(surface.points, block)
-                block = np.where(flipped[:, None], np.roll(block, -1, axis=1), block)
-                block = block[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+                block = turned_quads(surface.points, block)[:, HALVES].reshape(-1, 3)
             if len(block):
                 yield [surface.points[block[:, k]].T.astype(np.float64) for k in range(3)]
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..inertia.mass_properties import are_physical
 from ..mesh.planarity import Planarity
-from ..mesh.surface import Surface
+from ..mesh.surface import Surface, half_ulp
 from ..moments.moments import Moments
 from ..numerics.arrays import unique_pairs
 from ..polyhedron.integration import polyhedron_moments
@@ -170,8 +170,10 @@ def judge(
     else:
         verdict = Verdict.REORIENTED if len(flipped) or len(inverted) else Verdict.EXACT
     findings: list[Finding] = []
-    if mesh.max_displacement > _float32_step(checked.surface):  # less is how the same place is written twice
-        findings.append(_weld_finding(mesh.max_displacement, checked.size, given.area.total, volume.total))
+    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # of float32
+    if mesh.max_displacement > step:  # less is how the same place is written twice
+        slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume.total)
+        findings.append(finding(VERTICES_WELDED, slight=slight, share=float(mesh.max_displacement / checked.size)))
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
         slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
@@ -236,17 +238,6 @@ def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
     """Return the finding with edges in the input's vertices, if unused vertices were left out before."""
     elements = np.asarray(item.elements)
     return replace(item, elements=vertices[elements]) if elements.ndim == 2 and vertices is not None else item
-
-
-def _float32_step(surface: Surface) -> float:
-    """Return how far float32 may move a point: the length of one step of the largest coordinate along each axis."""
-    largest = np.minimum(np.abs(surface.box).max(axis=0), 2.0**127)
-    return float(np.linalg.norm(np.spacing(largest.astype(np.float32)).astype(np.float64)))
-
-
-def _weld_finding(displacement: float, size: float, area: float, volume: float) -> Finding:
-    slight = displacement * area < NEGLIGIBLE * abs(volume)
-    return finding(VERTICES_WELDED, slight=slight, share=float(displacement / size))
 
 
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
