@@ -148,9 +148,11 @@ class BoundaryLoops:
         is_flat = self.out_of_plane <= tolerance
         return is_flat, ~is_flat, np.where(is_flat, self.planar_area, self.cone_area)
 
-    def apexes(self, start: NDArray[np.integer], centroid: NDArray[np.integer]) -> NDArray[np.integer]:
-        """Return (l,) tips of the cones: the centroids' vertices, or the first one's (r,) start of three sides."""
-        return np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroid)
+    def cones(self, start: NDArray[np.integer], stop: NDArray[np.integer], first: int) -> NDArray[np.integer]:
+        """Return (r, 3) triangles from sides to centroids, vertices from `first` on; one alone over three sides."""
+        centroids = first + np.arange(len(self.perimeter))
+        apexes = np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroids)
+        return np.stack([stop, start, apexes[self.of_side]], axis=1)
 
 
 def find_loops(

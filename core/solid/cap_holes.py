@@ -26,7 +26,6 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     of_loop = loops.of_each(component)
     is_open = mesh.open.copy()
     is_open[of_loop[~loops.complete]] = True
-    apex = loops.apexes(start, len(mesh.points) + np.arange(len(of_loop)))[loops.of_side]
     # In the points' own type: a cap's apex then carries the same coordinate error as every vertex.
     return replace(
         mesh,
@@ -35,7 +34,7 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         caps=_count_caps(loops, of_loop, is_open, tolerance),
         capped_edges=vertex_pairs(mesh.state.given, side),
         capped_component=component,
-    ).with_caps(np.stack([stop, start, apex], axis=1), owner)
+    ).with_caps(loops.cones(start, stop, len(mesh.points)), owner)
 
 
 def _count_caps(
