@@ -67,17 +67,7 @@ class ConvexHull:
     gap: float
 
     def transform(self, linear: ArrayLike) -> ConvexHull:
-        """Return the hull of the images of the points under `linear @ x`, a map that does not flatten.
-
-        Parameters
-        ----------
-        linear : (3, 3) array_like
-
-        Returns
-        -------
-        ConvexHull
-            With outward faces, even if the map mirrors.
-        """
+        """Return the hull of the images of the points under (3, 3) `linear` @ x, which may mirror, but not flatten."""
         matrix = float_array("linear", linear, 3, 3, finite=True)
         is_mirrored = bool(np.linalg.det(matrix) < 0.0)
         return replace(

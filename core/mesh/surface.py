@@ -113,19 +113,9 @@ class Surface:
         return half_ulp(np.maximum(high, -low))
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
-        """Map the points by `linear @ x + offset` in float64.
+        """Map the points by (3, 3) `linear` @ x + (3,) `offset` in float64; the surface is then one of triangles alone.
 
         A mirroring map reverses the faces, so that outward stays outward; the diagonals stay as Blender drew them.
-
-        Parameters
-        ----------
-        linear : (3, 3) array_like
-        offset : (3,) array_like
-
-        Returns
-        -------
-        Surface
-            Of triangles alone.
         """
         rows, offset = float_array("linear", linear, 3, 3), float_array("offset", offset, 3)
         x, y, z = self.points.T.astype(np.float64)
@@ -145,23 +135,9 @@ class Surface:
 
     @classmethod
     def from_triangles(cls, points: ArrayLike, triangles: ArrayLike) -> Surface:
-        """Make a surface of triangles.
+        """Make a surface of (m, 3) triangles, outward ones counter-clockwise, over (n, 3) points, float32 or 64.
 
-        Parameters
-        ----------
-        points : (n, 3) array_like
-            Real; kept as float32 if they are, otherwise float64.
-        triangles : (m, 3) array_like of int
-            Outward faces counter-clockwise.
-
-        Returns
-        -------
-        Surface
-
-        Raises
-        ------
-        ValueError
-            If the shapes or types differ, or an index has no point.
+        ValueError if the shapes or types differ, or an index has no point.
         """
         points = number_array("points", points, "n", 3)
         return cls(points, index_array("triangles", triangles, "m", 3, count=len(points)))

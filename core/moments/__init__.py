@@ -8,8 +8,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     Measure="moments",
     Moments="moments",
-    monomial_count="exponents",
-    monomial_index="exponents",
     monomials="exponents",
     normalize="normalized",
     sum_moments="moments",

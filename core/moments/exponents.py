@@ -17,22 +17,7 @@ Index = TypeVar("Index", int, NDArray[np.int64])  # one, or an array of them
 
 @lru_cache
 def monomial_count(order: int) -> int:
-    """Return the number of monomials in x, y, z of degree at most `order`.
-
-    Parameters
-    ----------
-    order : int
-
-    Returns
-    -------
-    int
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import monomial_count
-    >>> monomial_count(3), monomial_count(20)
-    (20, 1771)
-    """
+    """Return the number of monomials in x, y, z of degree at most `order`."""
     return int((order + 1) * (order + 2) * (order + 3) // 6)
 
 
@@ -58,25 +43,7 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
     """Return the index of raw[p, q, r]: graded by degree, within a degree by (q + r, r).
 
-    Parameters
-    ----------
-    p, q, r : int
-        The exponents of x, y and z.
-
-    Returns
-    -------
-    int
-
-    Raises
-    ------
-    IndexError
-        If an exponent is negative.
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import monomial_index
-    >>> monomial_index(1, 0, 0), monomial_index(2, 0, 0), monomial_index(0, 0, 2)
-    (1, 4, 9)
+    IndexError if an exponent is negative.
     """
     negative = (p | q | r) < 0
     if negative if isinstance(negative, bool) else negative.any():

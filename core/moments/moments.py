@@ -203,22 +203,7 @@ class Moments:
         return sum_moments([self, other.about_point(self.about)])
 
     def about_point(self, point: ArrayLike) -> Moments:
-        """Return the moments of the same body about another point, by the binomial theorem.
-
-        Parameters
-        ----------
-        point : (3,) array_like
-            In the coordinates of `about`.
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the point is not three finite numbers.
-        """
+        """Return the moments of the same body about another point, (3,) finite, by the binomial theorem."""
         point = float_array("point", point, *self.about.shape, finite=True)
         if np.array_equal(point, self.about):
             return self
@@ -237,22 +222,10 @@ class Moments:
         return self.about_point(self.center)
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> Moments:
-        """Return the moments in another frame, about its origin.
+        """Return the moments in another frame, about its origin, (3,).
 
-        Parameters
-        ----------
-        rotation : (3, 3) array_like
-            The frame's axes as columns, determinant 1.
-        origin : (3,) array_like
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the matrix is no rotation, or the origin is not finite.
+        rotation: (3, 3) the frame's axes as columns, determinant 1. ValueError if it is no rotation, or the origin not
+        finite.
         """
         inverse = rotation_array("rotation", rotation).swapaxes(-1, -2)
         origin = float_array("origin", origin, *self.about.shape, finite=True)
@@ -263,26 +236,12 @@ class Moments:
         )
 
     def transform(self, matrix: ArrayLike) -> Moments:
-        """Return the moments of the body's image under an affine map, about the image of `about`.
+        """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
 
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        the deviation of a float32 rotation from one goes into `input_error`.
-
-        Parameters
-        ----------
-        matrix : (4, 4) array_like
-            new = matrix[:3, :3] @ old + matrix[:3, 3].
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the matrix is not finite (4, 4), or no similarity although one is needed.
-        MeasureError
-            If the image is too small for its volume, area or length to be a number.
+        the deviation of a float32 rotation from one goes into `input_error`. ValueError if the matrix is not finite (4,
+        4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
+        number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
         return image(self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3])

@@ -8,6 +8,4 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     SplineSpace="bspline",
     clamped_space="bspline",
-    quaternion="rotations",
-    rotation_matrix="rotations",
 )

@@ -13,11 +13,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
-from ..numerics.arguments import float_array, index_array
 from ..numerics.graph import connected_components
 from ..polyhedron.integration import polyhedron_moments
 
@@ -26,26 +25,9 @@ NO_BONE = -1
 
 @dataclass(frozen=True, eq=False)
 class BonePiece:
-    """The closed surface that goes with one bone.
+    """The closed surface, in float64, that goes with one bone: its faces, and the cones that close it.
 
-    Attributes
-    ----------
-    bone : int
-    surface : Surface
-        Its faces, and the cones that close it, in float64.
-    face_count : int
-        Number of its triangles, the first ones, that are faces.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface
-    >>> from body_moments.core.rig import bone_pieces
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> pieces = bone_pieces(surface.points, surface.triangles, np.array([0, 1, 1, 1]))
-    >>> [(piece.bone, piece.face_count, len(piece.surface.triangles)) for piece in pieces]
-    [(0, 1, 4), (1, 3, 6)]
-    >>> round(sum(piece.moments().total for piece in pieces) * 6, 12)
-    1.0
+    face_count: number of its triangles, the first ones, that are faces.
     """
 
     bone: int
@@ -58,38 +40,16 @@ class BonePiece:
 
 
 def bone_pieces(
-    points: ArrayLike,
-    triangles: ArrayLike,
-    bone: ArrayLike,
+    points: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    bone: NDArray[np.integer],
     displacement: NDArray | None = None,
 ) -> list[BonePiece]:
-    """Cut a closed surface into closed pieces.
+    """Cut a closed surface, outward (t, 3) triangles with (t,) bones, into closed pieces, one for each such bone.
 
-    Parameters
-    ----------
-    points : (n, 3) array_like
-    triangles : (t, 3) array_like of int
-        Outward faces counter-clockwise.
-    bone : (t,) array_like of int
-        The bone of each, not negative.
-    displacement : (3,) array, optional
-        Largest displacement by storing the coordinates.
-
-    Returns
-    -------
-    list of BonePiece
-        By bone, for bones that have triangles.
-
-    Examples
-    --------
-    >>> from body_moments.core.rig import bone_pieces
-    >>> points, triangles = np.eye(4, 3, -1), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> len(bone_pieces(points, triangles, np.zeros(4, int)))
-    1
+    displacement: (3,) largest displacement by storing the coordinates.
     """
-    points = float_array("points", points, "n", 3)
-    triangles = index_array("triangles", triangles, "t", 3, count=len(points))
-    bone = index_array("bone", bone, len(triangles))
+    points = points.astype(np.float64)
     owner, start, stop = _cut_edges(len(points), triangles, bone)
     cut, apexes = _apexes(points, start, stop)
     corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])

@@ -95,30 +95,10 @@ class SolidIntegrals:
     def moments(
         self, order: int, area_order: int | None = None, *, about: ArrayLike | None = None, threads: int = 1
     ) -> tuple[Moments, Moments | None]:
-        """Return the body's moments to any order.
+        """Return the body's volume moments to an order; and area moments of the given faces, as in ``area``, or None.
 
         They are about the middle of the given points' bounding box, the point of ``volume``, unless `about` says
-        otherwise. For open bodies they depend on it.
-
-        Parameters
-        ----------
-        order : int
-            Of the volume's moments.
-        area_order : int, optional
-            Order of the area moments of the given faces, as in ``area``. By default none.
-        about : (3,) array_like, optional
-            The reference point.
-        threads : int
-
-        Returns
-        -------
-        volume : Moments
-        area : Moments, or None if `area_order` is None
-
-        Raises
-        ------
-        MeasureError
-            If a moment is beyond the range of numbers.
+        otherwise. For open bodies they depend on it. MeasureError if a moment is beyond the range of numbers.
         """
         reference = self.volume.about
         volume, area = polyhedron_moments(

@@ -107,21 +107,9 @@ class OffsetSolid:
     degenerate_triangles: int
 
     def moments(self, inward: float, outward: float) -> Moments:
-        """Return the volume moments to third order of a wall, about the middle of the surface's bounding box.
+        """Return a wall's volume moments to third order, about the middle of the surface's bounding box.
 
-        Parameters
-        ----------
-        inward, outward : float
-            How far the wall reaches below the surface and above it.
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the wall folds over.
+        inward, outward: how far the wall reaches below the surface and above it. ValueError if it folds over.
         """
         if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
             raise ValueError("offset folds over")

@@ -41,7 +41,7 @@ from body_moments.core.fourier import BodyTransform, FrequencyGrid, GridTransfor
 from body_moments.core.inertia import Reference, combine, equivalent_frames, nearest_frame, zhang_chen_frame
 from body_moments.core.mesh import convex_hull
 from body_moments.core.moments import normalize, sum_moments
-from body_moments.core.numerics import SplineSpace, clamped_space, quaternion, rotation_matrix
+from body_moments.core.numerics import SplineSpace, clamped_space
 from body_moments.core.nurbs import (
     Curve,
     Patch,
@@ -53,7 +53,6 @@ from body_moments.core.nurbs import (
     planar_region,
 )
 from body_moments.core.polyhedron import enclosed_moments, facet_moments, facets_of
-from body_moments.core.rig import VertexWeights, bone_pieces, dominant_bones
 from body_moments.core.robots import FreeAxis, Inertial, Link, Pose
 from body_moments.core.scans import Scan, sample_matrix
 from body_moments.core.shape import classify, flat_signature, match, rank, similarity, symmetry
@@ -80,8 +79,6 @@ PATCH = Patch((LINE, LINE), PATCH_POINTS)
 GRID_AXES = [SplineAxis.uniform(2)] * 3
 SAMPLES = np.arange(8.0).reshape(2, 2, 2)
 SHAPE = signature(CENTRAL, 2.0)
-WEIGHTS = VertexWeights(np.array([0, 1, 1]), np.array([0, 0, 1]), np.array([1.0, 0.2, 0.8]))
-BONES = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]], [[9.0, 0.0, 0.0], [9.0, 0.0, 1.0]]])
 Q = np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
 
 # A function, and arguments that it takes.
@@ -134,10 +131,6 @@ CALLS = {
         lambda values: TrivariateSpline(SAMPLES, GRID_AXES).set_block((0, 0, 0), values),
         {"values": 2.0 * SAMPLES},
     ),
-    "VertexWeights": (
-        VertexWeights,
-        {"vertex": np.array([0, 1]), "bone": np.array([0, 0]), "weight": np.array([0.5, 1.0])},
-    ),
     "area_gradient": (area_gradient, {"surface": SURFACE, "about": ORIGIN}),
     "area_moments": (area_moments, {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]}),
     "balance": (
@@ -151,22 +144,11 @@ CALLS = {
         },
     ),
     "bezier_patches": (bezier_patches, {"patch": PATCH, "domain": (None, None)}),
-    "bone_pieces": (bone_pieces, {"points": POINTS, "triangles": TRIANGLES, "bone": np.array([0, 1, 1, 1])}),
     "classify": (classify, {"similarity": similarity(SHAPE, SHAPE)}),
     "combine": (lambda bodies: combine([(bodies, 2.0)]), {"bodies": VOLUME}),
     "convex_hull": (convex_hull, {"points": POINTS}),
     "density_moments": (density_moments, {"coefficients": SAMPLES, "axes": GRID_AXES}),
     "directed_edges": (lambda loops: directed_edges([loops]), {"loops": np.arange(4)}),
-    "dominant_bones": (
-        dominant_bones,
-        {
-            "faces": np.zeros(3, int),
-            "corners": np.arange(3),
-            "points": POINTS,
-            "weights": WEIGHTS,
-            "bones": BONES,
-        },
-    ),
     "enclosed_moments": (
         enclosed_moments,
         {"points": POINTS, "simplices": TRIANGLES, "order": 2, "about": ORIGIN, "signs": np.ones(4)},
@@ -204,11 +186,9 @@ CALLS = {
     "polyhedron_moments": (polyhedron_moments, {"body": SURFACE, "about": ORIGIN}),
     "pose_matrix": (pose_matrix, {"center": ORIGIN, "axes": AXES}),
     "principal_frame": (principal_frame, {"moments": VOLUME, "preferred_axes": AXES}),
-    "quaternion": (quaternion, {"rotation": AXES}),
     "rank": (rank, {"query": SHAPE, "entries": []}),
     "region_moments": (region_moments, {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]}),
     "resting_poses": (resting_poses, {"hull": convex_hull(POINTS), "center": CENTRAL.about}),
-    "rotation_matrix": (rotation_matrix, {"quaternion": np.array([1.0, 0.0, 0.0, 1.0])}),
     "sample_matrix": (
         sample_matrix,
         {"scan": Scan(SAMPLES, MATRIX), "spacing": np.ones(3), "origin": ORIGIN, "unit_scale": None},
@@ -260,7 +240,7 @@ def test_lists_give_the_same_as_arrays(call, name):
 def test_misshapen_arguments_are_refused_by_name_and_shape(call, name):
     function, given = CALLS[call]
     array = np.ones((7,) * (given[name].ndim + 2), given[name].dtype)
-    if call in ("quaternion", "rotation_matrix", "Moments.in_frame", "MassProperties.in_frame"):
+    if call in ("Moments.in_frame", "MassProperties.in_frame"):
         array = array[..., :2]  # there are stacks of these
     expected = r"{} must be \(.+\) (real numbers|integers), not {} {}"
     with pytest.raises(ValueError, match=expected.format(name, re.escape(str(array.shape)), array.dtype)):
