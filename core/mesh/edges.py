@@ -145,15 +145,20 @@ class Edges:
         """Return the sides of edges that have only one, ascending."""
         return self.first[self.count == 1]
 
+    def boundary_ends(self, triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+        """Return the vertices from which and to which the boundary sides of (m, 3) triangles run."""
+        side = self.boundary_sides()
+        return triangles.ravel()[side], np.roll(triangles, -1, axis=1).ravel()[side]
+
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
-    """Return the edges of (m, 3) triangles with three different vertices each, m at least 1.
+    """Return the edges of (m, 3) triangles with three different vertices each.
 
     The last of them are the halves of so many quads, a, b, c and a, c, d, whose diagonals are edges of their own.
     """
     start, stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
-    width = int(high.max()) + 1
+    width = int(high.max(initial=0)) + 1
     bits = (len(low) // width).bit_length()  # neighbors in the mesh share the table's cached part
     slots = low.astype(np.intp) << bits
     slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits) if bits else 0

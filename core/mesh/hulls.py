@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls of points in space, by quickhull with many points at a time and exact decisions.
 
-Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Here each round adds all of
-these that do not touch each other's faces, so that a round is a few operations on arrays. Two points can be added
-together, in either order with the same result, if neither sees a face that the other one sees or that lies across the
-other one's horizon: a face over a horizon's edge is a positive combination of the two faces at that edge, so it is not
-seen either.
+Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds all of
+these, in a few operations on arrays, that see no common face and none across the other's horizon: then their order does
+not matter, as a face over a horizon's edge is a positive combination of the two faces at that edge.
 
-The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it. The side of a face that a point is
-on is then decided by integers without any rounding, so that the result is always a closed convex surface. The points
-themselves stay as they are.
+The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it, on which integers decide without
+rounding on which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
 """
 
 from __future__ import annotations

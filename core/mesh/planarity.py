@@ -3,14 +3,13 @@
 """Faces that are not flat, and faces without area.
 
 A face that is not flat has no volume under it until somebody chooses its diagonals. For a quad the two choices differ
-by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the fan from its first corner differs from the
-fan from its second by the tetrahedra on their common edge and each further one. A face counts as not flat if its
-diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
+by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the fans from its first and its second corner
+differ by the tetrahedra on their common edge and each further one. A face counts as not flat if its diagonals pass each
+other by more than its coordinates' own errors and a millionth of its size, and it has an area.
 
-The sums over the faces have most of that at hand, and show it to a `PlanarityAccumulator`, a block at a time. The
-normal of a quad is the sum of the normals of its two triangles: with their lengths p and q at most p + q, and at least
-0.7 of that unless they face away from each other. Mostly that is enough to decide; the other faces are looked at one by
-one.
+The sums over the faces show most of that, at hand, to a `PlanarityAccumulator`, a block at a time. The normal of a quad
+is the sum of the normals of its triangles: with their lengths p and q at most p + q, and at least 0.7 of that unless
+they face away from each other. Faces that this does not decide are looked at one by one.
 """
 
 from __future__ import annotations

@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Crossings of parallel lines with the faces of bodies.
 
-The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, and stand in
-a lattice across it, at whole numbers of rows and columns. As a picture is drawn: a row crosses a triangle between two
-of its edges, and the columns in between meet it. That costs a look at the cell of each vertex, and work only for faces
-with corners in several rows and columns. A row crosses an edge that has one end above it, at a place that is computed
-from the edge's vertex of lower number on: triangles that share the edge see the same, and no line slips through between
-them.
+The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, in a lattice
+of rows and columns across it. As a picture is drawn, a row crosses a triangle between two of its edges, and the columns
+in between meet it: work only for faces with corners in several rows and columns. A row crosses an edge that has one end
+above it, at a place that is computed from the edge's vertex of lower number on: triangles that share the edge see the
+same, and no line slips through between them.
 
-Bodies share a scan, each with lines of its own. If the work would exceed the limit for a body's number of triangles,
-fewer rows are taken. A body gets the same whether it is alone or one of many.
+Bodies share a scan, each with lines of its own, with the result that each has alone. Fewer rows are taken of a body if
+the work would exceed the limit for its number of triangles.
 """
 
 from __future__ import annotations

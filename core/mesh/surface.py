@@ -18,7 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.arguments import float_array, index_array, number_array
 from ..numerics.vectors import cross, dot
 
-POINTS_PER_ROW = 512  # points whose coordinates are compared as one row
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
 HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
@@ -89,14 +88,8 @@ class Surface:
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(3,) and (3,) the smallest and the largest coordinates of the points, used or not; NaN if any is NaN."""
-        low = high = self.points
-        if len(low) > POINTS_PER_ROW:  # along rows of three numpy is twenty times as slow
-            whole = len(low) // POINTS_PER_ROW * POINTS_PER_ROW
-            wide, rest = self.points[:whole].reshape(-1, 3 * POINTS_PER_ROW), self.points[whole:]
-            low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
-            high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
-        low, high = np.ascontiguousarray(low.T), np.ascontiguousarray(high.T)
-        return np.minimum.reduce(low, axis=1).astype(np.float64), np.maximum.reduce(high, axis=1).astype(np.float64)
+        rows = np.ascontiguousarray(self.points.T)  # along rows of three numpy is twenty times as slow
+        return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(rows, axis=1).astype(np.float64)
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:

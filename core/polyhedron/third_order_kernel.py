@@ -2,22 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inner loop of `third_order`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
 
-A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and
-a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),
+A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and a, c,
+d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),
 
     H = u (a a' + c c') + 2 (v b b' + w d d')
     120 ∫ x x'     = H + (q Z' + Z q') / 2
     288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third moments about q / 2.
 
 These are, of one triangle with e = c - a and f = 2 b - q, v / 2880 (f (f f' + e e') + the other two orders), of the
-order of an edge cubed. They are added on request. No sum cancels: all its weights are positive.
+order of an edge cubed, and added on request. No sum cancels: all its weights are positive. If no areas are wanted, the
+determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
 
-If no areas are wanted, the determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
-
-Corners are gathered by component, so that every numpy call runs along contiguous rows. A call costs as much as some
-thousand additions, and threads gain only if calls are long: hence long blocks, few calls, results written over rows
-that are no longer needed, and steps on a few numbers only are taken once, for all blocks. Products are summed over
-slices of their rows, not along them: einsum then multiplies and adds in one pass, into rows that stay in the cache.
+Corners are gathered by component, so that numpy runs along contiguous rows. A call costs as much as some thousand
+additions, and threads gain only if calls are long: hence long blocks, few calls, results over rows that are no longer
+needed. einsum sums products over slices of their rows: in one pass, into rows that stay in the cache.
 """
 
 from __future__ import annotations

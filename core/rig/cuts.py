@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..numerics.graph import connected_components
@@ -71,10 +72,7 @@ def bones_of_caps(
 ) -> NDArray[np.intp]:
     """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside them."""
     result = np.where(is_cap, NO_BONE, bone)
-    side_start, side_stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    sides = np.minimum(side_start, side_stop), np.maximum(side_start, side_stop)
-    key = np.ravel_multi_index(sides, (int(triangles.max(initial=0)) + 1,) * 2)
-    edge = np.unique(key, return_inverse=True)[1].reshape(-1, 3)
+    edge = find_edges(triangles).of_side.reshape(-1, 3)
     while (result == NO_BONE).any():
         known = result != NO_BONE
         of_edge = np.full(int(edge.max()) + 1, NO_BONE)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The boundaries of open surfaces: loops, and which of them are gaps without area. `cap_holes` caps the others.
+"""The boundaries of open surfaces: loops, and which of them are gaps without area. The others are capped.
 
 A boundary side is joined at each of its vertices to the side that leaves in the most similar direction, so that an edge
 and the shorter edges that run back along it (a T-junction) make a loop of their own, which has no area: there the

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Caps for many small surfaces at once, if they need no other repair.
+"""Caps for many small surfaces at once, if they need no other repair; as they have alone. Others are repaired alone.
 
 The conditions: every edge has one face, or two that agree; at each boundary vertex one side arrives and one leaves;
-every loop has an area; no vertices touch that a repair would weld. The caps are those of `cap_holes`, to the bit. Other
-surfaces are repaired one by one.
+every loop has an area; no vertices touch that a repair would weld.
 """
 
 from __future__ import annotations

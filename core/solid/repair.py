@@ -12,8 +12,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ..mesh.surface import Surface
-from .cap_holes import cap_holes
 from .close_components import (
+    cap_holes,
     close_gaps,
     find_t_junctions,
     find_unclosable_components,

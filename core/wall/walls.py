@@ -151,8 +151,7 @@ class OffsetSolid:
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
-        boundary, count = find_edges(self.triangles).boundary_sides(), len(self.points)
-        start, stop = self.triangles.ravel()[boundary], np.roll(self.triangles, -1, axis=1).ravel()[boundary]
+        count, (start, stop) = len(self.points), find_edges(self.triangles).boundary_ends(self.triangles)
         triangles = np.concatenate(
             [
                 self.triangles[:, ::-1],
@@ -174,11 +173,9 @@ class OffsetSolid:
 
     def first_fold_location(self, side: str) -> NDArray[np.float64]:
         """Return the (3,) middle of the triangle that folds first on that side."""
-        at = {
-            "inward": self.inward_at,
-            "outward": self.outward_at,
-            "centered": self.inward_at if self.inward < self.outward else self.outward_at,
-        }[side]
+        at = (
+            self.inward_at if side == "inward" or side == "centered" and self.inward < self.outward else self.outward_at
+        )
         return self.points[self.triangles[at]].mean(axis=0)
 
     def max_thickness(self, side: str) -> float:
@@ -188,9 +185,8 @@ class OffsetSolid:
 
 def split_thickness(side: str, thickness: float) -> tuple[float, float]:
     """Return the parts of a thickness inside and outside the surface. side: "inward", "outward" or "centered"."""
-    return {"inward": (thickness, 0.0), "outward": (0.0, thickness), "centered": (thickness / 2.0, thickness / 2.0)}[
-        side
-    ]
+    share = {"inward": 1.0, "outward": 0.0, "centered": 0.5}[side]
+    return thickness * share, thickness * (1.0 - share)
 
 
 def offset_solid(surface: Surface) -> OffsetSolid:
@@ -395,8 +391,7 @@ def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
 ) -> NDArray[np.float64]:
     """Return (4,) coefficients in s of the volume that the strips along the boundary sweep, as `_Prisms.swept`."""
-    boundary = find_edges(triangles).boundary_sides()
-    start, stop = triangles.ravel()[boundary], np.roll(triangles, -1, axis=1).ravel()[boundary]
+    start, stop = find_edges(triangles).boundary_ends(triangles)
     ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
     far = np.maximum(*(np.linalg.norm(vectors[end], axis=1) for end in (start, stop)))
     long, turned = (float((end * far).sum()) for end in ends)
