@@ -160,9 +160,10 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
     bits = (len(low) // width).bit_length()  # neighbors in the mesh share the table's cached part
-    slots = low.astype(np.intp) << bits
+    slots = np.left_shift(low, bits, dtype=np.intp)
     slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits) if bits else 0
-    keys = low.astype(np.int64) * width + high
+    keys = np.multiply(low, width, dtype=np.int64)
+    keys += high
     diagonals = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads))
     keys[diagonals + 2] = keys[diagonals + 3] = width * width + np.arange(quads)
     first = first_occurrence(keys, slots=slots)

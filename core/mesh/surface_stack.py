@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..numerics.arrays import indices_in_range
 from ..numerics.graph import connected_components
-from .edges import ring_sizes
+from .edges import face_of_each, ring_sizes
 from .surface import HALVES, Surface, half_ulp, turned_quads
 
 
@@ -124,7 +124,8 @@ class SurfaceStack(TriangleStack):
             ]
         ).T
         edge_counts = np.array([int(edges.max()) + 1 for edges in corner_edges])
-        face_counts = np.array([_face_count(surface) for surface in surfaces])
+        numbers = [face_of_each(surface) for surface in surfaces]
+        face_counts = np.array([max(int(faces.max(initial=-1)) for faces in pair) + 1 for pair in numbers])
         points = np.concatenate([surface.points for surface in surfaces])
         first_point, first_face = np.cumsum(point_counts) - point_counts, np.cumsum(face_counts) - face_counts
         first_edge = np.cumsum(edge_counts) - edge_counts
@@ -132,21 +133,20 @@ class SurfaceStack(TriangleStack):
         quads = np.concatenate([surface.quads for surface in surfaces]).astype(np.intp)
         triangles += np.repeat(first_point, single)[:, None]
         quads += np.repeat(first_point, quad_counts)[:, None]
-        faces = [
-            np.concatenate([_faces(surface, name) for surface in surfaces]) + np.repeat(first_face, counts)
-            for name, counts in (("triangles", single), ("quads", quad_counts))
-        ]
+        quad_faces, triangle_faces = (
+            np.concatenate(faces).astype(np.intp) + np.repeat(first_face, counts)
+            for faces, counts in zip(zip(*numbers), (quad_counts, single))
+        )
         corners = np.concatenate(corner_vertices).astype(np.intp)
         corners += np.repeat(first_point, corner_counts)
         edges = np.concatenate(corner_edges).astype(np.intp)
         edges += np.repeat(first_edge, corner_counts)
-        faces = [numbers.astype(np.intp) for numbers in faces]
-        cut, cut_faces = triangles, faces[0]
+        cut, cut_faces = triangles, triangle_faces
         if len(quads):
             owner = np.repeat(np.tile(np.arange(len(surfaces)), 2), np.concatenate([single, 2 * quad_counts]))
             order = owner.argsort(kind="stable")
             cut = np.concatenate([triangles, turned_quads(points, quads)[:, HALVES].reshape(-1, 3)])[order]
-            cut_faces = np.concatenate([faces[0], np.repeat(faces[1], 2)])[order]
+            cut_faces = np.concatenate([triangle_faces, np.repeat(quad_faces, 2)])[order]
         return cls(
             points,
             cut,
@@ -154,7 +154,7 @@ class SurfaceStack(TriangleStack):
             single + 2 * quad_counts,
             cut_faces,
             quads,
-            faces[1],
+            quad_faces,
             corners,
             edges,
             quad_counts,
@@ -235,18 +235,3 @@ class Connections:
     component_counts: NDArray[np.intp]
     component: NDArray[np.intp]
     open_sides: NDArray[np.intp]
-
-
-def _faces(surface: Surface, name: str) -> NDArray[np.integer]:
-    """Return the mesh faces of a surface's triangles or quads."""
-    faces = surface.triangle_faces if name == "triangles" else surface.quad_faces
-    return np.arange(len(getattr(surface, name))) if faces is None else faces
-
-
-def _face_count(surface: Surface) -> int:
-    """Return the number of faces of the mesh of a surface."""
-    counts = [
-        len(rows) if faces is None else int(faces.max(initial=-1)) + 1
-        for rows, faces in ((surface.triangles, surface.triangle_faces), (surface.quads, surface.quad_faces))
-    ]
-    return max(counts)

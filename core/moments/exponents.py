@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from math import factorial, prod
 from typing import TypeVar
 
 import numpy as np
@@ -76,6 +77,11 @@ def monomials(order: int) -> NDArray[np.int64]:
     table = np.array(exponents, np.int64)
     table.flags.writeable = False
     return table
+
+
+def factorial_ratios(exponents: NDArray[np.integer], more: int) -> NDArray[np.float64]:
+    """Return (K,) α! / (|α| + `more`)! of (K, n) exponents, correctly rounded."""
+    return np.array([prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()])
 
 
 @lru_cache

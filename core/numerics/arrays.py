@@ -90,11 +90,11 @@ def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None
             slots = (key & np.uint64(size - 1)).view(np.intp)
         winner = np.empty(size, first.dtype)
         winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # the last write wins
-        winner = winner[slots]
+        winner = winner[slots].astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:
             lost |= column != column[winner]
-        first[rest] = rest[winner]
+        first[rest] = rest[winner] if len(rest) < len(first) else winner
         lost = np.flatnonzero(lost)
         rest, bits_of, slots, salt = rest[lost], [column[lost] for column in bits_of], None, salt + 1
     return first.astype(np.intp)

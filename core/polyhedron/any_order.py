@@ -22,7 +22,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import InitVar, dataclass
 from functools import lru_cache
 from itertools import chain, islice
-from math import factorial, frexp
+from math import frexp
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from ..inertia.findings import MOMENTS_OVERFLOW
 from ..mesh.surface import Surface, turned_quads
-from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
+from ..moments.exponents import count_of_degree, factorial_ratios, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
 from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
@@ -48,14 +48,9 @@ MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 
 
 @lru_cache
-def _factors(order: int) -> NDArray[np.float64]:
+def area_factors(order: int) -> NDArray[np.float64]:
     """Return (K,) the factors p! q! r! / (p+q+r+2)! of the monomials."""
-    return np.array(
-        [
-            float(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 2))
-            for p, q, r in monomials(order).tolist()
-        ]
-    )
+    return factorial_ratios(monomials(order), 2)
 
 
 def _exponent(reach: float) -> int:
@@ -223,7 +218,7 @@ class StreamIntegrator:
         """Return the moments in the body's own unit, with their bounds, from the sums."""
         degree = monomials(self.order).sum(axis=1)
         row, dimension = (0, 3) if of == Measure.VOLUME else (1, 2)
-        factors = _factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
+        factors = area_factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
         mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)  # ∫ |x^α| is at most weight reach^α / this

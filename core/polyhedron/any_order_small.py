@@ -8,9 +8,6 @@ segment of the rows.
 
 from __future__ import annotations
 
-from functools import lru_cache
-from math import factorial
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +15,7 @@ from ..moments.exponents import count_of_degree, monomial_count, monomials, quot
 from ..moments.moments import Measure, Moments, U
 from ..numerics.arrays import batches
 from ..numerics.vectors import cross, dot
+from .any_order import area_factors
 
 TRIANGLES_PER_BLOCK = 256  # whose levels stay in the cache
 
@@ -35,7 +33,9 @@ def extend_small_moments(
     Triangles are sorted by body. reach: (n, 3) of the points from there, with their possible shifts by storing.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
-    powers, degree, factors = _new_monomials(known, order)
+    powers = monomials(order)[known:]
+    degree = powers.sum(axis=1)
+    factors = area_factors(order)[known:] / (degree + 3.0)
     coordinates, sums, sizes = np.ascontiguousarray(points.T), [], []
     for part in batches(counts, TRIANGLES_PER_BLOCK):
         rows, own = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]], counts[part]
@@ -58,15 +58,6 @@ def extend_small_moments(
         np.concatenate([volume.rounding_error, error], axis=1),
         np.concatenate([volume.input_error, volume.input_error[:, :1] * largest], axis=1),
     )
-
-
-@lru_cache
-def _new_monomials(known: int, order: int) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return exponents and degrees of the monomials after so many, and their factors from coefficients to moments."""
-    powers = monomials(order)[known:]
-    degree = powers.sum(axis=1)
-    factors = [np.prod([float(factorial(p)) for p in row]) / factorial(sum(row) + 2) for row in powers.tolist()]
-    return powers, degree, np.array(factors) / (degree + 3.0)
 
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:

@@ -19,13 +19,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from itertools import combinations
-from math import comb, factorial, isfinite
+from math import comb, isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..inertia.findings import MOMENTS_OVERFLOW
-from ..moments.exponents import check_exponents
+from ..moments.exponents import check_exponents, factorial_ratios
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
 from ..numerics.arguments import check_order, float_array
 from ..verdict.finding import MeasureError
@@ -226,7 +226,7 @@ def _measure(
         + 4
     )
     error = 1.01 * steps * U * size + len(simplices) * UNDERFLOW
-    factor = np.array([_factor(row, measure) for row in indices.tolist()])
+    factor = factorial_ratios(indices, measure)
     power = (exponent * (degree + measure)).astype(np.int32)
     with np.errstate(over="ignore"):
         raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
@@ -284,14 +284,6 @@ def _weight_steps(dimension: int) -> int:
     """Count the roundings of one product on the way to det or |N|."""
     minors = sum(2 + 1 + size for size in range(1, dimension))
     return minors + 2 * dimension + 6
-
-
-def _factor(exponents: list[int], measure: int) -> float:
-    """Return α! / (|α| + measure)!, correctly rounded but for the last division."""
-    product = 1
-    for n in exponents:
-        product *= factorial(n)
-    return product / factorial(sum(exponents) + measure)
 
 
 def _exponents_of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:

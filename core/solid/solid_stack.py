@@ -15,11 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.mass_properties import are_physical
+from ..mesh.bvh import sort_components
 from ..mesh.planarity import Planarity, StackPlanarity, stack_planarity
 from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import SurfaceStack, TriangleStack
 from ..moments.moments import Moments, U, stack_moments
+from ..numerics.arrays import segment_starts
 from ..polyhedron.any_order_small import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
@@ -84,29 +86,30 @@ class SolidStack:
 
     def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
         """Return the volume moments of the bodies `rows`, ascending, to a higher order than third."""
-        stack, volume = self.caps.triangles.some(rows), self.volume.at(rows)
-        low, high = stack.box
-        reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + stack.coordinate_error
-        return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
+        stack = self.caps.triangles.some(rows)
+        return _extend(self.volume.at(rows), order, stack, stack.coordinate_error)
 
 
 def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
     """Return volumes, to an order above third, of single solids of at most MAX_SMALL_TRIANGLES triangles each."""
     surfaces = [solid.repaired_surface for solid in solids]
     triangles = [surface.all_triangles()[0] for surface in surfaces]
-    first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
-    volume = stack_moments([solid.volume for solid in solids])
-    boxes = np.array([surface.box for surface in surfaces])
-    reach = np.maximum(boxes[:, 1] - volume.about, volume.about - boxes[:, 0]) * (1.0 + 4.0 * U)
-    reach += [surface.coordinate_error for surface in surfaces]
-    return extend_small_moments(
-        volume,
-        order,
+    point_counts = np.array([len(surface.points) for surface in surfaces])
+    stack = TriangleStack(
         np.concatenate([surface.points.astype(np.float64) for surface in surfaces]),
-        np.concatenate([rows + start for rows, start in zip(triangles, first.tolist())]),
+        np.concatenate([rows + start for rows, start in zip(triangles, segment_starts(point_counts).tolist())]),
+        point_counts,
         np.array([len(rows) for rows in triangles]),
-        reach,
     )
+    error = np.array([surface.coordinate_error for surface in surfaces])
+    return _extend(stack_moments([solid.volume for solid in solids]), order, stack, error)
+
+
+def _extend(volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]) -> Moments:
+    """Return the volume moments of the stack's bodies to an order. error: (n, 3) by storing the points."""
+    low, high = stack.box
+    reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
+    return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
 
 
 def is_small(surface: Surface) -> bool:
@@ -190,17 +193,9 @@ def _stand_apart(
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
     body = np.repeat(np.arange(len(rows)), counts[rows])  # The body of each part; parts are numbered body by body.
-    corners = stack.points[stack.triangles[chosen]].astype(np.float64)
-    corners -= np.repeat(stack.box[0][rows], stack.triangle_counts[rows], axis=0)[:, None]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    volume = np.bincount(part, np.add.reduce(corners[:, 0] * normals, axis=1)) / 6.0
-    area = np.bincount(part, np.sqrt(np.add.reduce(normals * normals, axis=1))) / 2.0
-    order = part.argsort()
-    starts = np.searchsorted(part[order], np.arange(len(body)))
-    low = np.minimum.reduceat(corners.min(axis=1)[order], starts)
-    high = np.maximum.reduceat(corners.max(axis=1)[order], starts)
-    size, of_all = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), rows[body]
-    is_bad = volume <= CLEAR_VOLUME * zero_volume(size, area, capped[of_all], error[of_all])
+    parts, of_all = sort_components(stack.points, stack.triangles[chosen], part, len(body)), rows[body]
+    low, high, size = parts.low, parts.high, np.sqrt(np.add.reduce((parts.high - parts.low) ** 2, axis=1))
+    is_bad = parts.volume <= CLEAR_VOLUME * zero_volume(size, parts.area, capped[of_all], error[of_all])
     apart = 2.0 * tolerance[of_all]
     for step in range(1, int(counts[rows].max())):
         gap = np.maximum(low[step:] - high[:-step], low[:-step] - high[step:]).max(axis=1)
