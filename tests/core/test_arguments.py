@@ -36,7 +36,7 @@ from body_moments.core.fourier import polygon_transform, surface_transform
 from body_moments.core.inertia import Reference, combine, zhang_chen_frame
 from body_moments.core.mesh import convex_hull
 from body_moments.core.moments import normalize, sum_moments
-from body_moments.core.numerics import SplineSpace, clamped_space, quaternion, rotation_matrix
+from body_moments.core.numerics import SplineSpace, clamped_space
 from body_moments.core.nurbs import (
     Curve,
     Patch,
