@@ -26,7 +26,7 @@ import addon_utils
 import bpy
 
 from ...core.scans import formats as scans
-from ...core.scans.findings import DAMAGE_ARCHIVE, FILE_MISSING, FILE_NOT_REGULAR
+from ...core.scans.findings import DAMAGE_INCOMPLETE, FILE_MISSING, FILE_NOT_REGULAR
 from ...core.scans.scan import damaged
 from ...core.streams.findings import FILE_TYPE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS, STL_CUT_SHORT, STL_SIZE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
@@ -190,7 +190,7 @@ def _check_usdz(path: Path, size: int) -> None:
                     while file.read(1 << 20):
                         pass
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
-        raise damaged(path, DAMAGE_ARCHIVE, error=str(error).rstrip(".")) from error
+        raise damaged(path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")) from error
 
 
 def _check_stl(head: bytes, tail: bytes, size: int) -> None:

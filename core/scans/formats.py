@@ -16,7 +16,7 @@ from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
-    SCAN_FILE_TYPE,
+    FILE_TYPE,
     SCAN_OUT_OF_MEMORY,
     SCAN_OWN_UNIT,
     SCAN_PLACEMENT,
@@ -100,7 +100,7 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     path = Path(path)
     read = READERS.get(scan_suffix(path))
     if read is None:
-        raise FileError(SCAN_FILE_TYPE, suffixes=" ".join(SUFFIXES))
+        raise FileError(FILE_TYPE, suffixes=" ".join(SUFFIXES))
     if not path.is_file():
         raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
     with open(path, "rb"):

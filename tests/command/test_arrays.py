@@ -80,20 +80,24 @@ def test_given_mass_object_names_and_notes(tmp_path):
     assert {"given_density_ignored", "scan_without_spacing"} <= {*codes(document["objects"][0])}
 
 
-def damaged(file: str, code: str) -> str:
-    return sentence("file_damaged", file=file, cause={"code": code, "values": {}})
+def damaged(file: str, code: str, **values) -> str:
+    return sentence("file_damaged", file=file, cause={"code": code, "values": values})
 
 
 @pytest.mark.parametrize(
     "data, options, reason",
     [
-        (b"nonsense", (), sentence("nrrd_unrecognized")),
+        (b"nonsense", (), sentence("file_unrecognized", format="NRRD")),
         (nrrd(-box()), (), sentence("array_negative", density=-1.0)),
         (nrrd(box("f4", 0.0)), (), sentence("grid_empty")),
         (nrrd(box("f4", np.nan)), (), sentence("density_non_finite")),
         (nrrd(box()), ("--kind", "shell"), sentence("grid_as_shell")),
         (nrrd(box()), ("--write",), sentence("results_need_blend")),
-        (nrrd(box(), encoding="gzip")[:-1] + b"!", (), damaged("a.nrrd", "damage_unpacked_length")),
+        (
+            nrrd(box(), encoding="gzip")[:-1] + b"!",
+            (),
+            damaged("a.nrrd", "damage_packed", error="incorrect length check"),
+        ),
     ],
 )
 def test_unmeasurable_array_is_an_error(tmp_path, data, options, reason):
