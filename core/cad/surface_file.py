@@ -6,10 +6,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR
+from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
 from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..verdict.finding import FileError
-from .findings import SURFACE_FILE_TYPE
 from .iges import read_iges
 from .obj import read_obj
 from .surfaces import SurfaceBody, SurfaceFile
@@ -56,7 +55,7 @@ def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> SurfaceF
     path = Path(path)
     read = _READERS.get(path.suffix.lower())
     if read is None:
-        raise FileError(SURFACE_FILE_TYPE, suffixes=" ".join(SUFFIXES))
+        raise FileError(FILE_TYPE, suffixes=" ".join(SUFFIXES))
     if not path.is_file():
         raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
     limits.check(path, "text_bytes", path.stat().st_size)

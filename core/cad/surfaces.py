@@ -14,6 +14,7 @@ from ..numerics.bspline import SplineSpace
 from ..nurbs.bezier_form import bezier_patches
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.patch import Patch
+from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
     FILE_WITHOUT_SURFACES,
@@ -22,7 +23,6 @@ from .findings import (
     SURFACE_ORDER,
     SURFACE_POINTS,
     SURFACE_TOO_LARGE,
-    TOO_MANY_CONTROL_POINTS,
 )
 
 MAX_ORDER = 6  # largest order of the surfaces that are kept
@@ -105,7 +105,7 @@ class Refusals:
             # A nested call for other surfaces of this file has counted its own.
             self.points = max(self.points, before + sum(patch.points.size // 3 for patch in patches))
             if self.points > MAX_TOTAL_POINTS:
-                raise FileError(TOO_MANY_CONTROL_POINTS, limit=MAX_TOTAL_POINTS)
+                raise FileError(FILE_TOO_LARGE, limit=MAX_TOTAL_POINTS, content="control points")
             return patches
         except FileError:
             raise
@@ -114,7 +114,7 @@ class Refusals:
         except MeasureError as error:  # about its control points
             self.add(SURFACE_POINTS, kind, name, cause=error.finding)
         except (ValueError, OverflowError, LookupError):
-            self.add(SURFACE_DAMAGED, kind, name)
+            self.add(SURFACE_DAMAGED, kind, name, fault="numbers that are missing or not possible")
         return []
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:

@@ -7,7 +7,7 @@ from ..verdict.finding import error, note, warning
 FILE_MISSING = error("file_missing", "No such file.")
 FILE_NOT_REGULAR = error("file_not_regular", "Not a regular file.")
 FILE_TYPE = error("file_type", "Unsupported file type. Supported: {suffixes}.")
-FILE_UNRECOGNIZED = error("file_unrecognized", "Not a {format} file, or its header is damaged. Export it again.")
+FILE_UNRECOGNIZED = error("file_unrecognized", "This is no {format} file, or its header is damaged. Export it again.")
 FILE_DAMAGED = error("file_damaged", "The file “{file}” is damaged: {cause}. Obtain it again, or export it again.")
 DAMAGE_CUT_SHORT = error("damage_cut_short", "it ends within its {part:word}")
 DAMAGE_SIZE = error("damage_size", "it has {bytes} bytes for samples, and its sizes require {total}")

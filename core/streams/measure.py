@@ -17,7 +17,7 @@ from ..numerics.arguments import check_type
 from ..polyhedron.integration import polyhedron_moments
 from ..polyhedron.third_order import box_center
 from ..verdict.finding import FileError
-from .findings import FILE_WITHOUT_FACES
+from .findings import FILE_WITHOUT_OBJECTS
 from .mesh_file import MeshFile
 
 MAX_REACH_RATIO = 2.0  # reach of a body relative to its first faces, at most
@@ -114,7 +114,7 @@ def measure_stream(
         except _FarPiece:
             continue
         if not stream.face_count:
-            raise FileError(FILE_WITHOUT_FACES)
+            raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
         return StreamIntegrals(volume, area, stream.boundary.is_zero, stream.face_count)
     raise AssertionError("piece outside its box")
 

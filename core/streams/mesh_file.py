@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
+from ..scans.findings import FILE_TYPE
 from ..verdict.finding import FileError
-from .findings import FILE_TYPE
 from .ply import PlyFile
 from .stl import StlFile
 
-SUFFIXES = ".stl", ".ply"
+KINDS = {".stl": StlFile, ".ply": PlyFile}
 
 
 @runtime_checkable
@@ -77,8 +77,7 @@ def open_mesh_file(path: str | Path) -> MeshFile:
     (1, [1.0, 1.0, 0.0])
     """
     path = Path(path)
-    kinds = {".stl": StlFile, ".ply": PlyFile}
-    kind = kinds.get(path.suffix.lower())
+    kind = KINDS.get(path.suffix.lower())
     if kind is None:
-        raise FileError(FILE_TYPE, suffixes=" ".join(SUFFIXES))
+        raise FileError(FILE_TYPE, suffixes=" ".join(KINDS))
     return kind(path)
