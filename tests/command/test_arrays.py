@@ -173,10 +173,10 @@ def test_uneven_slices_are_measured_in_place(tmp_path):
 @pytest.mark.parametrize(
     "row, words",
     [
-        ([0, 1, 2, 3, 4], "has 5 positions along z, and the scan 6"),
-        ([0, 1, 2, 2, 4, 5], "is not greater"),
-        ([0, 1, 2, np.nan, 4, 5], "is not finite"),
-        (None, "does not exist"),
+        ([0, 1, 2, 3, 4], "are not one row of 6 numbers"),
+        ([0, 1, 2, 2, 4, 5], "Position 3 along z"),
+        ([0, 1, 2, np.nan, 4, 5], "Position 3 along z"),
+        (None, "“z.npy” is missing"),
     ],
 )
 def test_wrong_positions_are_an_error_of_the_file(tmp_path, row, words):
