@@ -19,13 +19,13 @@ import bpy
 from ...blender.read.robots import link_entry, object_entry
 from ...blender.session.robots import SceneLinks, bone_links, collection_links
 from ...blender.settings.options import MeasureOptions
-from ...core.measurement.documents import ROBOT_FORMATS
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
+from ...core.robots.formats import FORMATS
 from ...core.robots.from_records import robot_name, robot_of_document
 from ...core.robots.model import Robot
-from ...core.robots.write.formats import robot_text, with_geometry
 from ...core.robots.write.shapes import with_primitives
+from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ...core.verdict.sentences import sentence, severity
 from ..files.output import is_stream
@@ -48,7 +48,7 @@ def complete(
     Prints the findings of the format to the standard error. measure_options: the options of the measurements.
     is_opened: whether the file is the open scene, with its collections and bones.
     """
-    if options.format not in ROBOT_FORMATS:
+    if options.format not in FORMATS:
         return document
     if options.links == "object" or not is_opened:
         made = _by_object(document, measured, measure_options)

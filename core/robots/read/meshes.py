@@ -16,15 +16,17 @@ from numpy.typing import NDArray
 from ...cad.obj_text import check_obj_text
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
-from ...streams.findings import LINE_MISREAD
+from ...scans.findings import FILE_TYPE
+from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...streams.stl_text import check_stl_text
-from ...verdict.finding import FileError, system_reason
-from ..findings import MESH_DAMAGED, MESH_EMPTY, MESH_TOO_LARGE, MESH_UNREADABLE
+from ...verdict.finding import FileError, finding, system_reason
+from ..findings import MESH_UNREADABLE
+from ..write.gltf import BINARY, JSON, chunks
+from ..write.stl import TRIANGLE
 from .dae import read_dae
 from .limits import MAX_MESH, MAX_TRIANGLES
 from .usda import fan
 
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _DAMAGE = (
@@ -37,32 +39,35 @@ Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up.
 
-    The rotation is given if the file says that another axis is up, which readers obey or not.
-
-    Raises FileError if it cannot be read.
+    The rotation is given if the file says that another axis is up, which readers obey or not. FileError, with the
+    file's name, if it cannot be read.
     """
+    try:
+        return _read_mesh(path)
+    except FileError as error:
+        cause = error.finding
+    except OSError as error:
+        cause = finding(FILE_UNREADABLE, error=system_reason(error))
+    except _DAMAGE as error:
+        cause = finding(FILE_UNREADABLE, error=type(error).__name__)
+    raise FileError(MESH_UNREADABLE, name=path.name, cause=cause.as_record())
+
+
+def _read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     reader = READERS.get(path.suffix.lower())
     if reader is None:
-        raise FileError(MESH_UNREADABLE, name=path.name, suffixes=" ".join(READERS))
-    try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_MESH + 1)
-    except OSError as error:
-        raise FileError(MESH_DAMAGED, name=path.name, error=system_reason(error)) from error
+        raise FileError(FILE_TYPE, suffixes=" ".join(READERS))
+    with open(path, "rb") as file:
+        data = file.read(MAX_MESH + 1)
     if len(data) > MAX_MESH:
-        raise FileError(MESH_TOO_LARGE, name=path.name)
-    try:
-        points, triangles, *upright = reader(data)
-    except FileError as error:
-        if error.finding.code != LINE_MISREAD:
-            raise
-        raise FileError(MESH_DAMAGED, name=path.name, error=error.finding.as_record()) from error
-    except _DAMAGE as error:
-        raise FileError(MESH_DAMAGED, name=path.name, error=type(error).__name__) from error
-    if not len(triangles) or len(triangles) > MAX_TRIANGLES:
-        raise FileError(MESH_TOO_LARGE if len(triangles) else MESH_EMPTY, name=path.name)
+        raise FileError(FILE_TOO_LARGE, limit=MAX_MESH, content="bytes")
+    points, triangles, *upright = reader(data)
+    if not len(triangles):
+        raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
+    if len(triangles) > MAX_TRIANGLES:
+        raise FileError(FILE_TOO_LARGE, limit=MAX_TRIANGLES, content="faces")
     if triangles.min() < 0 or triangles.max() >= len(points) or not np.isfinite(points).all():
-        raise FileError(MESH_DAMAGED, name=path.name, error="ValueError")
+        raise ValueError("corners")
     return Surface.from_triangles(points, triangles), upright[0] if upright else None
 
 
@@ -71,7 +76,7 @@ def read_stl(data: bytes) -> Arrays:
     if len(data) >= 84:
         count = struct.unpack_from("<I", data, 80)[0]
         if len(data) == 84 + 50 * count:
-            rows = np.frombuffer(data, _TRIANGLE, count, 84)
+            rows = np.frombuffer(data, TRIANGLE, count, 84)
             return _join_corners(rows["corners"].reshape(-1, 3))
     if not data.lstrip()[:5].lower() == b"solid":
         raise ValueError("stl")
@@ -107,23 +112,9 @@ def read_obj(data: bytes) -> Arrays:
 
 
 def read_glb(data: bytes) -> Arrays:
-    """Return triangles of a binary glTF as its scene places them, in its own axes (y up).
-
-    Robots' readers take them so.
-    """
-    if data[:4] != b"glTF":
-        raise ValueError("glb")
-    start, document, binary = 12, None, b""
-    while start + 8 <= len(data):
-        length, kind = struct.unpack_from("<II", data, start)
-        chunk = data[start + 8 : start + 8 + length]
-        if kind == 0x4E4F534A:
-            document = json.loads(chunk)
-        elif kind == 0x004E4942:
-            binary = chunk
-        start += 8 + length
-    if not isinstance(document, dict):
-        raise ValueError("glb")
+    """Return triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers do."""
+    parts = dict(chunks(data)) if data[:4] == b"glTF" else {}
+    document, binary = json.loads(parts.get(JSON, b"")), parts.get(BINARY, b"")
     scene = document["scenes"][document.get("scene", 0)]
     points: list[NDArray] = []
     triangles: list[NDArray] = []

@@ -21,12 +21,17 @@ from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Pose, Robot, Shape
+from ..stated import Description, StatedInertial, StatedLink
 from .marker import MARKER
 from .text import number, unique_names
 
 ROOT = "Robot"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
 LEAST = float(np.finfo(np.float32).tiny)  # Least number that float32 holds with all its digits.
+_MASS_ATTRIBUTE = re.compile(
+    r"[ \t]*(?:custom )?(?:uniform )?[\w:\[\]]+ (?:physics:(?:mass|centerOfMass|diagonalInertia|principalAxes)|"
+    r"newton:inertia) = (?:\([^)]*\)|\[[^\]]*\]|[^\s(\[]+)[ \t]*;?\n?"
+)
 _NO_IDENTIFIER = re.compile(r"\W")
 _INDENT = "    "
 
@@ -145,6 +150,21 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
         "quatf physics:principalAxes = {}".format(singles(quaternion(inertial.axes))),
         "double[] newton:inertia = [{}]".format(", ".join(map(number, entries))),
     ]
+
+
+def inertial_text(inertial: StatedInertial, old: str, link: StatedLink, description: Description) -> str:
+    """Return the text of a prim with the attributes of a repaired inertial, before anything below."""
+    unit, mass = description.scales["length"], description.scales["mass"]
+    local = np.eye(4) if link.local is None else link.local
+    principal = inertial.principal()
+    center = np.asarray(np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3]) * unit, np.float64)
+    placed = Inertial(principal.mass / mass, center, principal.inertia / mass, principal.moments / mass, principal.axes)
+    below = re.search(r"\n[ \t]*(?:def|over|class)\b", old)
+    split = below.start() if below else len(old)
+    match = re.search(r"\n([ \t]+)\S", old)
+    indent = match[1] if match else _INDENT
+    lines = "".join("\n" + indent + line for line in mass_attributes(placed, unit))
+    return lines + _MASS_ATTRIBUTE.sub("", old[:split]) + old[split:]
 
 
 def round_down(moments: NDArray) -> NDArray[np.float32]:

@@ -4,8 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots import Inertial, Joint, Link, Robot
-from body_moments.core.robots.model import FreeAxis, Pose, Shape, combine_inertials
+from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape, combine_inertials
 from body_moments.core.robots.stated import StatedInertial, pose_of_angles, rotation_of_angles
 
 from tests.close import close
