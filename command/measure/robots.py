@@ -22,7 +22,7 @@ from ...blender.settings.options import MeasureOptions
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
 from ...core.robots.formats import FORMATS
-from ...core.robots.from_records import robot_name, robot_of_document
+from ...core.robots.from_records import robot_name, robot_of_records
 from ...core.robots.model import Robot
 from ...core.robots.write.shapes import with_primitives
 from ...core.robots.write.texts import robot_text, with_geometry
@@ -78,7 +78,7 @@ def _by_object(
     for entry in document["objects"]:
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]
-    robot, findings = robot_of_document(document)
+    robot, findings = robot_of_records(robot_name(document["file"]), document["objects"])
     unit = measure_options.meters_per_unit(bpy.context.scene)
     return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
 

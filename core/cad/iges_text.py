@@ -79,10 +79,7 @@ class IgesText:
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
-        """Return the parameters of an entity, behind its type, texts without their length.
-
-        ValueError if they end too early, or are another entity's.
-        """
+        """Return the parameters of an entity, behind its type. ValueError if they end too early, or are another's."""
         first, count = entry.parameters
         start, end = first - 1, first - 1 + count
         if not 0 <= start < end <= len(self._lines):
@@ -191,10 +188,7 @@ def padded(fields: list[str], count: int) -> list[str]:
 
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:
-    """Return the real numbers of the fields, with Fortran's exponents, 0 if a field is blank.
-
-    ValueError if a field is no number.
-    """
+    """Return the real numbers of fields, with Fortran's exponents, 0 for blank ones. ValueError if one is no number."""
     text = "\n".join(fields)
     if not _NUMBERS.fullmatch(text):
         raise ValueError("not a number")

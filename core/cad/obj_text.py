@@ -79,10 +79,7 @@ def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
 
 
 def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArray]], NDArray]:
-    """Return places of statements that may be wrong, and the counts of v, vt and vn before each and behind the text.
-
-    counts: before the text.
-    """
+    """Return places of statements that may be wrong, with the counts of v, vt, vn before each; and those behind all."""
     letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # so that three letters of any word can be looked at
     is_word = letters > ord(" ")
     is_word[1:] &= letters[:-1] <= ord(" ")
@@ -125,10 +122,7 @@ def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[ND
 
 
 def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
-    """Return the part of a statement that an importer would misread, or None.
-
-    before: counts of v, vt and vn.
-    """
+    """Return the part that an importer would misread, or None. before: counts of v, vt and vn."""
     kind = line.split(None, 1)[0]
     # Behind an index without a space, a comment is a part of it; 1.#IND has none.
     words = re.split(rb"\s#" if kind in INDICES else rb"(?<!\.)#", line)[0].split()[1:]
@@ -153,10 +147,7 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
 
 
 def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Fault | None:
-    """Return the reason why a word is no index of v, vt and vn, or None.
-
-    Importers ignore vt and vn if there are none.
-    """
+    """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn if there are none."""
     if not re.fullmatch(_ANY_INDEX, word):
         return shorten(word), WHOLE
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):

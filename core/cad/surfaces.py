@@ -36,20 +36,7 @@ MAX_COORDINATE = 3e38  # below what float32 holds
 
 @dataclass(frozen=True, eq=False)
 class SurfaceBody:
-    """Surfaces that a file has as one thing.
-
-    Attributes
-    ----------
-    name : str
-    patches : tuple of Patch
-        With Blender's flags *Bézier* and *Endpoint*, in the file's unit.
-
-    Examples
-    --------
-    >>> from body_moments.core.cad import SurfaceBody
-    >>> SurfaceBody("Hull", ()).name
-    'Hull'
-    """
+    """Surfaces that a file has as one thing, with Blender's flags *Bézier* and *Endpoint*, in the file's unit."""
 
     name: str
     patches: tuple[Patch, ...]
@@ -57,24 +44,7 @@ class SurfaceBody:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceFile:
-    """The surfaces of a file.
-
-    Attributes
-    ----------
-    bodies : tuple of SurfaceBody
-    unit : float or None
-        Meters; None if the file does not state it.
-    refused : tuple of Finding
-        The surfaces that could not be kept, and why.
-    notes : tuple of Finding
-        Other decisions.
-
-    Examples
-    --------
-    >>> from body_moments.core.cad import SurfaceFile
-    >>> SurfaceFile((), 0.001).refused
-    ()
-    """
+    """The surfaces of a file. unit: m, None if it is not stated. refused: surfaces that could not be kept, and why."""
 
     bodies: tuple[SurfaceBody, ...]
     unit: float | None = None

@@ -85,10 +85,7 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry.
-
-    apart: its difference from that geometry filled evenly.
-    """
+    """Comparison of an inertial with some geometry. apart: its difference from that geometry filled evenly."""
 
     findings: list[Finding]
     impossible: bool
@@ -163,10 +160,7 @@ class Auditor:
 
 
 def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
-    """Judge an inertial by its geometry.
-
-    incomplete: True if some geometry could not be read, and shows nothing.
-    """
+    """Judge an inertial by its geometry. incomplete: True if some geometry could not be read, and shows nothing."""
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()

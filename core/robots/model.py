@@ -119,10 +119,7 @@ class FreeAxis:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """The joint between a link and its parent; its frame is the child's.
-
-    free: in the order in which they turn, the one next to the parent first; none if the joint is fixed.
-    """
+    """The joint between a link and its parent, in the child's frame. free: the axis next to the parent first."""
 
     name: str
     parent: str

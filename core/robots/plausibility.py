@@ -74,10 +74,7 @@ class Hull:
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return the reasons why no body, or none within the hull, has an inertial; empty if no test excludes it.
-
-    hull: None if the link's geometry is unknown.
-    """
+    """Return why no body, or none within the hull (None if unknown), has an inertial; empty if no test excludes it."""
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not np.isfinite(numbers).all():
         return [finding(INERTIAL_NOT_FINITE)]

@@ -11,10 +11,7 @@ from .stated import Description, StatedInertial, StatedLink
 
 
 def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]) -> bytes:
-    """Return a description's file with other inertials.
-
-    repairs: links with an inertial in the file, and its replacement.
-    """
+    """Return a description's file with other inertials. repairs: links with an inertial, and its replacement."""
     data, writer = description.source, FORMATS[description.format].writer_module
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]
     for (start, end), link, inertial in sorted(places, key=lambda place: place[0], reverse=True):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import Finding
-from .model import Inertial, Pose, Shape
+from .model import Inertial, Shape
 
 # The tensor's entries as URDF and SDF name them.
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
@@ -122,8 +122,3 @@ def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.floa
             [-sp, cp * sr, cp * cr],
         ]
     )
-
-
-def pose_of_angles(position: NDArray, angles: Angles) -> Pose:
-    """Return a pose stated by a position and roll, pitch and yaw."""
-    return Pose(np.asarray(position, np.float64), rotation_of_angles(*angles))

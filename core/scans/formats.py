@@ -44,23 +44,7 @@ SUFFIXES = tuple(READERS)
 
 
 def scan_suffix(path: str | Path) -> str:
-    """Return the suffix of the file's name, in lower case.
-
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    str
-        One of `SUFFIXES`, or "" if it is no scan's.
-
-    Examples
-    --------
-    >>> from body_moments.core.scans import scan_suffix
-    >>> scan_suffix("Head.NII.GZ"), scan_suffix("part.stl")
-    ('.nii.gz', '')
-    """
+    """Return the suffix of a scan's file in lower case, one of `SUFFIXES`; "" if it is no scan's."""
     name = str(path).lower()
     return next((end for end in SUFFIXES if name.endswith(end)), "")  # none of which ends with another
 

@@ -31,10 +31,7 @@ def read_npy(path: Path, _limits: Limits) -> Scan:
 
 
 def map_array(path: Path) -> NDArray:
-    """Map the array, of any shape and type but objects.
-
-    FileError if the file is not just that, OSError if it cannot be opened.
-    """
+    """Map the array of any shape and type but objects. FileError if the file is not just that; OSError."""
     with open(path, "rb") as file:
         start = file.read(12)
     with _damage(path, "NumPy array"):
@@ -57,10 +54,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
-    """Return the arrays of these names that an .npz has, of any shape and type but objects.
-
-    FileError if it is damaged or asks for more than the limits, OSError if it cannot be opened.
-    """
+    """Return those of the named arrays that an .npz has, of any type but objects. FileError, or OSError."""
     with _archive(path, limits) as (archive, shapes):
         return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
 
@@ -104,10 +98,7 @@ def _check_array_header(start: bytes) -> None:
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """Return the shape of an array in an archive, which must fill its entry.
-
-    Beyond the array no checksum would be reached.
-    """
+    """Return the shape of an array, which must fill its entry: beyond the array no checksum would be reached."""
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)

@@ -21,40 +21,7 @@ EVEN: Positions = (None, None, None)
 
 
 def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float64]:
-    """Read the positions of the samples along an axis.
-
-    Parameters
-    ----------
-    path : str or Path
-        A .npy file of one dimension.
-    axis : str
-        x, y or z, for messages about a wrong file.
-    count : int
-        How many samples the scan has there.
-
-    Returns
-    -------
-    (count,) array
-        Ascending.
-
-    Raises
-    ------
-    FileError
-        If the file holds anything else.
-    OSError
-        If it cannot be opened.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> from body_moments.core.scans import read_positions
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder) / "z.npy"
-    ...     np.save(path, [0.0, 1.0, 2.5])
-    ...     read_positions(path, "z", 3).tolist()
-    [0.0, 1.0, 2.5]
-    """
+    """Return the (count,) ascending positions of samples along an axis from a .npy file. FileError, or OSError."""
     path = Path(path)
     whose = {"file": path.name, "axis": axis}
     if not path.is_file():

@@ -97,11 +97,7 @@ def damaged(path: Path, code: str, **values: object) -> FileError:
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
-    """Check that a file holds just the bytes of samples that its sizes ask for.
-
-    More of them mean that the sizes are wrong, or that nobody knows the meaning of the rest; without a checksum nothing
-    else can show damage.
-    """
+    """Check that a file holds just the bytes of its samples; more mean that the sizes are wrong."""
     if held != wanted:
         raise damaged(path, DAMAGE_SIZE, bytes=held, total=wanted)
 

@@ -37,7 +37,7 @@ NUMBERS = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
 class StlFile:
-    """The triangles of an .stl file."""
+    """The triangles of an .stl file. face_count: for a text an estimate. is_loose: no two triangles share a point."""
 
     is_loose = True
 

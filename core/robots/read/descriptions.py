@@ -22,13 +22,14 @@ from ..findings import (
 )
 from ..formats import AUDITED
 from ..stated import Description
-from .limits import MAX_DESCRIPTION, MAX_LINKS
 from .paths import Roots
 from .xml import NOWHERE, Node, parse
 
 _WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
 _USD = "#usda"
+MAX_DESCRIPTION = 64 << 20  # bytes
+MAX_LINKS = 100_000
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:

@@ -11,7 +11,7 @@ import numpy as np
 from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ..model import Pose
-from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, pose_of_angles
+from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
 from .xml import Node, Placed, attempt, number, numbers, read_shape, read_shapes
 
 
@@ -60,7 +60,7 @@ def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None]:
     roll, pitch, yaw = values[3:].tolist()
     if element is not None and element.get("degrees") in ("true", "1"):
         roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
-    return pose_of_angles(values[:3], (roll, pitch, yaw)), (roll, pitch, yaw), None
+    return Pose(values[:3], rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw), None
 
 
 def _shape(node: Node) -> Placed | None:

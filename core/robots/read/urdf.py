@@ -8,7 +8,7 @@ import numpy as np
 
 from ...verdict.finding import Finding
 from ..model import Pose
-from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, pose_of_angles
+from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
 from .xml import Node, Placed, attempt, number, numbers, read_shape, read_shapes
 
 
@@ -39,7 +39,7 @@ def _origin(node: Node) -> tuple[Pose, Angles]:
     origin = node.find("origin")
     position = numbers(origin.get("xyz") if origin else "", 3, (0.0, 0.0, 0.0))
     roll, pitch, yaw = numbers(origin.get("rpy") if origin else "", 3, (0.0, 0.0, 0.0)).tolist()
-    return pose_of_angles(position, (roll, pitch, yaw)), (roll, pitch, yaw)
+    return Pose(position, rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw)
 
 
 def _shape(node: Node) -> Placed | None:

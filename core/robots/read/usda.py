@@ -20,6 +20,7 @@ from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_NUMBER, USDA_INVALID
 from ..model import Pose, Shape
 from ..stated import Description, StatedInertial, StatedLink, StatedShape, rotation_about
+from .triangles import fan
 from .xml import check_size
 
 _TOKEN = re.compile(
@@ -313,13 +314,3 @@ def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | 
     if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
         triangles = triangles[:, ::-1]
     return StatedShape(Shape("mesh"), role, None, placed, triangles)
-
-
-def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return (m, 3) faces of given sizes, cut into fans about their first corners."""
-    starts = np.cumsum(sizes) - sizes
-    cut = np.maximum(sizes - 2, 0)
-    face = np.repeat(np.arange(len(sizes)), cut)
-    step = np.arange(cut.sum()) - np.repeat(np.cumsum(cut) - cut, cut)
-    first = starts[face]
-    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)

@@ -22,8 +22,9 @@ from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_NUMBER, XML_ENTITIES, XML_INVALID
 from ..model import Pose, Shape
 from ..stated import Angles, StatedShape
-from .limits import MAX_DEPTH, MAX_ELEMENTS
 
+MAX_ELEMENTS = 1_000_000
+MAX_DEPTH = 200
 NOWHERE = -1  # in place of a position, of what another file states
 Value = TypeVar("Value")
 Placed = tuple[Shape, Angles | None]

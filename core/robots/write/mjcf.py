@@ -96,10 +96,7 @@ def _add_place(element: Element, pose: Pose) -> None:
 
 
 def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
-    """Add the joints of a link.
-
-    A root with mass moves freely; several degrees of freedom are several joints of one body.
-    """
+    """Add a joint for each degree of freedom of a link. A root with mass moves freely."""
     if joint is None:
         if any(part.inertial is not None for part in robot.rigid_parts(link)):
             SubElement(body, "freejoint")

@@ -23,10 +23,7 @@ _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def to_stl(surface: Surface) -> bytes:
-    """Return a surface as binary STL, with zero normals, which readers find from the corners.
-
-    surface: in meters, along the link's axes.
-    """
+    """Return a surface in m as binary STL, with zero normals, which readers find from the corners."""
     triangles = surface.all_triangles()[0]
     rows = np.zeros(len(triangles), TRIANGLE)
     rows["corners"] = surface.points[triangles]
@@ -60,10 +57,7 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
 
 
 def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
-    """Return the file of each link's mesh, relative to the robot's own file `stem` plus suffix.
-
-    Names differ by more than upper case.
-    """
+    """Return each link's file, relative to the robot's own (`stem` plus suffix); names differ by more than case."""
     files = unique_names(names, _file_name)
     return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}
 

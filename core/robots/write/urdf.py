@@ -48,10 +48,7 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as URDF.
-
-    remarks: comments at the beginning. inertial_only: only the links with their inertials, which is no complete file.
-    """
+    """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their inertials."""
     names = unique_names([link.name for link in robot.links], xml_text)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_text)
     root = Element("robot", name=xml_text(robot.name))

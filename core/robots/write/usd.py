@@ -122,10 +122,7 @@ def header(
 
 
 def identifier(name: str) -> str:
-    """Return the name of a prim, as Blender's exporter makes it of an object's name.
-
-    An underscore stands for each other character than letters and digits, and before a digit.
-    """
+    """Return the name that Blender's exporter gives the prim of an object: letters, digits and underscores."""
     name = _NO_IDENTIFIER.sub("_", name)
     return name if name.isidentifier() else "_" + name
 
@@ -168,10 +165,7 @@ def inertial_text(inertial: StatedInertial, old: str, link: StatedLink, descript
 
 
 def round_down(moments: NDArray) -> NDArray[np.float32]:
-    """Return (3,) ascending principal moments in single precision, the largest one not above the sum of the others.
-
-    moments: (3,) ascending, in float64.
-    """
+    """Return (3,) ascending moments in single precision, the largest one not above the sum of the others."""
     rounded = np.asarray(moments, np.float64).astype(np.float32)
     while float(rounded[2]) > float(rounded[0]) + float(rounded[1]):
         rounded[2] = np.nextafter(rounded[2], np.float32(0.0))
@@ -235,10 +229,7 @@ def _shape(shape: Shape, name: str) -> list[str]:
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """Return a mesh that collides as its convex hull.
-
-    USD knows no files of other formats, so it stands in the layer.
-    """
+    """Return a mesh that collides as its convex hull. It stands in the layer: USD knows no files of other formats."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)

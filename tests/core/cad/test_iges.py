@@ -7,8 +7,8 @@ import random
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces
 from body_moments.core.cad.iges_text import UNIT_NAMES, UNITS
+from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.solid import measure_patches

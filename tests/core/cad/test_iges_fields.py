@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces
+from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.nurbs.solid import measure_patches
 from body_moments.core.verdict.finding import FileError, finding
 

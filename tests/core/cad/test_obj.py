@@ -7,8 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces
-from body_moments.core.cad.surface_file import SUFFIXES
+from body_moments.core.cad.surface_file import SUFFIXES, read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.bezier_form import bezier_patches
 from body_moments.core.nurbs.patch import Patch

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.density import SplineAxis, grid_moments
 from body_moments.core.moments.moments import monomials
-from body_moments.core.scans import read_positions
-from body_moments.core.scans.positions import place_samples, read_all_positions
+from body_moments.core.scans.positions import place_samples, read_all_positions, read_positions
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 

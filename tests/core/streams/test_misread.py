@@ -5,7 +5,7 @@
 import time
 
 import pytest
-from body_moments.core.streams import open_mesh_file
+from body_moments.core.streams.mesh_file import open_mesh_file
 from body_moments.core.streams.misread import COUNT, NUMBER, VERTEX, WHOLE
 from body_moments.core.streams.ply_header import parse_header
 from body_moments.core.streams.ply_text import check_ply_text
