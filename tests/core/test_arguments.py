@@ -45,7 +45,6 @@ from body_moments.core.nurbs import (
     measure_patches,
 )
 from body_moments.core.polyhedron import enclosed_moments, facet_moments, facets_of
-from body_moments.core.robots import FreeAxis, Inertial, Link, Pose
 from body_moments.core.scans import Scan, sample_matrix
 from body_moments.core.shape import rank, similarity, symmetry
 from body_moments.core.statics import area_gradient, balance, find_support, resting_poses, volume_gradient
@@ -79,11 +78,7 @@ CALLS = {
     "Curve.evaluate": (CURVE.evaluate, {"parameters": np.array([0.0, 0.5])}),
     "Curve.transform": (CURVE.transform, {"matrix": MATRIX}),
     "Curve.velocity": (CURVE.velocity, {"parameters": np.array([0.0, 0.5])}),
-    "FreeAxis": (FreeAxis, {"kind": "rotate", "axis": AXES[0]}),
     "Hull.transform": (convex_hull(POINTS).transform, {"linear": AXES}),
-    "Inertial": (Inertial, {"mass": 1.0, "center": ORIGIN, "inertia": AXES, "moments": np.ones(3), "axes": AXES}),
-    "Inertial.place": (Inertial(1.0, ORIGIN, AXES, np.ones(3), AXES).place, {"pose": Pose()}),
-    "Link": (Link, {"name": "base", "scale": np.ones(3)}),
     "MassProperties.from_moments": (MassProperties.from_moments, {"moments": VOLUME, "preferred_axes": AXES}),
     "MassProperties.in_frame": (PROPERTIES.in_frame, {"rotation": AXES, "origin": ORIGIN}),
     "MassProperties.inertia_about": (PROPERTIES.inertia_about, {"point": ORIGIN}),
@@ -97,7 +92,6 @@ CALLS = {
     "Patch": (Patch, {"spaces": (LINE, LINE), "points": PATCH_POINTS, "weights": np.array([[1.0, 2.0], [3.0, 4.0]])}),
     "Patch.transform": (PATCH.transform, {"matrix": MATRIX}),
     "Plane.project": (PLANE.project, {"points": POINTS}),
-    "Pose": (Pose, {"position": ORIGIN, "rotation": AXES}),
     "PrincipalFrame.rotate": (PROPERTIES.principal.rotate, {"rotation": AXES}),
     "Reference": (Reference, {"origin": ORIGIN, "axes": AXES}),
     "Reference.refer": (Reference(ORIGIN).refer, {"properties": PROPERTIES}),
