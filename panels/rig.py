@@ -98,18 +98,17 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
         return
     stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     column = layout.column(align=True)
-    rows.quantities(column, units, [("Mass", "mass", stored.body.mass), ("Volume", "volume", stored.volume)])
+    rows.quantities(column, units, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
     column = layout.column(align=True)
-    rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
+    rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.center)
+    rows.values(column, units, AXIS_LABELS, "length", stored.center, max(stored.gyration))
     column = layout.column(align=True)
-    moments = stored.body.principal.moments
+    moments = stored.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
     rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
     column = layout.column(align=True)
-    entries = properties.tensor_entries(stored.body.inertia)
-    rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", entries)
-    rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+    rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", stored.inertia)
+    rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", stored.inertia)
 
 
 VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones = in_both_places(BonesPanel, "bones")

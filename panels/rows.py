@@ -13,11 +13,11 @@ from functools import lru_cache
 
 import blf
 import bpy
-import numpy as np
 from bpy.types import Context, UILayout
 
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
+from ..core.measurement.documents import plain
 from ..core.verdict.finding import Finding, Severity, finding
 from ..core.verdict.sentences import severity
 from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
@@ -71,7 +71,7 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) ->
     """Draw a heading with a button that copies all values below it."""
     row = layout.row(align=True)
     _title(row, localized(label))
-    _copy(row, repr(np.asarray(si, float).tolist()), SI_UNITS.get(quantity, ""))
+    _copy(row, repr(plain(si)), SI_UNITS.get(quantity, ""))
 
 
 def title(layout: UILayout, label: str) -> None:

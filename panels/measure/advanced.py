@@ -7,7 +7,6 @@ The moments to a chosen order, sections and shapes are sub-panels of it.
 
 from __future__ import annotations
 
-import numpy as np
 from bpy.types import Context, Object, UILayout
 
 from ...blender.session.live import live
@@ -71,8 +70,8 @@ def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Store
     sizes = {
         "volume": shown.volume,
         "area": shown.area,
-        "center_of_mass": np.abs(shown.body.center).max(),
-        "inertia": shown.body.principal.moments.max(),
+        "center_of_mass": max(map(abs, shown.center)),
+        "inertia": max(shown.moments),
     }
     for heading, bound in BOUNDS:
         column = body.column(align=True)

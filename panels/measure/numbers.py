@@ -23,7 +23,7 @@ RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center
 def numbers(layout: UILayout, context: Context, units: Units, shown: properties.StoredProperties) -> None:
     """Draw mass, volume, area, density and center of the measurement."""
     column = layout.column(align=True)
-    entries = [("Mass", "mass", shown.body.mass)]
+    entries = [("Mass", "mass", shown.mass)]
     length = properties.optional(context.object, "body_length")
     if length is None:
         entries.append(("Volume", "volume", shown.volume))
@@ -41,5 +41,5 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     is_posed = posed.stands_for_meshes(obj) and results.are_meshes_measured(obj, context.scene)
     is_rig = obj.type == "ARMATURE" and not is_posed
     headings = RESTING_HEADINGS if is_rig else CENTER_HEADINGS
-    rows.heading(column, headings[context.scene.body_moments.frame], "length", shown.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", shown.body.center, shown.body.radii_of_gyration.max())
+    rows.heading(column, headings[context.scene.body_moments.frame], "length", shown.center)
+    rows.values(column, units, AXIS_LABELS, "length", shown.center, max(shown.gyration))

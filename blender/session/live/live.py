@@ -15,7 +15,7 @@ Live is switched in memory, too: a property of the object would make Blender rep
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from operator import itemgetter
 
@@ -142,8 +142,8 @@ def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
     if followed is None or followed.result is None or followed.result.measurement is None:
         return None
     measured = followed.result.measurement
-    shown = StoredProperties(
-        measured.density, measured.volume, measured.area, measured.in_object_frame(), measured.error_bound
+    shown = StoredProperties.of_body(
+        measured.in_object_frame(), measured.density, measured.volume, measured.area, measured.error_bound
     )
     if followed.first_order is None and has_transform(obj, followed.transform):
         return shown
@@ -194,13 +194,8 @@ def _mapped(
     axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ shown.body.principal.axes
     image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
     location = now[:3, 3] * unit
-    return replace(
-        shown,
-        density=mass / volume,
-        volume=volume,
-        area=shown.area * stretch ** (2.0 / 3.0),
-        body=image.in_frame(to_own.T, location),
-    )
+    area = shown.area * stretch ** (2.0 / 3.0)
+    return StoredProperties.of_body(image.in_frame(to_own.T, location), mass / volume, volume, area, shown.error_bound)
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:

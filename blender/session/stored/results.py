@@ -171,7 +171,10 @@ def _of_object(obj: Object, scene: Scene, in_own_frame: bool) -> properties.Stor
     if posed.stands_for_meshes(obj) and (posed_body := _of_meshes(obj, scene)) is not None:
         location, turn, _ = obj.matrix_world.decompose()
         own = rotation_matrix(turn), np.array(location, np.float64) * _unit(scene)
-        return replace(posed_body, body=posed_body.body.in_frame(*own)) if in_own_frame else posed_body
+        if not in_own_frame:
+            return posed_body
+        values = posed_body.density, posed_body.volume, posed_body.area, posed_body.error_bound
+        return properties.StoredProperties.of_body(posed_body.body.in_frame(*own), *values)
     shown = live.current_properties(obj, scene)
     if shown is not None:
         return shown if in_own_frame else shown.in_world(obj.matrix_world, _unit(scene))
@@ -206,7 +209,7 @@ def _of_meshes(armature: Object, scene: Scene) -> properties.StoredProperties | 
     volume, area = sum([part.volume for part in parts]), sum([part.area for part in parts])
     bound = _bound_of_sum(parts, body.center, [part.error_bound for part in parts])
     bound["input"] = _bound_of_sum(parts, body.center, [part.error_bound["input"] for part in parts])
-    return properties.StoredProperties(body.mass / volume if volume else 0.0, volume, area, body, bound)
+    return properties.StoredProperties.of_body(body, body.mass / volume if volume else 0.0, volume, area, bound)
 
 
 def _bound_of_sum(parts: Sequence[properties.StoredProperties], center: NDArray, bounds: Sequence[dict]) -> dict:
