@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING
 from ...core.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from . import assembly as assembly
     from . import rig as rig
-    from . import shape_digest as shape_digest
+    from . import shapes as shapes
     from . import total_caveats as total_caveats
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
+    assembly="assembly",
     rig="rig",
-    shape_digest="shape_digest",
+    shapes="shapes",
     total_caveats="total_caveats",
 )

@@ -31,7 +31,7 @@ from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
 from ...read.fingerprint import fingerprint
-from ...read.shape_digest import surface_digest, transform_keys
+from ...read.shapes import surface_digest, transform_keys
 from ...settings.accepted import accepted_codes, with_acceptance
 from ..body import own_moments, with_known
 
