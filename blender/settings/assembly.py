@@ -6,7 +6,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import PropertyGroup
 
-from .given_properties import GivenPartProperties
+from .given import GivenPartProperties
 from .hooks import part_changed
 
 

@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import bpy
 
-from ...core.density.polynomial import Polynomial, parse_polynomial
+from ...core import density as density_engine
 from ...core.measurement.findings import DENSITY_FROM_VALUE
-from ...core.measurement.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
@@ -22,6 +22,10 @@ from .findings import (
     OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
 from .preferences import default_density
+
+if TYPE_CHECKING:
+    from ...core.density.polynomial import Polynomial
+    from ...core.measurement.measurement import Measurement
 
 # Sources of density from the one value of an object, for all or some of its faces.
 _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
@@ -66,7 +70,9 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         return DensityField("materials")
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
-        return DensityField("polynomial", parse_polynomial(text), settings.density_frame == "WORLD", text)
+        return DensityField(
+            "polynomial", density_engine.parse_polynomial(text), settings.density_frame == "WORLD", text
+        )
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
             raise ReadError(DENSITY_VOLUME_MISSING)
