@@ -12,7 +12,8 @@ Values stay numbers, strings, booleans and lists; only the template formats them
     {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of “Cube”
 
 The optional value `sources` (names of the objects that a surface came from, if not the measured object itself) puts
-“A”, “B”: before any message. `accepted` says that a user has judged the finding: a warning is a note then.
+“A”, “B”: before any message. `accepted` says that a user has judged the finding, `slight` that its effect is
+negligible: a warning is a note then.
 """
 
 from __future__ import annotations
@@ -86,6 +87,18 @@ class _Formatter(string.Formatter):
         return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
 
 
+def fill(
+    text: str,
+    plural: str | None,
+    values: Mapping[str, Any],
+    translate: Callable[[str], str] = str,
+    lengths: Callable[[float], str] | None = None,
+) -> str:
+    """Return a template, translated and then filled. plural: the template for a `count` other than 1."""
+    template = text if plural is None or values.get("count") == 1 else plural
+    return _Formatter(translate, lengths).vformat(translate(template), (), values)
+
+
 def sentence(
     finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
 ) -> str:
@@ -94,18 +107,18 @@ def sentence(
     translate: applied to each template before it is filled. lengths: formats a length in meters, by default in meters.
     """
     entry, values = declared(finding.code), finding.values
-    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
     elements = truncate_list(finding.elements, values.get("count"), translate)
-    text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
+    text = fill(entry.text, entry.plural, {**values, "elements": elements}, translate, lengths)
     sources = values.get("sources")
     text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
     return translate(ACCEPTED).format(text) if values.get("accepted") else text
 
 
 def severity(finding: Finding) -> Severity:
-    """Return the severity of a finding, by its code; an accepted warning is a note."""
-    by_code = declared(finding.code).severity
-    return Severity.NOTE if by_code == Severity.WARNING and finding.values.get("accepted") else by_code
+    """Return the severity of a finding, by its code; an accepted or slight warning is a note."""
+    by_code, values = declared(finding.code).severity, finding.values
+    is_lowered = values.get("accepted") or values.get("slight")
+    return Severity.NOTE if by_code == Severity.WARNING and is_lowered else by_code
 
 
 def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:

@@ -35,7 +35,6 @@ from ..findings import (
     FILE_EXISTS,
     NO_IMPORT_FILE,
     OPENVDB_MISSING,
-    POLL_OBJECT_MODE,
     SCAN_CT_NUMBERS,
     SCAN_DRAWN_EVENLY,
     SCAN_IMPORTED,
@@ -120,7 +119,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return True
 
     def execute(self, context: Context) -> set[str]:

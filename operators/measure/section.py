@@ -23,8 +23,6 @@ from ..findings import (
     MEASURED_SECTION,
     MEASURED_SECTION_WITH_WARNINGS,
     MEASURED_SECTIONS,
-    POLL_MEASURE_SECTION,
-    POLL_SECTION,
     SECTION_COPIED,
     STALE_UNIT_SCALE,
     WITH_WARNINGS,
@@ -64,7 +62,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not _objects_with_sections(context):
-            return reports.unavailable(cls, finding(POLL_SECTION))
+            return reports.unavailable(cls, "Select faces in Edit Mode, or a flat mesh, 2D curve or text")
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -113,7 +111,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or record.stored(context.object) is None:
-            return reports.unavailable(cls, finding(POLL_MEASURE_SECTION))
+            return reports.unavailable(cls, "Measure a section first")
         return True
 
     def execute(self, context: Context) -> set[str]:

@@ -17,7 +17,7 @@ from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
 from ...blender.write import properties, reports
-from ...core.solid.findings import FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, INVERTED_COMPONENTS_SLIGHTLY
+from ...core.solid.findings import INVERTED_COMPONENTS
 from ...core.verdict.finding import EditRefusedError, MeasureError, finding
 from ...core.verdict.findings import FLIPPED_FACES
 from .. import selection
@@ -26,14 +26,11 @@ from ..findings import (
     LIBRARY_OVERRIDE_SETTINGS,
     NO_REVERSED_FACES,
     NOTHING_TO_DO,
-    POLL_ACTIVE_MEASURABLE,
-    POLL_ACTIVE_MESH,
-    POLL_OBJECT_MODE,
 )
 from ..measure.select_faults import require_editable_mesh
 
 # Findings whose elements are the faces that were reversed; without elements, all faces were
-REVERSED = (FLIPPED_FACES, FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, INVERTED_COMPONENTS_SLIGHTLY)
+REVERSED = (FLIPPED_FACES, INVERTED_COMPONENTS)
 MILLIMETER = 0.001
 
 
@@ -46,11 +43,11 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 def _poll_active(cls: type[Operator], context: Context, mesh: bool = False) -> bool:
     obj = context.object
     if obj is None or not measurable(obj):
-        return reports.unavailable(cls, finding(POLL_ACTIVE_MEASURABLE))
+        return reports.unavailable(cls, "Make a measurable object active")
     if mesh and obj.type != "MESH":
-        return reports.unavailable(cls, finding(POLL_ACTIVE_MESH))
+        return reports.unavailable(cls, "Make a mesh object active")
     if mesh and context.mode != "OBJECT":
-        return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+        return reports.unavailable(cls, "Switch to Object Mode")
     return True
 
 
@@ -237,7 +234,7 @@ class OBJECT_OT_body_moments_select_refused(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return outcome.last() is not None
 
     def execute(self, context: Context) -> set[str]:

@@ -33,7 +33,6 @@ from ..findings import (
     OBJECT_WITHOUT_GRID,
     OPEN_SURFACE_OF_GRID,
     OUTSIDE_GRID,
-    OUTSIDE_GRID_SLIGHTLY,
 )
 from ..request import Request
 
@@ -104,7 +103,7 @@ def voxel_filled_body(
     ]
     outside = float(1.0 - volume / body.volume.total)
     if outside > MAX_OUTSIDE_SHARE:
-        findings.append(finding(OUTSIDE_GRID_SLIGHTLY if outside < NEGLIGIBLE else OUTSIDE_GRID, share=outside))
+        findings.append(finding(OUTSIDE_GRID, slight=outside < NEGLIGIBLE, share=outside))
     return replace(
         body,
         mass=mass,
