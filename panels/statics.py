@@ -12,9 +12,8 @@ from ..blender.write.units import Units
 from ..core.numerics.float32 import shortest_decimal
 from ..core.statics.resting import RestingPoses
 from ..core.statics.support import Support
-from ..core.verdict.finding import Finding, finding
+from ..core.verdict.finding import Finding
 from . import rows
-from .findings import PANEL_STABILITY_STALE, PANEL_STABILITY_UNKNOWN
 from .places import in_both_places
 
 MAX_POSES = 6  # limit of the list: round bodies have thousands
@@ -30,9 +29,9 @@ class StabilityPanel:
         layout, obj = self.layout, context.object
         layout.use_property_decorate = False
         if not stability.is_known(obj):
-            rows.message(layout, context, finding(PANEL_STABILITY_UNKNOWN))
+            rows.remark(layout, context, "Stability has not been computed.")
         elif stability.is_stale(obj):
-            rows.message(layout, context, finding(PANEL_STABILITY_STALE), icon="FILE_REFRESH")
+            rows.remark(layout, context, "The geometry has changed. Check again.", icon="FILE_REFRESH")
         rows.button(layout, context, "object.body_moments_stability", "CON_FLOOR", short="Check")
         support = stability.support(obj, context.scene)
         if support is not None:

@@ -7,9 +7,7 @@ from __future__ import annotations
 from bpy.types import Context
 
 from ...blender.session.stored import moments as moments_table
-from ...core.verdict.finding import finding
 from .. import rows
-from ..findings import PANEL_ORDERS_COPIED
 from ..places import in_both_places
 from ..settings import setting
 
@@ -41,8 +39,8 @@ class MomentsPanel:
             rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > moments_table.MAX_SHOWN_ORDER:
-            orders = finding(PANEL_ORDERS_COPIED, first=moments_table.MAX_SHOWN_ORDER + 1, last=computed.order)
-            rows.message(layout, context, orders)
+            text, first = "Orders {first} to {last} are only in the copy.", moments_table.MAX_SHOWN_ORDER + 1
+            rows.remark(layout, context, text, first=first, last=computed.order)
         rows.button(layout, context, "object.body_moments_copy_moments", "COPYDOWN", short="Copy as CSV")
 
 

@@ -10,9 +10,7 @@ from ...blender.session.stored import results
 from ...blender.session.tracking import posed
 from ...blender.write import properties
 from ...blender.write.units import Units
-from ...core.verdict.finding import finding
 from .. import rows
-from ..findings import PANEL_DENSITY_MEAN
 
 AXIS_LABELS = ("X", "Y", "Z")
 PRINCIPAL_LABELS = ("1", "2", "3")
@@ -35,7 +33,7 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     rows.quantities(column, units, entries)
     source = properties.density_from(context.object)
     if source:
-        rows.message(column, context, finding(PANEL_DENSITY_MEAN, cause=source), icon="BLANK1")
+        rows.remark(column, context, "Mean density, from {cause}", icon="BLANK1", cause=source)
     column = layout.column(align=True)
     obj = context.object
     is_posed = posed.stands_for_meshes(obj) and results.are_meshes_measured(obj, context.scene)

@@ -14,19 +14,11 @@ from ...blender.session.stored import results, trust
 from ...blender.session.tracking import posed, staleness
 from ...blender.write import properties
 from ...blender.write.translations import localized
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Source
 from ...core.verdict.sentences import METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
 from .. import rows
-from ..findings import (
-    PANEL_LIVE,
-    PANEL_LIVE_BEHIND,
-    PANEL_LIVE_FIRST_ORDER,
-    PANEL_POSED,
-    PANEL_POSED_MISSING,
-    PANEL_POSED_STALE,
-)
 from . import remedies
 
 ICONS = {
@@ -43,9 +35,11 @@ ICONS = {
 SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # prefix for the measured data, before a verdict
 
 LIVE = {
-    live.Lag.NONE: PANEL_LIVE,
-    live.Lag.FIRST_ORDER: PANEL_LIVE_FIRST_ORDER,
-    live.Lag.BEHIND: PANEL_LIVE_BEHIND,
+    live.Lag.NONE: "Live ({milliseconds:.0f} ms). Press Measure to store",
+    live.Lag.FIRST_ORDER: (
+        "Live: mass, volume and center of this frame; inertia follows when it stops ({milliseconds:.0f} ms)"
+    ),
+    live.Lag.BEHIND: "Live lags: measuring takes {milliseconds:.0f} ms, and waits until the edit stops",
 }
 
 
@@ -79,8 +73,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
         if live.is_stale(obj, context.scene):
             rows.stale_row(column, context, STALE_SETTINGS)
             return
-        code = LIVE[live.lag(obj)]
-        rows.message(column, context, finding(code, milliseconds=1e3 * now.seconds), icon="REC")
+        rows.remark(column, context, LIVE[live.lag(obj)], icon="REC", milliseconds=1e3 * now.seconds)
         return
     if now is not None and now.refusal is not None and now.refusal != results.failure(obj):
         rows.message(column, context, now.refusal)
@@ -90,16 +83,17 @@ def verdict(layout: UILayout, context: Context, obj: Object, measured: bool) -> 
 def _posed(column: UILayout, context: Context, armature: Object) -> None:
     """Draw the meshes that an armature deforms, with warnings about missing and outdated numbers."""
     meshes = posed.deformed_meshes(armature)
-    rows.message(column, context, finding(PANEL_POSED, count=len(meshes)), icon="POSE_HLT")
+    texts = "Sum of {count} mesh of the armature", "Sum of {count} meshes of the armature"
+    rows.remark(column, context, *texts, icon="POSE_HLT", count=len(meshes))
     lacking = [mesh.name for mesh in meshes if results.in_world(mesh, context.scene) is None]
     stale = [
         mesh.name
         for mesh in meshes
         if mesh.name not in lacking and trust.trust(mesh, context.scene) == trust.Trust.OUT_OF_DATE
     ]
-    for code, names in ((PANEL_POSED_MISSING, lacking), (PANEL_POSED_STALE, stale)):
+    for text, names in (("Not measured: {objects}", lacking), ("Out of date: {objects}", stale)):
         if names:
-            rows.message(column, context, finding(code, objects=names))
+            rows.remark(column, context, text, icon="ERROR", objects=names)
 
 
 def _headline(column: UILayout, context: Context, obj: Object) -> None:
