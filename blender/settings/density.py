@@ -14,10 +14,8 @@ from ...core.measurement.findings import DENSITY_FROM_VALUE
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
-    DENSITY_ATTRIBUTE_MISSING,
-    DENSITY_FROM_COEFFICIENTS,
     DENSITY_FROM_POLYNOMIAL,
-    DENSITY_VOLUME_MISSING,
+    DENSITY_SOURCE_MISSING,
     OBJECT_DENSITY_USED,
     OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
@@ -55,8 +53,8 @@ class DensityField:
 
         A decimal comma shows here as the coefficients it was taken for.
         """
-        code = DENSITY_FROM_COEFFICIENTS if "," in self.text else DENSITY_FROM_POLYNOMIAL
-        return finding(code, polynomial=self.text, frame=self.frame)
+        text = "({}) · (1, x, y, z, …)".format(self.text) if "," in self.text else self.text
+        return finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
@@ -75,10 +73,10 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         )
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
-            raise ReadError(DENSITY_VOLUME_MISSING)
+            raise ReadError(DENSITY_SOURCE_MISSING, source="Volume Object")
         return DensityField("volume")
     if not settings.density_attribute:
-        raise ReadError(DENSITY_ATTRIBUTE_MISSING)
+        raise ReadError(DENSITY_SOURCE_MISSING, source="Vertex Attribute")
     return DensityField("attribute", attribute=settings.density_attribute)
 
 

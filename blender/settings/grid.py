@@ -11,10 +11,8 @@ from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     POSITIONS_ONLY_AS_DENSITY,
     VALUES_BY_TABLE,
-    VALUES_BY_TABLE_SPLINE,
     VALUES_NEGATIVE,
     VALUES_SCALED,
-    VALUES_SCALED_SPLINE,
 )
 
 
@@ -77,7 +75,6 @@ class GridOptions:
 
     def meaning(self) -> Finding:
         """Return the meaning of a value."""
-        spline = {"order": self.spline_order} if self.spline_order > 1 else {}
         if self.table:
-            return finding(VALUES_BY_TABLE_SPLINE if spline else VALUES_BY_TABLE, **spline)
-        return finding(VALUES_SCALED_SPLINE if spline else VALUES_SCALED, density=self.value_density, **spline)
+            return finding(VALUES_BY_TABLE, order=self.spline_order)
+        return finding(VALUES_SCALED, density=self.value_density, order=self.spline_order)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...core.density.transfer_function import parse_table
 from ...core.scans.positions import AXES, EVEN, Positions
 from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, POSITIONS_OF_OTHER_SAMPLES, VALUES_NON_FINITE_FOR_TABLE
+from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, VALUES_NON_FINITE_FOR_TABLE
 from .grid import GridOptions
 
 
@@ -26,12 +26,10 @@ def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Seque
         return EVEN
     rows: list[NDArray[np.float64] | None] = []
     all_known = _parsed_positions(options.sample_positions)
-    if all_known is None:
-        raise ReadError(POSITIONS_DAMAGED, grid=grid)
     for axis, begin, count in zip(AXES, low, shape):
-        known = all_known.get(axis)
-        if known is not None and not 0 <= begin <= begin + count <= len(known):
-            raise ReadError(POSITIONS_OF_OTHER_SAMPLES, grid=grid, axis=axis, count=len(known))
+        known = None if all_known is None else all_known.get(axis)
+        if all_known is None or known is not None and not 0 <= begin <= begin + count <= len(known):
+            raise ReadError(POSITIONS_DAMAGED, grid=grid)
         rows.append(known)
     x, y, z = rows
     return x, y, z

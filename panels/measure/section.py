@@ -8,7 +8,7 @@ from math import degrees
 
 from bpy.types import Context, UILayout
 
-from ...blender.read.section import SECTION_TYPES
+from ...blender.read.visibility import SECTION_TYPES
 from ...blender.write import section as record
 from ...blender.write.translations import localized
 from ...blender.write.units import SI_UNITS, Units, number

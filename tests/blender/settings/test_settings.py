@@ -70,9 +70,8 @@ def test_values_of_grids_become_densities():
     assert (
         empty_background_note(plain, np.inf) == () and empty_background_note(GridOptions(table="0 0, 4 30"), 0.0) == ()
     )
-    for order, code in ((1, "values_scaled"), (2, "values_scaled_spline")):
-        assert GridOptions(spline_order=order, value_density=2.0).meaning().code == code
-        assert GridOptions(spline_order=order, table="0 1").meaning().code == code.replace("scaled", "by_table")
+    assert GridOptions(spline_order=2, value_density=2.0).meaning().values == {"density": 2.0, "order": 2}
+    assert GridOptions(spline_order=2, table="0 1").meaning().code == "values_by_table"
     assert GridOptions.from_settings(add(bpy.data.volumes.new("Cloud")).body_moments, 0.25).value_density == 0.25
     tabled = set_up("VOLUME", {"values_from": "TABLE"}).body_moments
     assert GridOptions.from_settings(tabled).table and not GridOptions.from_settings(tabled, 1.0).table
