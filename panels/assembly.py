@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..blender.session.stored import assembly as stored_assembly
+from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.assembly import Root, is_assembly, settings_of
 from ..blender.write import properties
 from ..blender.write.translations import localized
@@ -91,7 +91,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
         return
     stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
-    rows.stale_row(layout, context, stored_assembly.stale_reason(root))
+    rows.stale_row(layout, context, stale_reason(root, context.scene))
     remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
     rows.value(layout, units, "Mass", "mass", stored.mass)
     _tree(layout, context, settings)

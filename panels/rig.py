@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Panel, PoseBone, UILayout
 
-from ..blender.session.stored import rig as stored_rig
+from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.units import Units
 from . import rows
@@ -35,7 +35,7 @@ class BonesPanel:
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
         if not properties.is_stored(armature):
             return
-        rows.stale_row(layout, context, stored_rig.stale_reason(armature, context.scene))
+        rows.stale_row(layout, context, stale_reason(armature, context.scene))
         units = Units.from_settings(context.scene.unit_settings)
         stored = [(bone, properties.numbers(bone)) for bone in armature.pose.bones]
         measured = [(bone, numbers[0][0]) for bone, numbers in stored if numbers is not None]
@@ -81,7 +81,7 @@ class BONE_PT_body_moments(Panel):
         elif settings.mass_from == "MASS":
             setting(column, settings, "mass", text="Mass (kg)")
         rows.button(layout, context, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_row(layout, context, stored_rig.stale_reason(bone.id_data, context.scene))
+        rows.stale_row(layout, context, stale_reason(bone.id_data, context.scene))
         _numbers(layout, context, bone)
 
 

@@ -18,7 +18,7 @@ from bpy.types import Context, UILayout
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.measurement.documents import plain
-from ..core.verdict.finding import Finding, Severity, finding
+from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import fill, severity
 from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
 
@@ -223,13 +223,12 @@ def remark(
     sentence(layout, context, fill(text, plural, values, localized, lengths), icon, boxed)
 
 
-def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
+def stale_row(layout: UILayout, context: Context, reason: str | None) -> None:
     """Draw the reason why numbers are out of date, if any."""
-    if code is not None:
+    if reason is not None:
         row = layout.row()
         row.alert = True
-        reason = localized_sentence(finding(code), context.scene.unit_settings)
-        sentence(row, context, localized("Out of date: {:s}").format(reason), icon="FILE_REFRESH")
+        sentence(row, context, localized("Out of date: {:s}").format(localized(reason)), icon="FILE_REFRESH")
 
 
 def fits(share: float, *cells: str) -> bool:

@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session.tracking import staleness
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import of_symmetry
 from ..blender.write.translations import localized
 from ..core.verdict.finding import truncate
 from ..core.verdict.sentences import SIMILARITY
@@ -52,7 +53,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_row(column, context, staleness.symmetry_stale_reason(obj))
+    rows.stale_row(column, context, stale_reason(obj, context.scene, of_symmetry))
     if stored.compatible != stored.group:
         text = "Moments to order 6 alone allow {group}"
         rows.remark(column, context, text, icon="BLANK1", group=stored.compatible)

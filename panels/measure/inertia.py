@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ...blender.session.stored import results
+from ...blender.session.displayed import displayed
 from ...blender.write import properties
 from ...blender.write.units import Units
 from .. import rows
@@ -29,15 +29,16 @@ class InertiaPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.object is not None and results.of_object(context.object, context.scene) is not None
+        return context.object is not None and displayed(context.object, context.scene) is not None
 
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
         layout.use_property_decorate = False
         units = Units.from_settings(scene.unit_settings)
-        shown = results.of_object(context.object, scene)
-        if shown is None:
+        current = displayed(context.object, scene)
+        if current is None:
             return
+        shown = current.in_frame(scene.body_moments.frame)
         layout.row().prop(scene.body_moments, "frame", expand=True)
         column = layout.column(align=True)
         moments = shown.moments
