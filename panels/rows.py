@@ -20,7 +20,6 @@ from ..blender.write.units import SI_UNITS, Units
 from ..core.measurement.documents import plain
 from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import fill, severity
-from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
 
 # share of a row that its label takes, one of few letters, and of one
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
@@ -166,7 +165,7 @@ def _right(layout: UILayout, text: str) -> None:
 
 
 def _copy(row: UILayout, exact: str, unit: str) -> None:
-    button = row.operator(OBJECT_OT_body_moments_copy_value.bl_idname, text="", icon="COPYDOWN", emboss=False)
+    button = row.operator("object.body_moments_copy_value", text="", icon="COPYDOWN", emboss=False)
     button.value = exact
     button.unit = unit
 

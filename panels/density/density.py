@@ -11,12 +11,13 @@ import bpy
 from bpy.types import Context, Object, Scene, UILayout
 
 from ...blender.read.visibility import GEOMETRY_TYPES
-from ...blender.session.stored import walls as wall_slider
+from ...blender.session import stored
 from ...blender.settings.given import shows_collection
 from ...blender.settings.preferences import default_material
 from ...blender.settings.properties import density_field_name
 from ...blender.write.translations import CONTEXT
 from ...blender.write.units import Units
+from ...core.lazy import loaded_module
 from .. import rows
 from ..places import in_both_places
 from ..settings import setting
@@ -118,10 +119,11 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
 
 def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
     """Draw the largest thickness of the wall, once it is known."""
-    limit = wall_slider.max_thickness(obj)
+    walls = loaded_module(stored, "walls")
+    limit = None if walls is None else walls.max_thickness(obj)
     if limit is None:
         return
-    folds = wall_slider.is_too_thick(obj)
+    folds = walls.is_too_thick(obj)
     row = layout.row()
     row.alert = folds
     if folds:
