@@ -10,9 +10,7 @@ from ...blender.read.visibility import measurable
 from ...blender.session import live
 from ...blender.session.tracking import posed
 from ...blender.write import reports
-from ...core.verdict.finding import finding
 from .. import selection
-from ..findings import POLL_SELECT_OBJECTS
 from ..modal import redraw
 
 
@@ -30,7 +28,7 @@ class OBJECT_OT_body_moments_live(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or not _subjects(context):
-            return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
+            return reports.unavailable(cls, "Select objects")
         return True
 
     def execute(self, context: Context) -> set[str]:

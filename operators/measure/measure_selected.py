@@ -22,13 +22,10 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity, finding
 from ...core.verdict.sentences import of_severity
 from ..findings import (
-    CANCELED_MEASURING,
     MEASURED_ONE,
     MEASURED_ONE_WITH_WARNINGS,
     MEASURED_SEVERAL,
     OBJECT_WARNINGS,
-    POLL_SELECT_OBJECTS,
-    PROGRESS_MEASURING,
     WITH_WARNINGS,
 )
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
@@ -42,8 +39,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_MEASURING)
-    CANCELED = finding(CANCELED_MEASURING)
+    PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
+    CANCELED = "Measuring canceled; nothing was changed"
 
     # Settings for the redo panel; by default the objects keep their own settings.
     material: EnumProperty(
@@ -79,7 +76,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not context.selected_objects:
-            return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
+            return reports.unavailable(cls, "Select objects")
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:

@@ -28,8 +28,6 @@ from .. import selection
 from ..findings import (
     MOMENTS_COMPUTED,
     MOMENTS_COPIED,
-    POLL_ACTIVE_MEASURABLE,
-    POLL_COMPUTE_MOMENTS,
     WIRE_WITHOUT_MOMENTS,
 )
 from .copy import copy_text
@@ -38,7 +36,7 @@ from .copy import copy_text
 def _active(cls: type[Operator], context: Context) -> Object | None:
     obj = context.object
     if obj is None or not measurable(obj):
-        reports.unavailable(cls, finding(POLL_ACTIVE_MEASURABLE))
+        reports.unavailable(cls, "Make a measurable object active")
         return None
     return obj
 
@@ -129,7 +127,7 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
         obj = _active(cls, context)
         if obj is None:
             return False
-        return computed_moments(obj) is not None or reports.unavailable(cls, finding(POLL_COMPUTE_MOMENTS))
+        return computed_moments(obj) is not None or reports.unavailable(cls, "Compute the moments first")
 
     def execute(self, context: Context) -> set[str]:
         settings, computed = context.scene.body_moments, computed_moments(context.object)

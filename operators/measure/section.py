@@ -9,7 +9,7 @@ from bpy.types import Context, Depsgraph, Object, Operator
 
 from ...blender.bodies.flat.flat import area_findings, flat_region
 from ...blender.read.fingerprint import fingerprint, matrix_hash, settings_hash
-from ...blender.read.section import SECTION_TYPES
+from ...blender.read.visibility import SECTION_TYPES
 from ...blender.session.stored import outcome
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
@@ -22,8 +22,6 @@ from ..findings import (
     MEASURED_SECTION,
     MEASURED_SECTION_WITH_WARNINGS,
     MEASURED_SECTIONS,
-    POLL_MEASURE_SECTION,
-    POLL_SECTION,
     SECTION_COPIED,
     WITH_WARNINGS,
 )
@@ -55,7 +53,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not _objects_with_sections(context):
-            return reports.unavailable(cls, finding(POLL_SECTION))
+            return reports.unavailable(cls, "Select faces in Edit Mode, or a flat mesh, 2D curve or text")
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -104,7 +102,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or record.stored(context.object) is None:
-            return reports.unavailable(cls, finding(POLL_MEASURE_SECTION))
+            return reports.unavailable(cls, "Measure a section first")
         return True
 
     def execute(self, context: Context) -> set[str]:

@@ -33,10 +33,8 @@ from ...core.shape.symmetries import Symmetry
 from ...core.verdict.finding import Finding, finding
 from .. import selection
 from ..findings import (
-    CANCELED_SEARCH,
     LIBRARY_OVERRIDE_SYMMETRY,
     NOTHING_MEASURABLE,
-    PROGRESS_SYMMETRY,
     SYMMETRY_AXES,
     SYMMETRY_FOUND,
     SYMMETRY_FOUND_OF_DISPLAY_MESH,
@@ -95,8 +93,8 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         "allow and the surface, or of flat shapes the outline, confirms"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_SYMMETRY)
-    CANCELED = finding(CANCELED_SEARCH)
+    PROGRESS = "Finding symmetry: {share:.0%}. Esc to cancel"
+    CANCELED = "Search canceled; nothing was changed"
 
     tolerance: FloatProperty(
         name="Tolerance",

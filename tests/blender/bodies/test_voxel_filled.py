@@ -59,7 +59,7 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.volume == pytest.approx(8.0)
     assert found.density == pytest.approx(part.mean(), rel=1e-12)
     assert found.error_bound["estimated"]
-    meaning = finding("values_scaled", density=1.0).as_record()
+    meaning = finding("values_scaled", density=1.0, order=1).as_record()
     assert said(found) == {"grid_density_of": {"grid": "density", "object": volume.name, "cause": meaning}}
     volume.body_moments.spline_order = 4  # voxels fill what is inside of them whatever a grid by itself is taken for
     assert said(measure(box)) == said(found) and measure(box).mass_properties.mass == found.mass_properties.mass
