@@ -4,14 +4,6 @@
 
 from ...core.verdict.finding import error, note, warning
 
-COMPONENTS_NESTED_SLIGHTLY = note(
-    "components_nested_slightly",
-    "{count} outward component lies inside another; the shared space counts twice.",
-    "{count} outward components lie inside others; the shared space counts twice.",
-)
-COMPONENTS_OVERLAP_SLIGHTLY = note(
-    "components_overlap_slightly", "{count} components overlap; the shared space counts twice."
-)
 NON_PLANAR_FACES_OF_DISPLAY_MESH = note(
     "non_planar_faces_of_display_mesh",
     "Non-planar faces of the display mesh: their triangulation can change the volume by up to {share:percent}.",
@@ -20,11 +12,6 @@ DUPLICATE_FACES_OF_SHELL = warning(
     "duplicate_faces_of_shell",
     "{count} duplicate face counts as material. Delete it.",
     "{count} duplicate faces count as material. Delete them.",
-)
-DUPLICATE_FACES_OF_SHELL_SLIGHTLY = note(
-    "duplicate_faces_of_shell_slightly",
-    "{count} duplicate face counts as material.",
-    "{count} duplicate faces count as material.",
 )
 UNION_BY_BOOLEAN = note(
     "union_by_boolean", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits."
@@ -35,9 +22,6 @@ UNION_FAILED = error(
 )
 HOLES_CAPPED_BEFORE_UNION = warning(
     "holes_capped_before_union", "Holes capped before uniting ({share:percent} of the area)."
-)
-HOLES_CAPPED_BEFORE_UNION_SLIGHTLY = note(
-    "holes_capped_before_union_slightly", "Holes capped before uniting ({share:percent} of the area)."
 )
 FACES_REVERSED_BEFORE_UNION = warning(
     "faces_reversed_before_union", "Faces were turned outward before uniting. Use Mesh > Normals > Recalculate Outside."
@@ -71,11 +55,6 @@ FLAT_INSTANCE_SOURCES = warning(
     "{count} of {total} surfaces is flat: its area counts, its volume does not.",
     "{count} of {total} surfaces are flat: their areas count, their volumes do not.",
 )
-FLAT_INSTANCE_SOURCES_SLIGHTLY = note(
-    "flat_instance_sources_slightly",
-    "{count} of {total} surfaces is flat and has no volume.",
-    "{count} of {total} surfaces are flat and have no volume.",
-)
 CURVE_NOT_FILLED = note("curve_not_filled", "The curve is not filled; the flat region that it bounds was measured.")
 CURVE_FILL_MEASURED = warning(
     "curve_fill_measured", "Blender's fill of the curves was measured, overlapping or not: {cause}"
@@ -100,10 +79,6 @@ WALL_FACES_REVERSED = warning(
 )
 WALL_THICKNESS_VARIES = warning(
     "wall_thickness_varies",
-    "At corners of more than three planes the wall is {minimum:.3g} to {maximum:.3g} times as thick.",
-)
-WALL_THICKNESS_VARIES_SLIGHTLY = note(
-    "wall_thickness_varies_slightly",
     "At corners of more than three planes the wall is {minimum:.6g} to {maximum:.6g} times as thick.",
 )
 WALL_FACES_WITHOUT_AREA = warning(
@@ -191,19 +166,11 @@ MIXED_MATERIAL_COMPONENTS = warning(
     "{count} of {total} components have several materials and take their means by area. Use Mesh > Separate >"
     " By Material.",
 )
-MIXED_MATERIALS_SLIGHTLY = note(
-    "mixed_materials_slightly",
-    "{count} of {total} components has several materials and takes their mean by area.",
-    "{count} of {total} components have several materials and take their means by area.",
-)
 OVERLAPPING_DENSITIES = warning(
     "overlapping_densities", "Densities add up where components overlap. Cut a cavity for each insert."
 )
 CAVITY_MATERIAL_IGNORED = warning(
     "cavity_material_ignored", "Materials of cavity faces are ignored: a cavity removes the surrounding material."
-)
-CAVITY_MATERIAL_IGNORED_SLIGHTLY = note(
-    "cavity_material_ignored_slightly", "Materials of the faces of small cavities are ignored."
 )
 SHEARED_DENSITY_AXES = warning(
     "sheared_density_axes",
@@ -267,9 +234,6 @@ DENSITY_GRID_ELSEWHERE = error(
 )
 OUTSIDE_GRID = warning(
     "outside_grid", "{share:percent} of the volume is outside the grid and counts as empty. Enlarge the grid."
-)
-OUTSIDE_GRID_SLIGHTLY = note(
-    "outside_grid_slightly", "{share:percent} of the volume is outside the grid and counts as empty."
 )
 DENSITY_GRID_TOO_FINE = error(
     "density_grid_too_fine",
@@ -369,9 +333,6 @@ SECTION_FACES_OVERLAP = warning(
 SECTION_OVERLAP_UNCHECKED = warning("section_overlap_unchecked", "Too many edges to check all for overlap.")
 SECTION_PROJECTED = warning(
     "section_projected", "Points up to {share:percent} of the size off the plane were projected. Flatten the faces."
-)
-SECTION_PROJECTED_SLIGHTLY = note(
-    "section_projected_slightly", "Points up to {share:percent} of the size off the plane were projected."
 )
 SECTION_FILL_WRONG = warning(
     "section_fill_wrong",

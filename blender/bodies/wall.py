@@ -42,7 +42,6 @@ from .findings import (
     WALL_NEEDS_ONE_DENSITY,
     WALL_OVERLAP_UNCHECKED,
     WALL_THICKNESS_VARIES,
-    WALL_THICKNESS_VARIES_SLIGHTLY,
     WALL_UNORIENTED,
     WALLS_OVERLAP,
 )
@@ -157,8 +156,7 @@ class Walls:
         maximum = float(max(piece.offset.max_ratio for piece in self.pieces))
         if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
             slight = self._unevenness() < NEGLIGIBLE
-            code = WALL_THICKNESS_VARIES_SLIGHTLY if slight else WALL_THICKNESS_VARIES
-            findings.append(finding(code, minimum=minimum, maximum=maximum))
+            findings.append(finding(WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum))
         ignored = sum(piece.offset.degenerate_triangles for piece in self.pieces)
         if ignored:
             findings.append(finding(WALL_FACES_WITHOUT_AREA, count=ignored))

@@ -37,7 +37,6 @@ from ..findings import (
     ATTRIBUTE_NEGATIVE,
     ATTRIBUTE_NON_FINITE,
     CAVITY_MATERIAL_IGNORED,
-    CAVITY_MATERIAL_IGNORED_SLIGHTLY,
     DENSITY_ATTRIBUTE_OF_SOLID,
     DENSITY_FROM_ATTRIBUTE,
     DENSITY_FROM_MATERIALS,
@@ -50,7 +49,6 @@ from ..findings import (
     MATERIALS_OF_UNION,
     MIXED_MATERIAL_COMPONENT,
     MIXED_MATERIAL_COMPONENTS,
-    MIXED_MATERIALS_SLIGHTLY,
     OVERLAPPING_DENSITIES,
 )
 from ..mesh.instances import area_of_instances, findings_by_part
@@ -270,7 +268,7 @@ def _solid_moments(
         has_foreign_material = bool(foreign.any())
         is_slight = bool(part_density.most_by_area[foreign].sum() < negligible)
     if has_foreign_material:
-        findings.append(finding(CAVITY_MATERIAL_IGNORED_SLIGHTLY if is_slight else CAVITY_MATERIAL_IGNORED))
+        findings.append(finding(CAVITY_MATERIAL_IGNORED, slight=is_slight))
     return moments, findings, mixed
 
 
@@ -295,10 +293,9 @@ def _mixed_parts_notes(
     if not len(which):
         return []
     first = np.sort(part_density.first_face[which])
-    if part_density.range_by_area[which].sum() < negligible:
-        return [finding(MIXED_MATERIALS_SLIGHTLY, first, count=len(which), total=parts.number)]
-    if len(which) > 1:
-        return [finding(MIXED_MATERIAL_COMPONENTS, first, count=len(which), total=parts.number)]
+    slight = bool(part_density.range_by_area[which].sum() < negligible)
+    if slight or len(which) > 1:
+        return [finding(MIXED_MATERIAL_COMPONENTS, first, slight=slight, count=len(which), total=parts.number)]
     component = int(which[0])
     faces = np.unique(parts.face[(parts.part == component) & (parts.face >= 0)])
     materials, density = sorted(set(names[faces].tolist())), float(part_density.density[component])

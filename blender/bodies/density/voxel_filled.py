@@ -32,7 +32,6 @@ from ..findings import (
     OBJECT_WITHOUT_GRID,
     OPEN_SURFACE_OF_GRID,
     OUTSIDE_GRID,
-    OUTSIDE_GRID_SLIGHTLY,
 )
 from ..request import Request
 
@@ -103,7 +102,7 @@ def voxel_filled_body(
     ]
     outside = float(1.0 - volume / body.volume.total)
     if outside > MAX_OUTSIDE_SHARE:
-        findings.append(finding(OUTSIDE_GRID_SLIGHTLY if outside < NEGLIGIBLE else OUTSIDE_GRID, share=outside))
+        findings.append(finding(OUTSIDE_GRID, slight=outside < NEGLIGIBLE, share=outside))
     return replace(
         body,
         mass=mass,
