@@ -32,11 +32,9 @@ from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.reference import ReferenceChoice
 from ...write.units import number
 from ..findings import (
-    INVARIANTS_OF_FLAT,
     INVARIANTS_ORDER,
     MASS_MOMENTS_UNKNOWN,
-    MOMENTS_OF_FLAT,
-    MOMENTS_OVERFLOW_AT_ORIGIN,
+    MOMENTS_OF_AREA_ONLY,
 )
 from ..tracking import staleness, stamps, updates
 from ..tracking.cache import SessionCache
@@ -216,7 +214,7 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     Raises MeasureError if the object is not flat, or the order is below 3.
     """
     if of != "FLAT":
-        raise ReadError(INVARIANTS_OF_FLAT)
+        raise ReadError(MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:
         raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
@@ -245,7 +243,7 @@ def in_frame(
             moments = _select_moments(computed, of).truncate(order)
             moments = moments.in_frame(reference.axes, reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-        raise ReadError(MOMENTS_OVERFLOW_AT_ORIGIN, order=order)
+        raise ReadError(MOMENTS_OVERFLOW, order=order)
     return moments
 
 
@@ -256,7 +254,9 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
         if of == "FLAT":
             assert computed.not_flat is not None
             raise ReadError(computed.not_flat)
-        raise ReadError(MASS_MOMENTS_UNKNOWN if computed.volume else MOMENTS_OF_FLAT, order=computed.order)
+        if computed.volume is None:
+            raise ReadError(MOMENTS_OF_AREA_ONLY)
+        raise ReadError(MASS_MOMENTS_UNKNOWN, order=computed.order)
     return moments
 
 
