@@ -41,17 +41,9 @@ from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
-
-
 HU_ORDER = 3  # order of Hu's invariants
-
-
 MAX_CACHED_OBJECTS = 16  # objects
-
-
 ZERO_DISPLAY_RTOL = 1e-12  # relative to the largest moment of a degree: shown as 0
-
-
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -119,7 +111,6 @@ Display = tuple[tuple[Degree, ...], Finding | None]  # a panel's degrees, and th
 NOTHING: Display = ((), None)
 
 _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
-_displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS)  # and what they show
 
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
@@ -143,7 +134,6 @@ def stamp_of(obj: Object) -> Stamp | None:
 def current_numbers(obj: Object, scene: Scene) -> Display:
     """Return the moments to MAX_SHOWN_ORDER by the scene's settings, and the reason if there are none."""
     settings = scene.body_moments
-    # A panel is drawn at every movement of the mouse.
     computed = computed_moments(obj)
     reference: Reference | None = None
     if computed is None:
@@ -153,12 +143,7 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
             reference = reference_of(obj, computed, scene)
         except MeasureError as error:
             return (), error.finding
-    place = None if reference is None else (reference.origin.tobytes(), reference.axes.tobytes())
-    request = (computed, settings.moments_of, settings.moments_about, settings.frame, place)
-    cached = _displays.get(obj)
-    if cached is None or cached[0] != request:
-        cached = _displays[obj] = (request, _displayed_degrees(*request[:4], reference))
-    return cached[1]
+    return _displayed_degrees(computed, settings.moments_of, settings.moments_about, settings.frame, reference)
 
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
