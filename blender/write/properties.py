@@ -463,6 +463,12 @@ def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
     return tuple(values)
 
 
+def stored(obj: Owner) -> StoredProperties | None:
+    """Return the stored results, in the object frame; None if a number is missing or not finite."""
+    values = numbers(obj)
+    return None if values is None else from_numbers(values)
+
+
 def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
     """Return the results that `numbers` has read, in the object frame."""
     (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read

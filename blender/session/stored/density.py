@@ -18,7 +18,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
-from ...read.fingerprint import given_density, settings_hash, settings_hash_with
+from ...read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
 from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
@@ -59,7 +59,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     The scene's unit scale and default density count.
     """
     stamp = stamps.of_results(obj)
-    if stamp is None or not stamp.is_valid or "body_density_from" in obj or not _can_store(obj):
+    if stamp is None or stamp.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return
     numbers = properties.numbers(obj)
     if numbers is None:

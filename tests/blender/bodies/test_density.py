@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.density.polynomial import parse_polynomial
 from body_moments.core.inertia.mass_properties import combine
@@ -270,7 +271,7 @@ def test_material_set_by_modifier_counts_and_makes_stale():
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     steel.body_moments.density = 8000.0
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
 
 
 def test_geometry_nodes_instances_bring_their_materials():
