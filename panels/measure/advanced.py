@@ -11,7 +11,7 @@ from bpy.types import Context, Object, UILayout
 
 from ...blender.session.displayed import displayed
 from ...blender.write import properties
-from ...blender.write.units import SI_UNITS, Units
+from ...blender.write.units import Units
 from .. import rows
 from ..places import in_both_places
 
@@ -77,14 +77,12 @@ def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Store
         column = body.column(align=True)
         column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
         values = shown.error_bound if bound is None else shown.error_bound[bound]
-        rows.table(
-            column,
-            [
-                (label, units.bound(quantity, values[name], sizes[name]), repr(values[name]), SI_UNITS[quantity])
-                for name, (label, quantity) in BOUND_LABELS.items()
-                if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
-            ],
-        )
+        entries = [
+            (label, quantity, values[name], sizes[name])
+            for name, (label, quantity) in BOUND_LABELS.items()
+            if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
+        ]
+        rows.bounds(column, units, entries)
 
 
 CLASSES = VIEW3D_PT_body_moments_advanced, OBJECT_PT_body_moments_advanced = in_both_places(AdvancedPanel, "advanced")

@@ -11,7 +11,6 @@ from ...blender.session.tracking.staleness import stale_reason
 from ...core.lazy import loaded_module
 from .. import rows
 from ..places import in_both_places
-from ..settings import setting
 
 
 class MomentsPanel:
@@ -24,10 +23,10 @@ class MomentsPanel:
         layout, obj, settings = self.layout, context.object, context.scene.body_moments
         layout.use_property_decorate = False
         column = layout.column()
-        setting(column, settings, "moments_order")
-        setting(column, settings, "moments_of")
-        setting(column, settings, "moments_about")
-        setting(column, settings, "frame", expand=True)
+        rows.setting(column, settings, "moments_order")
+        rows.setting(column, settings, "moments_of")
+        rows.setting(column, settings, "moments_about")
+        rows.setting(column, settings, "frame", expand=True)
         rows.button(layout, context, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         table = loaded_module(stored, "moments")
         computed = None if table is None else table.computed_moments(obj)
