@@ -16,13 +16,13 @@ from ...blender.bodies.findings import (
     DUPLICATE_FACES_OF_SHELL,
     FACES_REVERSED_BEFORE_UNION,
     HOLES_CAPPED_BEFORE_UNION,
-    NO_VOLUME,
 )
 from ...blender.session.stored import outcome
 from ...blender.write.properties import StoredProperties
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
 from ...core.inertia.findings import NEGATIVE_INERTIA
+from ...core.measurement.findings import NO_VOLUME
 from ...core.solid.findings import (
     COMPONENTS_NESTED,
     COMPONENTS_OVERLAP,

@@ -50,7 +50,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
         with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:
                 raise ReadError(OBJECT_WITHOUT_GRID)
-            filled = voxel_filled_body(body, volume, grid, request.unit, name, order)
+            filled = voxel_filled_body(body, volume, grid, request.settings.unit, name, order)
             origin = finding(DENSITY_FROM_GRID_OF, grid=volume.grid, object=source.name)
             return replace(filled, density_from=origin)
     except MeasureError as error:

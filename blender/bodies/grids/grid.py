@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.density.spline_grid import Blocks, grid_moments
+from ....core.measurement.body import Body
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments
 from ....core.scans.positions import AXES, EVEN, Positions
@@ -25,7 +26,7 @@ from ...read.tracking import tracking_paused
 from ...settings.digest import density_key, grid_key
 from ...settings.grid import GridOptions
 from ...settings.grid_values import density_function, empty_background_note, sample_positions
-from ..body import MAX_MASS_MOMENT, Body, MeshBody
+from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
     DENSITY_FROM_GRID,
     GRID_AS_SHELL,
@@ -109,7 +110,7 @@ def read(request: Request) -> VolumeReading | None:
         reading = opened.enter_context(volume_reading(obj, request.depsgraph, obj.body_moments.grid))
         if reading is None:
             return None
-        if request.options.kind != "solid":
+        if request.settings.kind != "solid":
             raise ReadError(GRID_AS_SHELL)
         request.opened.push(opened.pop_all())
     return reading
@@ -117,10 +118,10 @@ def read(request: Request) -> VolumeReading | None:
 
 def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
-    obj, density, options = request.obj, request.given.density, request.options
+    obj, density, options = request.obj, request.given.density, request.settings
     order = KNOWN_ORDER if options.order is None else options.order
     made = grid_body(
-        reading, GridOptions.from_settings(obj.body_moments, density), request.unit, options.threads, order
+        reading, GridOptions.from_settings(obj.body_moments, density), request.settings.unit, options.threads, order
     )
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)

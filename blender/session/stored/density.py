@@ -15,27 +15,24 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
-from ...read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
+from ...read.fingerprint import VERSION, current_settings
 from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
 from .. import stored
-from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULT_KEPT, LINEAR_DENSITY_DEFAULTED
+from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED
 from ..tracking import staleness, stamps
 
 if TYPE_CHECKING:
     from ....core.measurement.measurement import Measurement
 
 DEFAULTS = {  # notes on an unset density, by the setting
-    "density": finding(DENSITY_DEFAULT_KEPT),
-    "linear_density": finding(LINEAR_DENSITY_DEFAULT_KEPT),
+    "density": finding(DENSITY_DEFAULT_KEPT, density="1000 kg/m³"),
+    "linear_density": finding(DENSITY_DEFAULT_KEPT, density="1 kg/m"),
 }
-OF_DEFAULT_DENSITY = frozenset(
-    {DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULTED, *(note.code for note in DEFAULTS.values())}
-)
+OF_DEFAULT_DENSITY = frozenset({DENSITY_DEFAULTED, DENSITY_DEFAULT_KEPT})
 
 
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
@@ -70,19 +67,18 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
         return  # no mass multiplies it
     mass = numbers[0][0]
-    if stamp.settings not in (
-        settings_hash_with(obj, scene, mass / extent, None),
-        settings_hash_with(obj, scene, None, mass),
-    ):
+    present = current_settings(obj, scene)
+    weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
+    if stamp.settings not in [replace(present, **weight).digest for weight in weights]:
         return
-    now, findings = settings_hash(obj, scene), _findings(obj, scene)
+    now, findings = present.digest, _findings(obj, scene)
     if now == stamp.settings:  # a measured density may have more digits than the setting holds
         if findings != list(properties.findings(obj)):
             properties.store_findings(obj, findings)
         return
     settings = obj.body_moments
-    is_mass_given = settings.mass_from == "MASS"
-    density = shortest_decimal(settings.mass) / extent if is_mass_given else given_density(obj, scene)
+    density = present.density if present.mass is None else present.mass / extent
+    assert density is not None
     mass_now = density * extent
     if not 0.0 < mass_now < float("inf"):
         return

@@ -32,28 +32,18 @@ from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.reference import ReferenceChoice
 from ...write.units import number
 from ..findings import (
-    INVARIANTS_OF_FLAT,
     INVARIANTS_ORDER,
     MASS_MOMENTS_UNKNOWN,
-    MOMENTS_OF_FLAT,
-    MOMENTS_OVERFLOW_AT_ORIGIN,
+    MOMENTS_OF_AREA_ONLY,
 )
 from ..tracking import staleness, stamps, updates
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
-
-
 HU_ORDER = 3  # order of Hu's invariants
-
-
 MAX_CACHED_OBJECTS = 16  # objects
-
-
 ZERO_DISPLAY_RTOL = 1e-12  # relative to the largest moment of a degree: shown as 0
-
-
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -121,7 +111,6 @@ Display = tuple[tuple[Degree, ...], Finding | None]  # a panel's degrees, and th
 NOTHING: Display = ((), None)
 
 _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
-_displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS)  # and what they show
 
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
@@ -145,7 +134,6 @@ def stamp_of(obj: Object) -> Stamp | None:
 def current_numbers(obj: Object, scene: Scene) -> Display:
     """Return the moments to MAX_SHOWN_ORDER by the scene's settings, and the reason if there are none."""
     settings = scene.body_moments
-    # A panel is drawn at every movement of the mouse.
     computed = computed_moments(obj)
     reference: Reference | None = None
     if computed is None:
@@ -155,12 +143,7 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
             reference = reference_of(obj, computed, scene)
         except MeasureError as error:
             return (), error.finding
-    place = None if reference is None else (reference.origin.tobytes(), reference.axes.tobytes())
-    request = (computed, settings.moments_of, settings.moments_about, settings.frame, place)
-    cached = _displays.get(obj)
-    if cached is None or cached[0] != request:
-        cached = _displays[obj] = (request, _displayed_degrees(*request[:4], reference))
-    return cached[1]
+    return _displayed_degrees(computed, settings.moments_of, settings.moments_about, settings.frame, reference)
 
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
@@ -216,7 +199,7 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     Raises MeasureError if the object is not flat, or the order is below 3.
     """
     if of != "FLAT":
-        raise ReadError(INVARIANTS_OF_FLAT)
+        raise ReadError(MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:
         raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
@@ -245,7 +228,7 @@ def in_frame(
             moments = _select_moments(computed, of).truncate(order)
             moments = moments.in_frame(reference.axes, reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-        raise ReadError(MOMENTS_OVERFLOW_AT_ORIGIN, order=order)
+        raise ReadError(MOMENTS_OVERFLOW, order=order)
     return moments
 
 
@@ -256,7 +239,9 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
         if of == "FLAT":
             assert computed.not_flat is not None
             raise ReadError(computed.not_flat)
-        raise ReadError(MASS_MOMENTS_UNKNOWN if computed.volume else MOMENTS_OF_FLAT, order=computed.order)
+        if computed.volume is None:
+            raise ReadError(MOMENTS_OF_AREA_ONLY)
+        raise ReadError(MASS_MOMENTS_UNKNOWN, order=computed.order)
     return moments
 
 

@@ -122,7 +122,7 @@ def test_new_member_frames_keep_assembly_current(operator, options, kept):
     assert getattr(bpy.ops.object, "body_moments_" + operator)(**options) == {"FINISHED"}
     assert all(obj.matrix_world != was for obj, was in zip(root.all_objects, before))
     assert staleness.stale_reason(root, bpy.context.scene) == (None if kept else Stale.MEMBER)
-    assert staleness.stale_reason(bpy.data.collections["Arm"]) == (None if kept else Stale.MEMBER)
+    assert staleness.stale_reason(bpy.data.collections["Arm"], bpy.context.scene) == (None if kept else Stale.MEMBER)
     bpy.data.objects["b1"].location.x += 1.0
     bpy.context.view_layer.update()
     assert staleness.stale_reason(root, bpy.context.scene) == Stale.MEMBER
