@@ -11,8 +11,7 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
-from ...core.density.density_units import DENSITY_UNITS, density_unit
-from ...core.density.materials import BY_NAME, CT_DENSITIES
+from ...core.density.materials import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
 from ...core.numerics.float32 import shortest_decimal
 from .density import object_density
 from .given import GIVEN_PROPERTIES, GivenPartProperties, is_point_mass

@@ -8,7 +8,7 @@ Inertia and moments are shown about the reference.
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty, PointerProperty
 from bpy.types import Object, PropertyGroup, Scene
 
-from ...core.polyhedron.limits import MAX_ORDER
+from ...core.measurement.documents import MAX_ORDER
 from .preferences import BodyMomentsPreferences, SceneDefaults
 from .properties import TRANSLATION_CONTEXT
 
