@@ -20,6 +20,7 @@ from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
+MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
