@@ -9,6 +9,6 @@ They draw stored or cached values and compute nothing.
 MODULES = (
     *("manual", "menus", "material_menus", "measure.body", "measure.inertia", "density", "statics"),
     *("measure.selection", "assembly", "rig", "measure.advanced"),
-    *("measure.moments", "measure.section", "shape"),  # sub-panels of `measure.advanced`
+    *("measure.section", "shape"),  # sub-panels of `measure.advanced`
     *("overlay.popover", "overlay.draw"),
 )

@@ -20,6 +20,7 @@ from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
+MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd", "gltf")  # `core/robots/write/formats.py` has what writes them
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 

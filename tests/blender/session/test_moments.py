@@ -36,10 +36,8 @@ def settings(**values):
 
 
 def drawn():
-    from body_moments.panels.measure.moments import VIEW3D_PT_body_moments_orders as panel
-
     layout = Layout()
-    panel.draw(SimpleNamespace(layout=layout), bpy.context)
+    bpy.types.VIEW3D_PT_body_moments_orders.draw(SimpleNamespace(layout=layout), bpy.context)
     return layout.record
 
 
