@@ -9,8 +9,8 @@ unregistered.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Generic, TypeVar
+from collections.abc import Callable, Iterator
+from typing import Any, Generic, TypeVar
 
 from bpy.types import ID
 
@@ -63,6 +63,14 @@ class SessionCache(Generic[Value]):
     def clear(self) -> None:
         """Forget everything."""
         self._values.clear()
+
+
+def current_value(cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]) -> Value:
+    """Return the value of a data-block that is kept for this key, or compute and keep it."""
+    known = cache.get(data)
+    if known is None or known[0] != key:
+        known = cache[data] = (key, compute())
+    return known[1]
 
 
 def clear_all() -> None:
