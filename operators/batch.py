@@ -86,8 +86,8 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     from ..command.files import output, own_results
     from ..command.measure.run import Run
     from ..command.options import checks
+    from ..command.options.formats import FORMATS
     from ..command.supervisor import processes
-    from ..core.measurement.documents import FORMATS
 
     checks.check(options)
     run = Run(options, memory=processes.memory_share())

@@ -364,7 +364,7 @@ def method_text(obj: Owner) -> str:
 
 
 def fingerprint(obj: Owner) -> str:
-    """Return the mark of the numbers' inputs (session/marks.py), "" if there is none."""
+    """Return the stamp of the numbers' inputs (session/tracking/stamps.py) as text, "" if there is none."""
     return str(obj.get("body_fingerprint", ""))
 
 
