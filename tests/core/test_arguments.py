@@ -33,7 +33,7 @@ from body_moments.core.flat import (
     region_moments,
 )
 from body_moments.core.fourier import polygon_transform, surface_transform
-from body_moments.core.inertia import Reference, combine, zhang_chen_frame
+from body_moments.core.inertia import Reference, combine
 from body_moments.core.mesh import convex_hull, convex_polygon, join_surfaces, normals, winding_number
 from body_moments.core.moments import complex_moments, normalize, sum_moments, sum_of_images
 from body_moments.core.numerics import SplineSpace, clamped_space, connected_components, quaternion, rotation_matrix
@@ -198,7 +198,6 @@ CALLS = {
     "volume_gradient": (volume_gradient, {"surface": SURFACE, "about": ORIGIN}),
     "wall_moments": (wall_moments, {"wall": offset_solid(SURFACE), "inward": 0.0, "outward": 0.1, "order": 3}),
     "winding_number": (winding_number, {"points": POINTS, "triangles": TRIANGLES, "point": CENTRAL.about}),
-    "zhang_chen_frame": (zhang_chen_frame, {"moments": VOLUME}),
 }
 CALLS["solid_transform"][1]["q"] = Q
 ARRAYS = [(call, name) for call, (_, given) in CALLS.items() for name in given if isinstance(given[name], np.ndarray)]
