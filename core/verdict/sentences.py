@@ -82,14 +82,25 @@ class _Formatter(string.Formatter):
         return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
 
 
+def fill(
+    text: str,
+    plural: str | None,
+    values: Mapping[str, Any],
+    translate: Callable[[str], str] = str,
+    lengths: Callable[[float], str] | None = None,
+) -> str:
+    """Return a template, translated and then filled. plural: the template for a `count` other than 1."""
+    template = text if plural is None or values.get("count") == 1 else plural
+    return _Formatter(translate, lengths).vformat(translate(template), (), values)
+
+
 def sentence(
     finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
 ) -> str:
     """Return the sentence of a finding; templates are translated before they are filled, lengths are meters."""
     entry, values = declared(finding.code), finding.values
-    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
     elements = truncate_list(finding.elements, values.get("count"), translate)
-    text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
+    text = fill(entry.text, entry.plural, {**values, "elements": elements}, translate, lengths)
     sources = values.get("sources")
     text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
     return translate(ACCEPTED).format(text) if values.get("accepted") else text
