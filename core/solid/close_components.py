@@ -25,16 +25,13 @@ from .boundary_loops import (
     vertex_pairs,
 )
 from .findings import DUPLICATE_FACES_COUNTED, NON_MANIFOLD_COMPONENTS, ONE_SIDED_COMPONENTS, T_JUNCTIONS
-from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
+from .repaired_mesh import FoldedLoops, RepairedMesh, ZeroAreaLoops
 from .shared_walls import wall_links
 
 
 def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Find the boundary loops without area, across which the surface closes in space."""
     side = mesh.state.edges.boundary_sides()
-    if not len(side):
-        none = NO_INDICES
-        return mesh.with_state(gaps=ZeroAreaLoops(none, none, 0, none, none, np.empty(0, bool)))
     start, stop = side_ends(mesh.triangles, side)
     begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
     links = join_sides(begin, end, start, stop, directed=False)
