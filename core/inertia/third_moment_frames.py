@@ -148,10 +148,7 @@ def third_moment_frames(
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n,) whether better third moments could change no decision.
-
-    They could change neither the scores of fixed axes that count, nor their signs, nor their order.
-    """
+    """Return (n,) whether better third moments could change no score that counts, no sign and no order."""
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)

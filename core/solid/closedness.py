@@ -22,10 +22,10 @@ from ..numerics.graph import connected_components, connected_neighbors
 from ..polyhedron import third_order
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
-from ..verdict.findings import NO_FACES
+from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
 from ..verdict.health import MeshHealth
 from ..verdict.tolerances import MAX_COORDINATE, check_size, welding_tolerance
-from .findings import INVALID_FACES, NON_FINITE_VERTICES, OBJECT_TOO_LARGE
+from .findings import INVALID_FACES, NON_FINITE_VERTICES
 from .repaired_mesh import RepairedMesh
 
 SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.

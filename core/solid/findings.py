@@ -14,7 +14,6 @@ NON_FINITE_VERTICES = error(
     "{count} of {total} vertices have no finite coordinates. Delete them, or fix the modifier, driver or import "
     "that made them.",
 )
-OBJECT_TOO_LARGE = error("object_too_large", "Too large to be measured. Scale the object down.")
 VERTICES_WELDED = warning(
     "vertices_welded",
     "Open edges were welded: vertices moved by up to {share:percent} of the size. Use Mesh > Merge > By Distance.",
