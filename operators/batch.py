@@ -182,11 +182,11 @@ def _load_settings() -> None:
     """Register the settings of objects, collections and bones if the add-on is not registered."""
     import bpy
 
-    from ..blender.settings import assembly, bone, properties, reference
+    from .. import blender
+    from ..blender.registration import register_modules
 
     if not hasattr(bpy.types.Object, PACKAGE):
-        for part in (properties, assembly, reference, bone):
-            part.register()
+        register_modules(blender.__name__, blender.SETTINGS)
 
 
 def register() -> None:

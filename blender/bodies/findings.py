@@ -4,10 +4,6 @@
 
 from ...core.verdict.finding import error, note, warning
 
-NO_VOLUME = error(
-    "no_volume",
-    "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape.",
-)
 NON_PLANAR_FACES_OF_DISPLAY_MESH = note(
     "non_planar_faces_of_display_mesh",
     "Non-planar faces of the display mesh: their triangulation can change the volume by up to {share:percent}.",
@@ -74,7 +70,6 @@ DISPLAY_MESH_FOR_DENSITY = warning(
     "display_mesh_for_density",
     "The display mesh was measured, as a varying density needs polygons. Raise Resolution Preview for accuracy.",
 )
-NO_THICKNESS = error("no_thickness", "The shell has no thickness. Set Thickness.")
 WALL_UNORIENTED = warning(
     "wall_unoriented",
     "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > Flip to change sides.",
@@ -126,10 +121,6 @@ WALL_NEEDS_ONE_DENSITY = error(
     "wall_needs_one_density",
     "A wall of real thickness needs one density. Set Density From to One Value, or Wall to Thin.",
 )
-WALL_ORDER = error(
-    "wall_order",
-    "Of a wall of real thickness, moments above order {order} and area moments are not known. Set Wall to Thin.",
-)
 WALL_OF_MIXED_SURFACES = error(
     "wall_of_mixed_surfaces", "Walls are not supported for NURBS surfaces and meshes together. Set Wall to Thin."
 )
@@ -137,8 +128,6 @@ WALL_CREASES = warning(
     "wall_creases",
     "At creases of up to {angle:.0f}° the wall overlaps or gapes, as it is not mitered. Use Object > Convert > Mesh.",
 )
-ZERO_DENSITY = error("zero_density", "The density is zero. Set Density.")
-ZERO_MASS = error("zero_mass", "The mass is zero. Set Mass.")
 MASS_OVERFLOW = error("mass_overflow", "The densities are too large. Lower them.")
 DENSITY_VOLUME_UNREADABLE = error("density_volume_unreadable", "The density from “{object}” cannot be read: {cause}")
 DENSITY_ATTRIBUTE_OF_SOLID = error(
@@ -199,7 +188,6 @@ DENSITY_NEGATIVE = error(
     "The density is negative: {density:.4g} kg/m³ at {point:point} in {frame:word} coordinates. Change Polynomial "
     "or Coordinates.",
 )
-DENSITY_FROM_MEMBERS = note("density_from_members", "members")
 DENSITY_FROM_SAMPLES = note("density_from_samples", "samples")
 DENSITY_FROM_GRID = note("density_from_grid", "grid “{grid}”")
 DENSITY_FROM_GRID_OF = note("density_from_grid_of", "grid “{grid}” of “{object}”")
@@ -288,11 +276,6 @@ ARRAY_NEGATIVE = error(
 )
 SAMPLES_POSITIONED = note("samples_positioned", "The samples stand at the given positions along {axes}.")
 GIVEN_DENSITY_IGNORED = warning("given_density_ignored", "The samples are densities; the given density was not used.")
-AXES_FROM_THIRD_ORDER = warning(
-    "axes_from_third_order",
-    "The principal axes use moments to order 3 only, as the mesh has many faces; Apply to Object and --pose use "
-    "higher orders and may differ.",
-)
 SHAPE_OF_GRID = warning("shape_of_grid", "A grid of densities has no shape for a pose or signature.")
 SHAPE_OF_WIRE_OR_WALL = error(
     "shape_of_wire_or_wall",

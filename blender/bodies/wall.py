@@ -15,6 +15,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.measurement.body import Body
+from ...core.measurement.findings import NO_THICKNESS
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
 from ...core.moments.exponents import KNOWN_ORDER
@@ -25,13 +27,13 @@ from ...core.solid.measure import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError, finding, unique
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
-from ...core.wall import OffsetSolid, offset_solid, split_thickness, wall_moments
+from ...core.wall import OffsetSolid, offset_solid, wall_moments
 from ...core.wall.findings import WALL_MEASURED
+from ...core.wall.walls import split_thickness
 from ..read.reading import Reading
-from .body import Body, MeshBody
+from .body import MeshBody
 from .findings import (
     INSTANCE_WALLS_UNCHECKED,
-    NO_THICKNESS,
     WALL_FACES_FOLD_BACK,
     WALL_FACES_FOLD_BACK_SOMEWHERE,
     WALL_FACES_REVERSED,

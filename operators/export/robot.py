@@ -30,7 +30,6 @@ from ...core.verdict.finding import EditRefusedError, FileError, Finding, Measur
 from ...core.verdict.sentences import sentence
 from .. import selection
 from ..findings import (
-    POLL_OBJECT_MODE,
     ROBOT_EXPORTED,
     ROBOT_GEOMETRY_NOT_WRITTEN,
     ROBOT_NAMES_ALIKE,
@@ -73,7 +72,7 @@ class RobotExport(ExportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return True
 
     def execute(self, context: Context) -> set[str]:

@@ -20,6 +20,7 @@ from ....core.flat.polygon import find_defects, orient_loops
 from ....core.flat.regions import plane_positions, region_moments
 from ....core.flat.section import Plane, fit_plane, projection_rounding, region
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
+from ....core.measurement.findings import NO_VOLUME
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
@@ -39,7 +40,6 @@ from ...read.findings import (
 )
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ..findings import (
-    NO_VOLUME,
     OUTLINES_CROSS,
     OUTLINES_CROSS_AT,
     SECTION_FACE_CROSSES_ITSELF,

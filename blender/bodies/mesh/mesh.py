@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.measurement.body import Body
 from ....core.mesh.surface import Surface, join_surfaces, normals
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
@@ -25,7 +26,7 @@ from ...read.findings import CURVES_DRAWN_AS_POLYGONS, SURFACE_DRAWN_AS_POLYGONS
 from ...read.reading import Part, Reading, to_si
 from ...read.union import union_surface
 from ...read.visibility import shows_flat_region
-from ..body import Body, MeshBody, triangle_count
+from ..body import MeshBody, triangle_count
 from ..density.varying_density import weigh
 from ..findings import (
     CURVE_FILL_FOR_DENSITY,
@@ -70,7 +71,7 @@ def read(request: Request) -> Reading | None:
         if density is None:
             return None
         reading.findings.append(finding(DISPLAY_MESH_FOR_DENSITY))
-    elif density is not None and request.options.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
+    elif density is not None and request.settings.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
         reading.findings.append(finding(CURVE_FILL_FOR_DENSITY))
     return reading
 
@@ -80,13 +81,13 @@ def body(reading: Reading, request: Request) -> Body:
 
     Raises MeasureError if there is nothing to measure.
     """
-    options = request.options
-    shell = options.kind == "shell"
-    made = mesh_body(reading, request.unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+    settings = request.settings
+    shell = settings.kind == "shell"
+    made = mesh_body(reading, settings.unit, shell=shell, union=settings.overlap == "union", threads=settings.threads)
     if request.density is not None:
         made = weigh(reading, made, request)
-    if shell and options.wall != "thin":
-        return find_walls(reading, made, options.wall).body(options.thickness)
+    if shell and settings.wall != "thin":
+        return find_walls(reading, made, settings.wall).body(settings.thickness)
     return made
 
 
