@@ -10,12 +10,4 @@ MODULES = (
     "settings.reference",
     "settings.bone",
     "session.tracking.handlers",
-    "session.tracking.updates",
-    "session.stored.density",
-    "session.stored.walls",
-    "session.stored.threshold",
-    "session.live.live",
-    "session.stored.assembly",
-    "session.stored.rig",
-    "session.stored.outcome",
 )

@@ -111,7 +111,6 @@ REFERENCE_STORED = note(
     "Stored the inertia of {count} object about the reference",
     "Stored the inertia of {count} objects about the reference",
 )
-STALE_UNIT_SCALE = warning("stale_unit_scale", "Unit scale changed")
 MEASURED_ONE = note("measured_one", "Measured {object}")
 MEASURED_ONE_WITH_WARNINGS = warning("measured_one_with_warnings", "Measured {object}, with warnings")
 MEASURED_SEVERAL = note("measured_several", "Measured {count} of {total} objects")

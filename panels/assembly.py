@@ -11,7 +11,7 @@ from __future__ import annotations
 from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
 from ..blender.read.assembly import Root, is_assembly, settings_of
-from ..blender.session.stored import assembly as stored_assembly
+from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
@@ -91,9 +91,9 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
         return
     stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
-    rows.stale_row(layout, context, stored_assembly.stale_reason(root))
+    rows.stale_row(layout, context, stale_reason(root, context.scene))
     remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
-    rows.value(layout, units, "Mass", "mass", stored.body.mass)
+    rows.value(layout, units, "Mass", "mass", stored.mass)
     _tree(layout, context, settings)
     _numbers(layout, units, stored, isinstance(root, Collection))
     remedies.notes(layout, context, "body_moments_assembly_notes", findings)
@@ -133,10 +133,10 @@ def _numbers(layout: UILayout, units: Units, stored: properties.StoredProperties
     rows.quantities(column, units, [entry for entry in entries if entry[-1]])
     column = layout.column(align=True)
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
-    rows.heading(column, heading, "length", stored.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
+    rows.heading(column, heading, "length", stored.center)
+    rows.values(column, units, AXIS_LABELS, "length", stored.center, max(stored.gyration))
     column = layout.column(align=True)
-    moments = stored.body.principal.moments
+    moments = stored.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
     rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, Panel, PoseBone, UILayout
 
-from ..blender.session.stored import rig as stored_rig
+from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.units import Units
 from . import rows
@@ -35,7 +35,7 @@ class BonesPanel:
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
         if not properties.is_stored(armature):
             return
-        rows.stale_row(layout, context, stored_rig.stale_reason(armature, context.scene))
+        rows.stale_row(layout, context, stale_reason(armature, context.scene))
         units = Units.from_settings(context.scene.unit_settings)
         stored = [(bone, properties.numbers(bone)) for bone in armature.pose.bones]
         measured = [(bone, numbers[0][0]) for bone, numbers in stored if numbers is not None]
@@ -81,7 +81,7 @@ class BONE_PT_body_moments(Panel):
         elif settings.mass_from == "MASS":
             setting(column, settings, "mass", text="Mass (kg)")
         rows.button(layout, context, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_row(layout, context, stored_rig.stale_reason(bone.id_data, context.scene))
+        rows.stale_row(layout, context, stale_reason(bone.id_data, context.scene))
         _numbers(layout, context, bone)
 
 
@@ -98,18 +98,17 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
         return
     stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     column = layout.column(align=True)
-    rows.quantities(column, units, [("Mass", "mass", stored.body.mass), ("Volume", "volume", stored.volume)])
+    rows.quantities(column, units, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
     column = layout.column(align=True)
-    rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
+    rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.center)
+    rows.values(column, units, AXIS_LABELS, "length", stored.center, max(stored.gyration))
     column = layout.column(align=True)
-    moments = stored.body.principal.moments
+    moments = stored.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
     rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
     column = layout.column(align=True)
-    entries = properties.tensor_entries(stored.body.inertia)
-    rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", entries)
-    rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+    rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", stored.inertia)
+    rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", stored.inertia)
 
 
 VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones = in_both_places(BonesPanel, "bones")

@@ -13,12 +13,12 @@ from functools import lru_cache
 
 import blf
 import bpy
-import numpy as np
 from bpy.types import Context, UILayout
 
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
-from ..core.verdict.finding import Finding, Severity, finding
+from ..core.measurement.documents import plain
+from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import severity
 from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
 
@@ -71,7 +71,7 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) ->
     """Draw a heading with a button that copies all values below it."""
     row = layout.row(align=True)
     _title(row, localized(label))
-    _copy(row, repr(np.asarray(si, float).tolist()), SI_UNITS.get(quantity, ""))
+    _copy(row, repr(plain(si)), SI_UNITS.get(quantity, ""))
 
 
 def title(layout: UILayout, label: str) -> None:
@@ -208,13 +208,12 @@ def message(layout: UILayout, context: Context, shown: Finding, icon: str = "", 
     sentence(layout, context, text, icon or ICONS[severity(shown)], boxed)
 
 
-def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
+def stale_row(layout: UILayout, context: Context, reason: str | None) -> None:
     """Draw the reason why numbers are out of date, if any."""
-    if code is not None:
+    if reason is not None:
         row = layout.row()
         row.alert = True
-        reason = localized_sentence(finding(code), context.scene.unit_settings)
-        sentence(row, context, localized("Out of date: {:s}").format(reason), icon="FILE_REFRESH")
+        sentence(row, context, localized("Out of date: {:s}").format(localized(reason)), icon="FILE_REFRESH")
 
 
 def fits(share: float, *cells: str) -> bool:

@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session.tracking import staleness
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import of_symmetry
 from ..blender.write.translations import localized
 from ..core.verdict.finding import finding, truncate
 from ..core.verdict.findings import AND_MORE
@@ -59,7 +60,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_row(column, context, staleness.symmetry_stale_reason(obj))
+    rows.stale_row(column, context, stale_reason(obj, context.scene, of_symmetry))
     if stored.compatible != stored.group:
         rows.message(column, context, finding(PANEL_SYMMETRY_OF_MOMENTS, group=stored.compatible), icon="BLANK1")
     code = PANEL_SYMMETRY_TOLERANCE_OF_DISPLAY_MESH if stored.of_display_mesh else PANEL_SYMMETRY_TOLERANCE

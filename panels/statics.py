@@ -8,6 +8,7 @@ import numpy as np
 from bpy.types import Context, Object, UILayout
 
 from ..blender.session.stored import stability
+from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write.units import Units
 from ..core.numerics.float32 import shortest_decimal
 from ..core.statics.resting import RestingPoses
@@ -31,7 +32,7 @@ class StabilityPanel:
         layout.use_property_decorate = False
         if not stability.is_known(obj):
             rows.message(layout, context, finding(PANEL_STABILITY_UNKNOWN))
-        elif stability.is_stale(obj):
+        elif stale_reason(obj, context.scene, stability.stamp_of):
             rows.message(layout, context, finding(PANEL_STABILITY_STALE), icon="FILE_REFRESH")
         rows.button(layout, context, "object.body_moments_stability", "CON_FLOOR", short="Check")
         support = stability.support(obj, context.scene)

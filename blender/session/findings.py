@@ -29,13 +29,5 @@ OPEN_OBJECT = error(
     "open_object",
     "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
 )
-STALE_RIG = warning("stale_rig", "Bones, settings or objects changed")
-STALE_MEMBER = warning("stale_member", "A member changed, or was measured anew")
-STALE_MEMBERS = warning("stale_members", "Members were added, removed or moved, or given masses changed")
-STALE_FINGERPRINT = warning("stale_fingerprint", "Fingerprint damaged")
-STALE_SETTINGS = warning("stale_settings", "Settings changed")
-STALE_GEOMETRY = warning("stale_geometry", "Geometry changed")
-STALE_TRANSFORM = warning("stale_transform", "Transform changed")
-STALE_SCALE = warning("stale_scale", "Scale changed")
 ROBOT_WITHOUT_BONES = error("robot_without_bones", "There is no link. Select an armature with what it moves.")
 LEFT_OUT_OF_ROBOT = warning("left_out_of_robot", "{count} of {total} objects are no links: {causes}")

@@ -16,6 +16,7 @@ on_wall_change: list[Hook] = []  # the side of a shell's material, or its thickn
 on_threshold_change: list[Hook] = []  # the value from which on a grid's points are inside
 on_default_density_change: list[Hook] = []  # the default of a scene's objects without density
 on_part_change: list[Hook] = []  # the mass of an assembly or of a bone's part
+LISTS = on_change, on_density_change, on_wall_change, on_threshold_change, on_default_density_change, on_part_change
 
 
 def part_changed(settings: PropertyGroup, context: Context) -> None:

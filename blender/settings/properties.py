@@ -8,15 +8,13 @@ property by scale_length³, while a weighed part weighs the same in all units.
 """
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
 from ...core.density.density_units import DENSITY_UNITS, density_unit
-from ...core.density.materials import BY_NAME
-from ...core.density.transfer_function import CT_DENSITIES
+from ...core.density.materials import BY_NAME, CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
-from ...core.polyhedron import MAX_ORDER
+from ...core.polyhedron.limits import MAX_ORDER
 from .density import object_density
 from .given import GIVEN_PROPERTIES, is_point_mass
 from .given_properties import GivenPartProperties
@@ -52,7 +50,9 @@ def _density_changed(settings: PropertyGroup, context: Context) -> None:
 
 def _forget_material(settings: PropertyGroup, _context: Context | None = None) -> None:
     material = BY_NAME.get(settings.material)
-    if settings.material and (material is None or np.float32(material.density) != np.float32(settings.density)):
+    if settings.material and (
+        material is None or shortest_decimal(material.density) != shortest_decimal(settings.density)
+    ):
         settings.material = ""
 
 

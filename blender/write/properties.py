@@ -11,23 +11,25 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from math import isfinite
+from functools import cached_property, lru_cache
+from math import hypot, isfinite, sqrt
+from typing import TYPE_CHECKING, Any
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
-from ...core.inertia.mass_properties import MassProperties
-from ...core.inertia.principal_frames import PrincipalFrame
-from ...core.measurement.documents import TENSOR
-from ...core.measurement.measurement import UNIFORM_DENSITIES, Measurement
-from ...core.measurement.record import plain
-from ...core.numerics.rotations import quaternion, rotation_matrix
+from ...core import inertia, numerics
+from ...core.measurement.documents import TENSOR, plain
+from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.sentences import of_severity, sentence
 from .findings import LINKED_RESULTS, OVERRIDE_RESULTS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...core.inertia.mass_properties import MassProperties
+    from ...core.measurement.measurement import Measurement
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
@@ -83,30 +85,95 @@ OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies m
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
+IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+Vector = tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False)
 class StoredProperties:
-    """Stored results of an object, SI.
+    """Stored results of an object as plain numbers, SI, in the object frame, or in the world after `in_world`.
 
-    body: in the object frame, or in the world after `in_world`. error_bound: as in `Measurement`.
+    center: (3,). inertia: (6,) in the order of ENTRIES. moments, axes: the (3,) principal moments, and the axes as
+    three vectors. error_bound: as in `Measurement`.
     """
 
+    mass: float
     density: float
     volume: float
     area: float
-    body: MassProperties
-    error_bound: dict
+    center: Vector
+    inertia: Vector
+    moments: Vector
+    axes: tuple[Vector, ...]
+    error_bound: dict[str, Any]
 
-    def in_world(self, matrix_world, unit: float) -> StoredProperties:
+    @classmethod
+    def of_body(
+        cls, body: MassProperties, density: float, volume: float, area: float, error_bound: dict[str, Any]
+    ) -> StoredProperties:
+        """Return the numbers of a body."""
+        center, entries, moments = body.center.tolist(), body.inertia[ROWS, COLUMNS].tolist(), body.principal.moments
+        axes = tuple(map(tuple, body.principal.axes.T.tolist()))
+        return cls(
+            body.mass, density, volume, area, tuple(center), tuple(entries), tuple(moments.tolist()), axes, error_bound
+        )
+
+    @property
+    def gyration(self) -> Vector:
+        """(3,) radii of gyration about the principal axes."""
+        return tuple(sqrt(max(moment, 0.0) / self.mass) if self.mass > 0.0 else 0.0 for moment in self.moments)
+
+    @cached_property
+    def body(self) -> MassProperties:
+        """The same numbers for computing."""
+        xx, yy, zz, xy, xz, yz = self.inertia
+        error, moved = (
+            {"mass": bound["volume"] * self.density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
+            for bound in (self.error_bound, self.error_bound["input"])
+        )
+        return inertia.MassProperties.from_numbers(
+            self.mass,
+            self.center,
+            ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)),
+            self.moments,
+            tuple(zip(*self.axes)),
+            error,
+            moved,
+        )
+
+    def in_world(self, matrix_world: Any, unit: float) -> StoredProperties:
         """Return the results in the world frame.
 
         matrix_world: of the object; unit: meters per Blender unit.
         """
         location, turn, _ = matrix_world.decompose()
-        to_object = rotation_matrix(turn).T
-        origin = -to_object @ np.array(location, np.float64) * unit
-        return replace(self, body=self.body.in_frame(to_object, origin))
+        columns = rotation_axes(turn)
+        xx, yy, zz, xy, xz, yz = self.inertia
+        rows = tuple(zip(*columns))
+        half = [[_dot(row, column) for column in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))] for row in rows]
+        return replace(
+            self,
+            center=tuple(_dot(row, self.center) + unit * along for row, along in zip(rows, location)),
+            inertia=tuple(_dot(half[i], rows[j]) for _, i, j in TENSOR),
+            axes=tuple(tuple(_dot(row, axis) for row in rows) for axis in self.axes),
+        )
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def rotation_axes(turn: Sequence[float]) -> tuple[Vector, ...]:
+    """Return the axes of a rotation, the columns of its matrix, from a quaternion of any length."""
+    length = hypot(*turn)
+    if not length > 0.0:
+        return IDENTITY
+    w, x, y, z = (value / length for value in turn)
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
+        (2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)),
+        (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)),
+    )
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
@@ -125,14 +192,14 @@ def store(obj: Owner, measurement: Measurement) -> None:
         "body_center_of_mass": body.center.tolist(),
         "body_inertia": tensor_entries(body.inertia).tolist(),
         "body_principal_moments": body.principal.moments.tolist(),
-        "body_principal_axes": quaternion(body.principal.axes).tolist(),
+        "body_principal_axes": numerics.quaternion(body.principal.axes).tolist(),
         "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
     }
     optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
     numbers |= {key: value for key, value in optional.items() if value is not None}
     varying = (
         {}
-        if measurement.density_from in UNIFORM_DENSITIES
+        if measurement.density_from.code in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS)
         else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
     )
     texts = {key: value for key, value in varying.items() if value}
@@ -163,7 +230,7 @@ def store_stack(
         body.center,
         body.inertia[:, ROWS, COLUMNS],
         body.principal.moments,
-        quaternion(body.principal.axes),
+        numerics.quaternion(body.principal.axes),
         error_bounds.reshape(-1, 8),
     )
     rows = zip(*[column.tolist() for column in columns])
@@ -401,19 +468,11 @@ def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
 def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
     """Return the results that `numbers` has read, in the object frame."""
     (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read
-    tensor = np.zeros((3, 3))
-    tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
-    axes = rotation_matrix(turn) if any(turn) else np.eye(3)
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    frame = PrincipalFrame(np.array(moments), axes, symmetry="", is_unique=False, finding=None)
-    error, moved = (
-        {"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
-        for bound in (rounding, inputs)
-    )
-    body = MassProperties(mass, np.array(center), tensor, frame, error, moved)
-    return StoredProperties(density, volume, area, body, {**rounding, "input": inputs})
+    error_bound = {**rounding, "input": inputs}
+    return StoredProperties(mass, density, volume, area, center, entries, moments, rotation_axes(turn), error_bound)
 
 
-def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:
-    """Return (6,) a (3, 3) tensor in the order of ENTRIES."""
+def tensor_entries(tensor: NDArray) -> NDArray:
+    """Return a (3, 3) tensor as (6,) in the order of ENTRIES."""
     return tensor[ROWS, COLUMNS]

@@ -86,6 +86,16 @@ def fingerprint(obj: bpy.types.Object) -> str:
     return str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
 
 
+def unit(obj: bpy.types.Object) -> float | None:
+    """Return the unit scale of the stored section, in meters; None if it is damaged."""
+    group = obj.get(KEY)
+    try:
+        (meters,) = group["unit"]
+    except (KeyError, TypeError, ValueError):
+        return None
+    return float(meters)
+
+
 def stored(obj: bpy.types.Object) -> StoredSection | None:
     """Return the stored section; None if there is none, or something else under its name."""
     group = obj.get(KEY)
@@ -128,7 +138,7 @@ def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -
     return StoredSection(section, what, findings_in(findings), fingerprint, values["unit"][0])
 
 
-def text(name: str, section: StoredSection, outdated: Finding | None = None) -> str:
+def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
     """Return a report that a person reads, in SI units.
 
     outdated: the reason why the section no longer holds.
@@ -136,14 +146,14 @@ def text(name: str, section: StoredSection, outdated: Finding | None = None) -> 
     return "\n".join(_lines(name, section, outdated)) + "\n"
 
 
-def _lines(name: str, stored_section: StoredSection, outdated: Finding | None) -> Iterator[str]:
+def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> Iterator[str]:
     section, plane = stored_section.section, stored_section.section.plane
     x, y, normal = plane.axes.T
     yield "Section properties, SI units, world frame"
     yield ""
     yield name
     if outdated:
-        yield _line("Out of date", str(outdated))
+        yield _line("Out of date", outdated)
     yield _line(
         "Measured",
         "{}; outer outlines {}, holes {}".format(stored_section.description, section.outlines, section.holes),

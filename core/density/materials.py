@@ -187,3 +187,7 @@ MATERIALS: tuple[Material, ...] = (
 
 CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys(material.category for material in MATERIALS))
 BY_NAME: dict[str, Material] = {material.name: material for material in MATERIALS}
+
+# CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider, Bortfeld and Schlegel
+# (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE has them.
+CT_DENSITIES = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 2800"

@@ -16,10 +16,6 @@ from numpy.typing import NDArray
 from ..verdict.finding import MeasureError
 from .findings import TRANSFER_TABLE_NUMBERS, TRANSFER_TABLE_ORDER, TRANSFER_TABLE_SYNTAX, TRANSFER_TABLE_TOO_SHORT
 
-# CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider, Bortfeld and Schlegel
-# (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE has them.
-CT_DENSITIES = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 2800"
-
 
 def parse_table(text: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (n,) values, ascending, and (n,) densities in kg/m³.

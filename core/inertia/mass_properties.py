@@ -102,6 +102,26 @@ class MassProperties:
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
 
     @classmethod
+    def from_numbers(
+        cls,
+        mass: float,
+        center: ArrayLike,
+        inertia: ArrayLike,
+        moments: ArrayLike,
+        axes: ArrayLike,
+        rounding_error: dict[str, PerBody],
+        input_error: dict[str, PerBody],
+    ) -> MassProperties:
+        """Return the body with these numbers, as `MassProperties` and `PrincipalFrame` hold them.
+
+        Whether its axes are unique is unknown.
+        """
+        frame = PrincipalFrame(
+            np.asarray(moments, float), np.asarray(axes, float), symmetry="", is_unique=False, finding=None
+        )
+        return cls(mass, np.asarray(center, float), np.asarray(inertia, float), frame, rounding_error, input_error)
+
+    @classmethod
     def of_stack(
         cls,
         moments: Moments,

@@ -15,6 +15,7 @@ import io
 import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from math import isfinite
 from typing import Any
 
 SCHEMA = "body-moments/1"
@@ -34,6 +35,19 @@ _NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|nu
 
 # Beginnings of formulas, as OWASP lists them, or an apostrophe that does not stand for one.
 _FORMULA = re.compile(r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
+
+
+def plain(value: Any) -> Any:
+    """Return the value as JSON can hold it: Python's own types, and None for every number that is not finite."""
+    if hasattr(value, "tolist"):  # an array, or a number of one
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, float) and not isfinite(value):
+        return None
+    return value
 
 
 def document(

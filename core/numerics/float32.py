@@ -4,9 +4,8 @@
 
 from __future__ import annotations
 
+from array import array
 from functools import lru_cache
-
-import numpy as np
 
 
 @lru_cache(maxsize=1024)  # settings, read at every redraw
@@ -29,4 +28,13 @@ def shortest_decimal(value: float) -> float:
     >>> shortest_decimal(0.0010000000474974513)
     0.001
     """
-    return float(str(np.float32(value)))
+    stored = _as_float32(value)
+    for digits in range(1, 9):
+        decimal = float("{:.{:d}g}".format(stored, digits))
+        if _as_float32(decimal) == stored:
+            return decimal
+    return float("{:.9g}".format(stored))
+
+
+def _as_float32(value: float) -> float:
+    return array("f", (value,))[0]

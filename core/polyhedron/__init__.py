@@ -6,7 +6,7 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    MAX_ORDER="integration",
+    MAX_ORDER="limits",
     SimplexMoments="n_dimensions",
     area_of_images="sheared_areas",
     enclosed_moments="n_dimensions",

@@ -29,7 +29,6 @@ from .findings import SURFACE_NOT_CLOSED
 from .third_order import box_center, finite_box, nothing
 from .third_order_kernel import NO_VERTEX
 
-MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 THIRD = 3  # orders up to this one have their own kernel
 
 

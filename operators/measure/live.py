@@ -7,7 +7,7 @@ from __future__ import annotations
 from bpy.types import Context, Object, Operator
 
 from ...blender.read.visibility import measurable
-from ...blender.session.live import live
+from ...blender.session import live
 from ...blender.session.tracking import posed
 from ...blender.write import reports
 from .. import selection
@@ -33,15 +33,15 @@ class OBJECT_OT_body_moments_live(Operator):
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        if any(live.is_live(obj) for obj in posed.subjects([context.object])):
+        if any(live.following.is_live(obj) for obj in posed.subjects([context.object])):
             for obj in objects:
-                live.stop(obj)
+                live.live.stop(obj)
             redraw(context)
             return {"FINISHED"}
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
-            result = live.start(obj, depsgraph)
+            result = live.live.start(obj, depsgraph)
             if result.refusal is not None:
                 refusals.append(reports.failure(obj.name, result.refusal))
         if refusals:

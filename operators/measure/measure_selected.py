@@ -12,6 +12,7 @@ from bpy.props import EnumProperty
 from ...blender.bodies.measure_object import Measured
 from ...blender.bodies.stacks.many import measure_many
 from ...blender.bodies.stacks.stack import Stacked
+from ...blender.session import displayed
 from ...blender.session.stored import outcome, results
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
@@ -126,13 +127,13 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         stored: list[bpy.types.Object] = []
         refusals: dict[bpy.types.Object, Finding | Exception] = {**self._refusals}
         for obj, refusal in results.store_many(self._results, context.scene):
-            results.remember_failure(obj, None)
+            displayed.remember_failure(obj, None)
             if refusal is None:
                 stored.append(obj)
             else:
                 refusals[obj] = refusal
         for obj, refusal in self._refusals.items():
-            results.remember_failure(obj, refusal)
+            displayed.remember_failure(obj, refusal)
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
         shapes = {obj: found.shape_digest for obj, found in self._results if isinstance(found, Stacked)}
         mark_up_to_date(context, stored, shapes)

@@ -7,11 +7,9 @@ The moments to a chosen order, sections and shapes are sub-panels of it.
 
 from __future__ import annotations
 
-import numpy as np
 from bpy.types import Context, Object, UILayout
 
-from ...blender.session.live import live
-from ...blender.session.stored import results
+from ...blender.session.displayed import displayed
 from ...blender.write import properties
 from ...blender.write.units import SI_UNITS, Units
 from .. import rows
@@ -37,10 +35,11 @@ class AdvancedPanel:
         layout, obj, scene = self.layout, context.object, context.scene
         layout.use_property_decorate = False
         units = Units.from_settings(scene.unit_settings)
-        shown = results.of_object(obj, scene)
-        if shown is not None and live.current_numbers(obj) is None:
-            _bounds(layout, obj, units, shown)
-            _display_mesh(layout, obj, units, shown)
+        shown = displayed(obj, scene)
+        if shown is not None and shown.live is None:
+            numbers = shown.in_frame(scene.body_moments.frame)
+            _bounds(layout, obj, units, numbers)
+            _display_mesh(layout, obj, units, numbers)
         rows.button(
             layout,
             context,
@@ -71,8 +70,8 @@ def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Store
     sizes = {
         "volume": shown.volume,
         "area": shown.area,
-        "center_of_mass": np.abs(shown.body.center).max(),
-        "inertia": shown.body.principal.moments.max(),
+        "center_of_mass": max(map(abs, shown.center)),
+        "inertia": max(shown.moments),
     }
     for heading, bound in BOUNDS:
         column = body.column(align=True)

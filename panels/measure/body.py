@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ...blender.session.live import live
-from ...blender.session.stored import results
+from ...blender.session.displayed import displayed
+from ...blender.session.live import following
 from ...blender.session.tracking import posed
 from ...blender.write.units import Units
 from .. import rows
@@ -19,7 +19,7 @@ from ..overlay.popover import header_switch
 from ..places import in_both_places
 from . import remedies
 from .numbers import numbers
-from .verdict import method_and_findings, verdict
+from .verdict import verdict
 
 
 class BodyPanel:
@@ -38,9 +38,9 @@ class BodyPanel:
         obj, scene = context.object, context.scene
         layout = self.layout
         layout.use_property_decorate = False
-        shown = results.of_object(obj, scene)
-        verdict(layout, context, obj, measured=shown is not None)
-        _, findings = method_and_findings(obj) if shown is not None else (None, ())
+        shown = displayed(obj, scene)
+        verdict(layout, context, obj, shown)
+        findings = shown.findings if shown is not None else ()
         remedies.last_action(layout, context)
         remedies.warnings(layout, context, "body_moments_warnings", findings)
         material_row(layout, context, obj)
@@ -49,11 +49,11 @@ class BodyPanel:
         buttons.scale_y = 1.4
         rows.button(buttons, context, "object.body_moments_measure", "PHYSICS")
         row = buttons.row(align=True)
-        followed = any(live.is_live(subject) for subject in posed.subjects([obj]))
+        followed = any(following.is_live(subject) for subject in posed.subjects([obj]))
         rows.button(row, context, "object.body_moments_live", "REC", depress=followed)
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
-            remedies.unit_question(layout, context, shown)
+            remedies.unit_question(layout, context, shown.world)
             numbers(layout, context, Units.from_settings(scene.unit_settings), shown)
             row = layout.column(align=True) if narrow else layout.row(align=True)
             rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")

@@ -4,10 +4,9 @@
 
 from __future__ import annotations
 
-import numpy as np
 from bpy.types import Context
 
-from ...blender.session.stored import results
+from ...blender.session.displayed import displayed
 from ...blender.write import properties
 from ...blender.write.units import Units
 from ...core.verdict.finding import finding
@@ -32,38 +31,39 @@ class InertiaPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.object is not None and results.of_object(context.object, context.scene) is not None
+        return context.object is not None and displayed(context.object, context.scene) is not None
 
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
         layout.use_property_decorate = False
         units = Units.from_settings(scene.unit_settings)
-        shown = results.of_object(context.object, scene)
-        if shown is None:
+        current = displayed(context.object, scene)
+        if current is None:
             return
+        shown = current.in_frame(scene.body_moments.frame)
         layout.row().prop(scene.body_moments, "frame", expand=True)
         column = layout.column(align=True)
-        moments = shown.body.principal.moments
+        moments = shown.moments
         rows.heading(column, "Principal Moments", "inertia", moments)
         rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
-        rows.heading(column, "Principal Axes", "", shown.body.principal.axes.T)
-        for label, axis in zip(PRINCIPAL_LABELS, shown.body.principal.axes.T):
+        rows.heading(column, "Principal Axes", "", shown.axes)
+        for label, axis in zip(PRINCIPAL_LABELS, shown.axes):
             rows.direction(column, label, axis)
         error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
-        code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= ERROR_OF_A_DIFFERENCE * error).tolist()))
+        equal = [b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in zip(moments, moments[1:])]
+        code = EQUAL_MOMENTS.get(tuple(equal))
         if code:
             rows.message(column, context, finding(code))
         column = layout.column(align=True)
-        rows.heading(column, "Radii of Gyration", "length", shown.body.radii_of_gyration)
-        rows.values(column, units, PRINCIPAL_LABELS, "length", shown.body.radii_of_gyration)
+        rows.heading(column, "Radii of Gyration", "length", shown.gyration)
+        rows.values(column, units, PRINCIPAL_LABELS, "length", shown.gyration)
         header, body = layout.panel("body_moments_tensor")
         header.label(text="Inertia Tensor")
         if body is not None:
             column = body.column(align=True)
-            entries = properties.tensor_entries(shown.body.inertia)
-            rows.heading(column, "About the center of mass, Ixy = −∫xy dm", "inertia", entries)
-            rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+            rows.heading(column, "About the center of mass, Ixy = −∫xy dm", "inertia", shown.inertia)
+            rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", shown.inertia)
 
 
 CLASSES = VIEW3D_PT_body_moments_inertia, OBJECT_PT_body_moments_inertia = in_both_places(InertiaPanel, "inertia")

@@ -7,6 +7,7 @@ from __future__ import annotations
 from bpy.types import Context
 
 from ...blender.session.stored import moments as moments_table
+from ...blender.session.tracking.staleness import stale_reason
 from ...core.verdict.finding import finding
 from .. import rows
 from ..findings import PANEL_ORDERS_COPIED
@@ -32,7 +33,7 @@ class MomentsPanel:
         computed = moments_table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, context, moments_table.stale_reason(obj, context.scene))
+        rows.stale_row(layout, context, stale_reason(obj, context.scene, moments_table.stamp_of))
         degrees, missing = moments_table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, context, missing)

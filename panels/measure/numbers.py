@@ -6,8 +6,7 @@ from __future__ import annotations
 
 from bpy.types import Context, UILayout
 
-from ...blender.session.stored import results
-from ...blender.session.tracking import posed
+from ...blender.session.displayed import Displayed
 from ...blender.write import properties
 from ...blender.write.units import Units
 from ...core.verdict.finding import finding
@@ -20,10 +19,12 @@ CENTER_HEADINGS = {"WORLD": "Center of Mass (World)", "OBJECT": "Center of Mass 
 RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # for rigs
 
 
-def numbers(layout: UILayout, context: Context, units: Units, shown: properties.StoredProperties) -> None:
+def numbers(layout: UILayout, context: Context, units: Units, displayed: Displayed) -> None:
     """Draw mass, volume, area, density and center of the measurement."""
     column = layout.column(align=True)
-    entries = [("Mass", "mass", shown.body.mass)]
+    frame = context.scene.body_moments.frame
+    shown = displayed.in_frame(frame)
+    entries = [("Mass", "mass", shown.mass)]
     length = properties.optional(context.object, "body_length")
     if length is None:
         entries.append(("Volume", "volume", shown.volume))
@@ -37,9 +38,7 @@ def numbers(layout: UILayout, context: Context, units: Units, shown: properties.
     if source:
         rows.message(column, context, finding(PANEL_DENSITY_MEAN, cause=source), icon="BLANK1")
     column = layout.column(align=True)
-    obj = context.object
-    is_posed = posed.stands_for_meshes(obj) and results.are_meshes_measured(obj, context.scene)
-    is_rig = obj.type == "ARMATURE" and not is_posed
+    is_rig = context.object.type == "ARMATURE" and not displayed.is_posed
     headings = RESTING_HEADINGS if is_rig else CENTER_HEADINGS
-    rows.heading(column, headings[context.scene.body_moments.frame], "length", shown.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", shown.body.center, shown.body.radii_of_gyration.max())
+    rows.heading(column, headings[frame], "length", shown.center)
+    rows.values(column, units, AXIS_LABELS, "length", shown.center, max(shown.gyration))

@@ -152,12 +152,12 @@ def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -
         scene.body_moments.units_answered
         or scene.unit_settings.scale_length != 1.0
         or length < MIN_QUESTIONED_LENGTH
-        or shown.body.mass < MIN_QUESTIONED_MASS
+        or shown.mass < MIN_QUESTIONED_MASS
     ):
         return
     box = layout.box()
     units = replace(Units.from_settings(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
-    texts = {"length": units.text("length", length), "mass": units.text("mass", shown.body.mass)}
+    texts = {"length": units.text("length", length), "mass": units.text("mass", shown.mass)}
     question = finding(PANEL_UNIT_QUESTION, **texts)
     rows.message(box, context, question, icon="QUESTION", boxed=True)
     column = box.column(align=True)

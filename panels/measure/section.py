@@ -9,10 +9,11 @@ from math import degrees
 from bpy.types import Context, UILayout
 
 from ...blender.read.section import SECTION_TYPES
+from ...blender.session.tracking.staleness import stale_reason
+from ...blender.session.tracking.stamps import of_section
 from ...blender.write import section as record
 from ...blender.write.translations import localized
 from ...blender.write.units import SI_UNITS, Units, number
-from ...operators.measure import section as sections
 from .. import rows
 from ..places import in_both_places
 from . import remedies
@@ -47,7 +48,7 @@ class SectionPanel:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         units = Units.from_settings(context.scene.unit_settings)
-        _verdict(layout, context, stored, sections.stale_reason(obj, context.scene, stored))
+        _verdict(layout, context, stored, stale_reason(obj, context.scene, of_section))
         remedies.warnings(layout, context, "body_moments_section_warnings", stored.findings, can_accept=False)
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)

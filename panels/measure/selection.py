@@ -7,10 +7,9 @@ from __future__ import annotations
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
-from ...blender.session.stored import results
+from ...blender.session import displayed
+from ...blender.session.displayed import Trust, drawn
 from ...blender.session.stored.listing import SortBy, listed_masses, listing
-from ...blender.session.stored.shown import shown_body
-from ...blender.session.stored.trust import Trust
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
 from ...core.verdict.finding import finding
@@ -46,14 +45,14 @@ class BODY_MOMENTS_UL_measured(UIList):
     )
 
     def draw_item(self, context, layout, _data, obj, _icon, _active_data, _active_property, _index) -> None:
-        body = shown_body(obj, context.scene)
+        body = drawn(obj, context.scene)
         if body is None:
             layout.label(text=obj.name, translate=False)
             return
         row = layout.row(align=True)
-        row.alert = body.verdict == Trust.OUT_OF_DATE
+        row.alert = body.trust == Trust.OUT_OF_DATE
         row.active = obj.select_get()
-        row.label(text=obj.name, icon=VERDICT_ICONS[body.verdict], translate=False)
+        row.label(text=obj.name, icon=VERDICT_ICONS[body.trust], translate=False)
         if not rows.is_narrow(context):
             cell = row.row(align=True)
             cell.alignment = "RIGHT"
@@ -107,7 +106,7 @@ def _listed(layout: UILayout, context: Context) -> None:
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:
     rows.title(layout, "Total of Selection")
-    total = results.total(context)
+    total = displayed.total(context)
     column = layout.column(align=True)
     if not total.count:
         rows.message(column, context, finding(PANEL_NOTHING_MEASURED))
@@ -125,16 +124,17 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
     for caveat in total.findings:
         rows.message(column, context, caveat)
     column = layout.column(align=True)
-    mass = None if total.body is None else total.body.mass
+    numbers = total.numbers
+    mass = None if numbers is None else numbers.mass
     entries = [("Mass", "mass", mass), ("Volume", "volume", total.volume), ("Area", "area", total.area)]
     rows.quantities(column, units, [(label, quantity, si) for label, quantity, si in entries if si])
-    if total.body is None:
+    if numbers is None:
         return
     column = layout.column(align=True)
-    rows.heading(column, "Center of Mass (World)", "length", total.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", total.body.center, total.body.radii_of_gyration.max())
+    rows.heading(column, "Center of Mass (World)", "length", numbers.center)
+    rows.values(column, units, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
     column = layout.column(align=True)
-    moments = total.body.principal.moments
+    moments = numbers.moments
     rows.heading(column, "Principal Moments", "inertia", moments)
     rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
 

@@ -15,7 +15,7 @@ from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.settings.overlay import BodyMomentsOverlaySettings
 from ...core.statics.support import Support
 from . import appearance as look
-from .bodies import drawn_objects
+from .draw import drawn_objects
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, of the support polygon's extent

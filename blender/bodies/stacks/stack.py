@@ -30,7 +30,8 @@ from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, mea
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import fingerprint, surface_digest, transform_keys
+from ...read.fingerprint import fingerprint
+from ...read.shapes import surface_digest, transform_keys
 from ...settings.accepted import accepted_codes, with_acceptance
 from ..body import own_moments, with_known
 

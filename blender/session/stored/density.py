@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Density as a multiplication: if it is one number, stored results follow it at once, without being measured again.
 
-The mark of the stored results shows that nothing but density or mass is different: it is the digest of the current
+The stamp of the stored results shows that nothing but density or mass is different: it is the digest of the current
 settings, with the stored density, or the stored mass, in place of the given one. So nothing is remembered, undo brings
 all of it back together, and an animated or driven setting, for which Blender calls no update function, leaves the
 results out of date.
@@ -11,21 +11,23 @@ results out of date.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ....core.measurement.measurement import Measurement
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
-from ...read.fingerprint import VERSION, given_density, settings_hash, settings_hash_with
+from ...read.fingerprint import given_density, settings_hash, settings_hash_with
 from ...read.tracking import tracking_paused
-from ...settings import hooks
 from ...settings.density import default_density, unset_density
 from ...write import properties
+from .. import stored
 from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULT_KEPT, LINEAR_DENSITY_DEFAULTED
-from ..tracking import marks, staleness
-from . import reference
+from ..tracking import staleness, stamps
+
+if TYPE_CHECKING:
+    from ....core.measurement.measurement import Measurement
 
 DEFAULTS = {  # notes on an unset density, by the setting
     "density": finding(DENSITY_DEFAULT_KEPT),
@@ -56,8 +58,8 @@ def follow_density(obj: Object, scene: Scene) -> None:
 
     The scene's unit scale and default density count.
     """
-    mark = marks.parse(properties.fingerprint(obj))
-    if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):
+    stamp = stamps.of_results(obj)
+    if stamp is None or not stamp.is_valid or "body_density_from" in obj or not _can_store(obj):
         return
     numbers = properties.numbers(obj)
     if numbers is None:
@@ -68,13 +70,13 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
         return  # no mass multiplies it
     mass = numbers[0][0]
-    if mark.settings not in (
+    if stamp.settings not in (
         settings_hash_with(obj, scene, mass / extent, None),
         settings_hash_with(obj, scene, None, mass),
     ):
         return
     now, findings = settings_hash(obj, scene), _findings(obj, scene)
-    if now == mark.settings:  # a measured density may have more digits than the setting holds
+    if now == stamp.settings:  # a measured density may have more digits than the setting holds
         if findings != list(properties.findings(obj)):
             properties.store_findings(obj, findings)
         return
@@ -89,10 +91,11 @@ def follow_density(obj: Object, scene: Scene) -> None:
         0.0 if settings.kind == "WIRE" else density,
         mass_now,
         findings,
-        ":".join(mark._replace(settings=now)),
+        stamp._replace(settings=now).text,
     )
-    staleness.replace_mark(obj, ":".join(mark))
-    reference.follow(obj, scene, reference.stored_choice(obj))
+    staleness.replace_stamp(obj, stamp.text)
+    if "body_reference" in obj:
+        stored.reference.follow(obj, scene, stored.reference.stored_choice(obj))
 
 
 def _can_store(obj: Object) -> bool:
@@ -115,24 +118,14 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
     return [*kept, DEFAULTS[name]]
 
 
-def _on_density(settings: PropertyGroup, context: Context) -> None:
+def on_density(settings: PropertyGroup, context: Context) -> None:
+    """Let stored results follow a density or mass."""
     if context.scene is not None and not tracking_paused.depth:
         follow_density(settings.id_data, context.scene)
 
 
-def _on_default_density(settings: PropertyGroup, _context: Context) -> None:
+def on_default_density(settings: PropertyGroup, _context: Context) -> None:
+    """Let the results of objects without density follow the default of their scene."""
     for obj in settings.id_data.objects:
         if not obj.body_moments.is_property_set("density"):
             follow_density(obj, settings.id_data)
-
-
-def register() -> None:
-    """Follow densities."""
-    hooks.on_density_change.append(_on_density)
-    hooks.on_default_density_change.append(_on_default_density)
-
-
-def unregister() -> None:
-    """Follow them no more."""
-    hooks.on_density_change.remove(_on_density)
-    hooks.on_default_density_change.remove(_on_default_density)

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from bpy.types import Object, Scene
+from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.flat.regions import plane_positions
@@ -37,12 +37,10 @@ from ..findings import (
     MASS_MOMENTS_UNKNOWN,
     MOMENTS_OF_FLAT,
     MOMENTS_OVERFLOW_AT_ORIGIN,
-    STALE_GEOMETRY,
-    STALE_SETTINGS,
-    STALE_TRANSFORM,
 )
-from ..tracking import updates
+from ..tracking import staleness, stamps, updates
 from ..tracking.cache import SessionCache
+from ..tracking.stamps import Kind, Stamp
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
 
@@ -76,7 +74,7 @@ class ComputedMoments:
     """One object's moments, SI, world axes.
 
     volume: for a shell that of its thin volume; None for flat shapes, as is area. mass: None if it is not known to that
-    order. rotation, location: the object frame. key: the state of the object. flat: the moments of a flat shape;
+    order. rotation, location: the object frame. flat: the moments of a flat shape;
     not_flat: the reason if there are none.
     """
 
@@ -86,7 +84,6 @@ class ComputedMoments:
     mass: Moments | None
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
-    key: tuple[str, str, int]
     flat: FlatMoments | None = None
     not_flat: Finding | None = None
 
@@ -127,9 +124,12 @@ _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
 _displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS)  # and what they show
 
 
-def cache_moments(obj: Object, computed: ComputedMoments) -> None:
-    """Keep an object's computed moments."""
+def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
+    """Keep an object's freshly computed moments."""
     _computed[obj] = computed
+    settings = settings_hash(obj, depsgraph.scene)
+    stamp = stamps.carry(obj, Kind.MOMENTS, updates.count(), matrix_hash(obj), settings)
+    staleness.mark_stamp(obj, stamp, depsgraph)
 
 
 def computed_moments(obj: Object) -> ComputedMoments | None:
@@ -137,17 +137,9 @@ def computed_moments(obj: Object) -> ComputedMoments | None:
     return _computed.get(obj)
 
 
-def stale_reason(obj: Object, scene: Scene) -> str | None:
-    """Return the code of the reason why the moments are out of date, or None."""
-    computed = computed_moments(obj)
-    if computed is None:
-        return None
-    matrix, settings, geometry = computed.key
-    if settings != settings_hash(obj, scene):
-        return STALE_SETTINGS
-    if geometry != updates.last_change_of_geometry(obj):
-        return STALE_GEOMETRY
-    return STALE_TRANSFORM if matrix != matrix_hash(obj) else None
+def stamp_of(obj: Object) -> Stamp | None:
+    """Return the stamp of an object's computed moments."""
+    return stamps.carried(obj, Kind.MOMENTS)
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:

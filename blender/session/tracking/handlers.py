@@ -3,8 +3,7 @@
 """Blender's reports while a file is open, heard once, and passed on to all of the session.
 
 These are the add-on's application handlers, except that of `blender/write/translations.py`. A subscriber appends a
-plain function to one of the lists below when it is registered, and removes it when it is unregistered; one that
-follows only some objects does so while there are any. A subscriber never writes data while Blender evaluates: that
+plain function to one of the lists below (`subscriptions`). A subscriber never writes data while Blender evaluates: that
 would be reported as the next change. Only before a file is saved may it write, and the written data are saved.
 """
 
@@ -45,6 +44,7 @@ before_undo: list[Callable[[], None]] = []
 on_undo: list[Callable[[], None]] = []  # undo and redo: before the update that follows them
 on_load: list[Callable[[], None]] = []  # after all caches were emptied
 on_save: list[Callable[[], None]] = []
+LISTS = on_update, before_undo, on_undo, on_load, on_save
 
 _generation = 0
 _moves_from = 0  # the generation after which objects have moved, and nothing else has changed
@@ -70,18 +70,6 @@ def count_change() -> None:
     _generation += 1
     _moves_from = _generation
     _moved.clear()
-
-
-def subscribe(subscribers: list[Callable[..., None]], function: Callable[..., None]) -> None:
-    """Append a function to one of the lists, unless it is there."""
-    if function not in subscribers:
-        subscribers.append(function)
-
-
-def unsubscribe(subscribers: list[Callable[..., None]], function: Callable[..., None]) -> None:
-    """Remove a function from one of the lists, if it is there; also while they are called."""
-    if function in subscribers:
-        subscribers.remove(function)
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:

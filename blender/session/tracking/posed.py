@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import bpy
 from bpy.types import Object
 
-from ...read.rig import is_skin_of
+from ... import read
 from . import handlers
 from .cache import SessionCache
 
@@ -27,7 +27,7 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
     cached = _meshes.get(armature)
     if cached is None or cached[0] != handlers.generation():
         objects = bpy.context.view_layer.objects
-        meshes = tuple(obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature))
+        meshes = tuple(obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature))
         cached = _meshes[armature] = (handlers.generation(), meshes)
     return cached[1]
 

@@ -14,9 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from ...measurement.documents import table
+from ...measurement.documents import plain, table
 from ...measurement.plain_text import counted
-from ...measurement.record import plain
 from ...verdict.finding import Finding, Severity
 from ...verdict.sentences import sentence, severity
 from ..stated import Description, StatedInertial, StatedLink

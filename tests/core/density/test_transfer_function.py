@@ -5,7 +5,8 @@
 import numpy as np
 import pytest
 from body_moments.core.density.density_units import DENSITY_UNITS, density_unit
-from body_moments.core.density.transfer_function import CT_DENSITIES, parse_table
+from body_moments.core.density.materials import CT_DENSITIES
+from body_moments.core.density.transfer_function import parse_table
 
 from tests.close import close
 from tests.core.findings import refused
