@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..blender.read.assembly import Root, is_assembly, settings_of
 from ..blender.session.tracking.staleness import stale_reason
+from ..blender.settings.assembly import Root, is_assembly, settings_of
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units

@@ -9,7 +9,7 @@ before that (`filled`, `message`). Names, numbers and filled texts are drawn wit
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import blf
 import bpy
@@ -19,8 +19,7 @@ from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.measurement.documents import plain
 from ..core.verdict.finding import Finding, Severity
-from ..core.verdict.sentences import severity
-from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
+from ..core.verdict.sentences import fill, severity
 
 # share of a row that its label takes, one of few letters, and of one
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
@@ -166,7 +165,7 @@ def _right(layout: UILayout, text: str) -> None:
 
 
 def _copy(row: UILayout, exact: str, unit: str) -> None:
-    button = row.operator(OBJECT_OT_body_moments_copy_value.bl_idname, text="", icon="COPYDOWN", emboss=False)
+    button = row.operator("object.body_moments_copy_value", text="", icon="COPYDOWN", emboss=False)
     button.value = exact
     button.unit = unit
 
@@ -206,6 +205,21 @@ def message(layout: UILayout, context: Context, shown: Finding, icon: str = "", 
     """Draw the sentence of a finding. icon: by default that of its severity. boxed: as for `sentence`."""
     text = localized_sentence(shown, context.scene.unit_settings)
     sentence(layout, context, text, icon or ICONS[severity(shown)], boxed)
+
+
+def remark(
+    layout: UILayout,
+    context: Context,
+    text: str,
+    plural: str | None = None,
+    /,
+    icon: str = "INFO",
+    boxed: bool = False,
+    **values: object,
+) -> None:
+    """Draw an interface text, translated, filled and wrapped. plural: the text for a `count` other than 1."""
+    lengths = partial(Units.from_settings(context.scene.unit_settings).text, "length")
+    sentence(layout, context, fill(text, plural, values, localized, lengths), icon, boxed)
 
 
 def stale_row(layout: UILayout, context: Context, reason: str | None) -> None:

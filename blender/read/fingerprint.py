@@ -15,13 +15,13 @@ import struct
 
 import bpy
 
-from ...core.numerics.float32 import shortest_decimal
-from ..settings.density import object_density
+from ...core.measurement.settings import Settings
 from ..settings.digest import density_key
+from ..settings.resolve import object_settings
 
 VERSION = "v1"
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
-MAX_LENGTH = 3e38  # of an axis: float32 can store it
+MAX_LENGTH = 3e38  # of an axis, that float32 can store
 
 
 def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
@@ -96,66 +96,12 @@ def scale_hash(obj: bpy.types.Object) -> str:
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
     """Return a digest of the settings that the numbers of this object depend on."""
-    settings = obj.body_moments
-    density, mass = None, None
-    if settings.mass_from == "MASS":
-        mass = shortest_decimal(settings.mass)
-    else:
-        density = given_density(obj, scene)
-    return settings_hash_with(obj, scene, density, mass)
+    return current_settings(obj, scene).digest
 
 
-def given_density(obj: bpy.types.Object, scene: bpy.types.Scene) -> float:
-    """Return the one density that the object's settings say: kg/m³, of a wire kg/m."""
-    settings = obj.body_moments
-    return shortest_decimal(settings.linear_density) if settings.kind == "WIRE" else object_density(settings, scene)
-
-
-def settings_hash_with(obj: bpy.types.Object, scene: bpy.types.Scene, density: float | None, mass: float | None) -> str:
-    """Return a digest of the object's settings as they are, but for this density or mass."""
-    settings = obj.body_moments
-    unit = shortest_decimal(scene.unit_settings.scale_length)
-    return effective_hash(
-        "SOLID" if obj.type == "VOLUME" else settings.kind,
-        density,
-        mass,
-        shortest_decimal(settings.thickness) * unit,
-        settings.overlap,
-        unit,
-        settings.wall,
-        density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene),
-    )
-
-
-def effective_hash(
-    kind: str,
-    density: float | None,
-    mass: float | None,
-    thickness: float,
-    overlap: str,
-    unit_scale: float,
-    wall: str = "THIN",
-    varying: str = "",
-) -> str:
-    """Return a digest of the used settings; settings without use for the kind do not count.
-
-    varying: `density_key`, in place of the density.
-    """
-    density = None if varying else density
-    # settings hold such decimals
-    density, mass = [None if value is None else shortest_decimal(value) for value in (density, mass)]
-    used = [
-        kind,
-        density,
-        mass,
-        float("{:.6g}".format(thickness)) if kind == "SHELL" else None,
-        overlap if kind == "SOLID" else None,
-        round(unit_scale, 12),
-        *([varying] if varying else []),
-    ]
-    if kind == "SHELL" and wall != "THIN":
-        used.append(wall)
-    return digest(repr(used).encode())
+def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
+    """Return the object's settings as they are."""
+    return object_settings(obj, scene, varying=density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene))
 
 
 def digest(data: bytes) -> str:

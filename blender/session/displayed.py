@@ -8,7 +8,7 @@ Panels of stored numbers are drawn without numpy; live numbers and sums are comp
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import bpy
@@ -20,22 +20,23 @@ from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.findings import FLIPPED_FACES
 from ...core.verdict.method import Method, Verdict
 from ...core.verdict.sentences import severity
-from ..read.fingerprint import settings_hash
+from ..read.fingerprint import has_transform, settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
 from ..write.properties import StoredProperties
 from . import stored
 from .live import following
 from .live.following import Lag, LiveResult
-from .tracking import handlers, posed
+from .tracking import handlers, posed, updates
 from .tracking.cache import SessionCache
 from .tracking.staleness import stale_reason
-from .tracking.stamps import Stale
+from .tracking.stamps import Stale, of_results
 
 REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
 # Warnings that say how the surface was closed: those of a repaired body.
 REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
 ASSEMBLY = Method(Verdict.ASSEMBLY)
+BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
 
 
 class Trust(StrEnum):
@@ -51,12 +52,13 @@ class Trust(StrEnum):
 class Displayed:
     """The displayed numbers of an object, SI.
 
-    numbers: in the object frame; world: in the world frame. reason: why they are out of date. live: the measurement
-    with Live on. lag: of live numbers. is_posed: they are the sum of the meshes that an armature deforms.
+    numbers: in the object frame; world: in the world frame. unit: meters per Blender unit. reason: why they are out of
+    date. live: the measurement with Live on. lag: of live numbers. is_posed: they are a sum in the present pose.
     """
 
     numbers: StoredProperties
     world: StoredProperties
+    unit: float
     method: Method | None
     findings: Sequence[Finding]
     trust: Trust
@@ -88,6 +90,8 @@ class Total:
     findings: tuple[Finding, ...]
 
 
+# The last drawn numbers of an object, the key of its state but for its place, and the number of its last move.
+_drawn: SessionCache[tuple[tuple, int, Displayed | None]] = SessionCache()
 _failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
 # A scene's last total, and the generation and view layer that it is of: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
@@ -98,25 +102,26 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
     scene: sets the unit scale.
     """
-    if posed.stands_for_meshes(obj) and (total := stored.sums.of_meshes(obj, scene)) is not None:
+    is_posed = obj.type == "ARMATURE" and posed.stands_for_meshes(obj)
+    if is_posed and (total := stored.sums.of_meshes(obj, scene)) is not None:
         return total
-    now = following.current_numbers(obj)
+    current = following.followed.get(obj)
+    now = None if current is None else current.result
     if now is not None and (measurement := now.measurement) is not None:
         own = following.current_properties(obj, scene)
         method, findings, lag = measurement.method, measurement.findings, following.lag(obj)
         reason = stale_reason(obj, scene, following.stamp_of)
         is_behind = reason is not None or lag == Lag.BEHIND
     else:
-        numbers = properties.numbers(obj) if "body_mass" in obj else None
-        own = None if numbers is None else properties.from_numbers(numbers)
+        own = properties.stored(obj) if "body_mass" in obj else None
         method, findings, lag = properties.method(obj), properties.findings(obj), Lag.NONE
         reason = stale_reason(obj, scene)
         is_behind, now = reason is not None, None
     if own is None:
         return None
     trust = Trust.OUT_OF_DATE if is_behind else trust_of(method, findings)
-    world = own.in_world(obj.matrix_world, shortest_decimal(scene.unit_settings.scale_length))
-    return Displayed(own, world, method, findings, trust, reason, now, lag)
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    return Displayed(own, own.in_world(obj.matrix_world, unit), unit, method, findings, trust, reason, now, lag)
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
@@ -124,10 +129,43 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
 
     None if it has no mass.
     """
-    shown = displayed(obj, scene)
-    if obj.type == "ARMATURE" and shown is not None and not shown.is_posed:
-        shown = stored.sums.of_bones(obj, scene)
+    if obj.type == "ARMATURE" or obj in following.followed or obj.body_moments.density_from in BY_OTHERS:
+        shown = displayed(obj, scene)
+        if obj.type == "ARMATURE" and shown is not None and not shown.is_posed:
+            shown = stored.sums.of_bones(obj, scene)
+    else:
+        shown = _known_displayed(obj, scene) if "body_mass" in obj else None
     return shown if shown is not None and shown.world.mass > 0.0 else None
+
+
+def _known_displayed(obj: Object, scene: Scene) -> Displayed | None:
+    """Return the displayed numbers of an object that depends on no other, computed again only after its changes.
+
+    The numbers of a thousand objects take 0.1 s.
+    """
+    change, move = updates.last_change_and_move(obj)
+    settings, known = scene.body_moments, _drawn.get(obj)
+    key = (
+        change,
+        obj.get("body_fingerprint"),
+        obj.get("body_findings"),
+        scene.session_uid,
+        scene.unit_settings.scale_length,
+        settings.default_material,
+        settings.default_density,
+    )
+    if known is None or known[0] != key:
+        shown = displayed(obj, scene)
+    elif known[1] == move:
+        return known[2]
+    else:
+        shown, stamp = known[2], of_results(obj)
+        if shown is None or stamp is None or shown.reason is not None or not has_transform(obj, stamp.transform):
+            shown = displayed(obj, scene)
+        else:
+            shown = replace(shown, world=shown.numbers.in_world(obj.matrix_world, shown.unit))
+    _drawn[obj] = key, move, shown
+    return shown
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
@@ -135,14 +173,14 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
 
     bone: of an original armature object.
     """
-    numbers = properties.numbers(bone)
-    if numbers is None:
+    armature, own = bone.id_data, properties.stored(bone)
+    if own is None:
         return None
-    armature, own = bone.id_data, properties.from_numbers(numbers)
-    world = own.in_world(armature.matrix_world @ bone.matrix, shortest_decimal(scene.unit_settings.scale_length))
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    world = own.in_world(armature.matrix_world @ bone.matrix, unit)
     method, findings, reason = properties.method(bone), properties.findings(armature), stale_reason(armature, scene)
     trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
-    return Displayed(own, world, method, findings, trust, reason)
+    return Displayed(own, world, unit, method, findings, trust, reason)
 
 
 def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:

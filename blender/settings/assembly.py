@@ -4,10 +4,12 @@
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import PropertyGroup
+from bpy.types import Collection, Object, PropertyGroup
 
-from .given_properties import GivenPartProperties
+from .given import GivenPartProperties, shows_collection
 from .hooks import part_changed
+
+Root = Object | Collection
 
 
 class BodyMomentsAssemblyRow(PropertyGroup):
@@ -59,6 +61,16 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
     )
     rows: CollectionProperty(name="Members", type=BodyMomentsAssemblyRow)
     active_row: IntProperty(name="Active Member", description="Member that is highlighted in the tree")
+
+
+def is_assembly(data: Root) -> bool:
+    """Return whether it is a collection, or an empty that stands for its children."""
+    return isinstance(data, Collection) or data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
+
+
+def settings_of(data: Root) -> PropertyGroup:
+    """Return the settings of an assembly."""
+    return data.body_moments if isinstance(data, Collection) else data.body_moments_assembly
 
 
 CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings)

@@ -5,23 +5,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import bpy
 
-from ...core.density.polynomial import Polynomial, parse_polynomial
+from ...core import density as density_engine
 from ...core.measurement.findings import DENSITY_FROM_VALUE
-from ...core.measurement.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
-    DENSITY_ATTRIBUTE_MISSING,
-    DENSITY_FROM_COEFFICIENTS,
     DENSITY_FROM_POLYNOMIAL,
-    DENSITY_VOLUME_MISSING,
+    DENSITY_SOURCE_MISSING,
     OBJECT_DENSITY_USED,
     OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
 from .preferences import default_density
+
+if TYPE_CHECKING:
+    from ...core.density.polynomial import Polynomial
+    from ...core.measurement.measurement import Measurement
 
 # Sources of density from the one value of an object, for all or some of its faces.
 _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
@@ -51,8 +53,8 @@ class DensityField:
 
         A decimal comma shows here as the coefficients it was taken for.
         """
-        code = DENSITY_FROM_COEFFICIENTS if "," in self.text else DENSITY_FROM_POLYNOMIAL
-        return finding(code, polynomial=self.text, frame=self.frame)
+        text = "({}) · (1, x, y, z, …)".format(self.text) if "," in self.text else self.text
+        return finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
@@ -66,13 +68,15 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         return DensityField("materials")
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
-        return DensityField("polynomial", parse_polynomial(text), settings.density_frame == "WORLD", text)
+        return DensityField(
+            "polynomial", density_engine.parse_polynomial(text), settings.density_frame == "WORLD", text
+        )
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
-            raise ReadError(DENSITY_VOLUME_MISSING)
+            raise ReadError(DENSITY_SOURCE_MISSING, source="Volume Object")
         return DensityField("volume")
     if not settings.density_attribute:
-        raise ReadError(DENSITY_ATTRIBUTE_MISSING)
+        raise ReadError(DENSITY_SOURCE_MISSING, source="Vertex Attribute")
     return DensityField("attribute", attribute=settings.density_attribute)
 
 

@@ -16,8 +16,7 @@ from ...core.density.materials import BY_NAME, CT_DENSITIES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron.limits import MAX_ORDER
 from .density import object_density
-from .given import GIVEN_PROPERTIES, is_point_mass
-from .given_properties import GivenPartProperties
+from .given import GIVEN_PROPERTIES, GivenPartProperties, is_point_mass
 from .hooks import changed, density_changed, threshold_changed, wall_changed
 from .overlay import BodyMomentsOverlaySettings
 from .preferences import CLASSES as PREFERENCES

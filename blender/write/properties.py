@@ -23,7 +23,7 @@ from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.sentences import of_severity, sentence
-from .findings import LINKED_RESULTS, OVERRIDE_RESULTS
+from .findings import LINKED_RESULTS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -334,10 +334,8 @@ def store_reference(obj: Owner, values: dict) -> None:
 def require_storable(obj: Owner) -> None:
     """Raise EditRefusedError for an owner that cannot hold results."""
     data = obj.id_data
-    if not data.is_editable:
+    if not data.is_editable or data.override_library is not None:  # saving drops an override's new ID properties
         raise EditRefusedError(LINKED_RESULTS, subject=data.name_full)
-    if data.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise EditRefusedError(OVERRIDE_RESULTS, subject=data.name_full)
 
 
 def clear(obj: Owner) -> bool:
@@ -463,6 +461,12 @@ def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
             return None
         values.append(row)
     return tuple(values)
+
+
+def stored(obj: Owner) -> StoredProperties | None:
+    """Return the stored results, in the object frame; None if a number is missing or not finite."""
+    values = numbers(obj)
+    return None if values is None else from_numbers(values)
 
 
 def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:

@@ -11,15 +11,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import degrees
+from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
-from ...core.flat.section import Plane, Section
+from ...core import flat
 from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.sentences import sentence, severity
 from .properties import findings_in, findings_text, warning_lines
 from .units import rounded_up
+
+if TYPE_CHECKING:
+    from ...core.flat.section import Section
 
 KEY = "body_section"
 BOUND_KEYS = ("area", "perimeter", "centroid", "second")
@@ -122,14 +125,12 @@ def clear(obj: bpy.types.Object) -> bool:
 @lru_cache(maxsize=64)
 def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
     values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
-    plane = Plane(np.array(values["origin"]), np.array(values["axes"]).reshape(3, 3).T, values["off"][0], named)
-    section = Section(
-        plane,
+    axes = values["axes"]
+    section = flat.Section.from_numbers(
+        (values["origin"], (axes[0::3], axes[1::3], axes[2::3]), values["off"][0], named),
         values["area"][0],
         values["perimeter"][0],
-        np.array(values["centroid"]),
-        np.array(values["second"]),
-        np.array(values["reach"]),
+        (values["centroid"], values["second"], values["reach"]),
         int(values["counts"][0]),
         int(values["counts"][1]),
         dict(zip(BOUND_KEYS, values["error"])),

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import atan2, pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -104,6 +105,21 @@ class Section:
     holes: int
     rounding_error: dict[str, float]
     input_error: dict[str, float]
+
+    @classmethod
+    def from_numbers(
+        cls,
+        plane: tuple[ArrayLike, ArrayLike, float, str],
+        area: float,
+        perimeter: float,
+        vectors: tuple[ArrayLike, ArrayLike, ArrayLike],
+        *rest: Any,
+    ) -> Section:
+        """Return the section with these numbers: the plane's, then its own, in the order of the attributes."""
+        origin, axes, out_of_plane, x_axis_name = plane
+        flat = Plane(np.asarray(origin, float), np.asarray(axes, float), out_of_plane, x_axis_name)
+        centroid, second, reach = (np.asarray(vector, float) for vector in vectors)
+        return cls(flat, area, perimeter, centroid, second, reach, *rest)
 
     @property
     def center(self) -> NDArray[np.float64]:

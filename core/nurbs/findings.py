@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/nurbs`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict.finding import error, warning
 
 NON_FINITE_CONTROL_POINTS = error(
     "non_finite_control_points",
@@ -42,11 +42,6 @@ FLIPPED_PATCHES = warning(
     "{count} patch faces against the others and was measured as reversed. Use Segments > Switch Direction.",
     "{count} patches face against the others and were measured as reversed. Use Segments > Switch Direction.",
 )
-FLIPPED_PATCHES_SLIGHTLY = note(
-    "flipped_patches_slightly",
-    "{count} patch faces against the others and was measured as reversed.",
-    "{count} patches face against the others and were measured as reversed.",
-)
 AMBIGUOUS_PATCH_SIDES = warning(
     "ambiguous_patch_sides",
     "{count} patch side meets more than one other, so the orientation is a guess. Make all patches face outward.",
@@ -55,9 +50,6 @@ AMBIGUOUS_PATCH_SIDES = warning(
 INVERTED_PATCH_COMPONENTS = warning(
     "inverted_patch_components",
     "Inside-out components measured as reversed: {count} of {total}. Use Segments > Switch Direction.",
-)
-INVERTED_PATCH_COMPONENTS_SLIGHTLY = note(
-    "inverted_patch_components_slightly", "Inside-out components measured as reversed: {count} of {total}."
 )
 OPEN_PATCH_SIDES = warning(
     "open_patch_sides",
@@ -68,17 +60,11 @@ OPEN_PATCH_SIDES = warning(
 FLAT_PATCH_HOLES_CAPPED = warning(
     "flat_patch_holes_capped", "Flat holes capped exactly: {count} ({share:percent} of the area). Close the surface."
 )
-FLAT_PATCH_HOLES_CAPPED_SLIGHTLY = note(
-    "flat_patch_holes_capped_slightly", "Flat holes capped exactly: {count} ({share:percent} of the area)."
-)
 CURVED_PATCH_HOLES_CAPPED = warning(
     "curved_patch_holes_capped",
     "Non-planar holes capped by a cone: {count} ({out_of_plane:percent} of the size out of plane, "
     "{share:percent} of "
     "the area). Close the surface.",
-)
-CURVED_PATCH_HOLES_CAPPED_SLIGHTLY = note(
-    "curved_patch_holes_capped_slightly", "Non-planar holes capped by a cone: {count} ({share:percent} of the area)."
 )
 PATCH_BOUNDARY_CROSSES_ITSELF = warning(
     "patch_boundary_crosses_itself",

@@ -37,13 +37,9 @@ from .findings import (
     AMBIGUOUS_PATCH_SIDES,
     AREA_ERROR_ESTIMATE_LARGE,
     CURVED_PATCH_HOLES_CAPPED,
-    CURVED_PATCH_HOLES_CAPPED_SLIGHTLY,
     FLAT_PATCH_HOLES_CAPPED,
-    FLAT_PATCH_HOLES_CAPPED_SLIGHTLY,
     FLIPPED_PATCHES,
-    FLIPPED_PATCHES_SLIGHTLY,
     INVERTED_PATCH_COMPONENTS,
-    INVERTED_PATCH_COMPONENTS_SLIGHTLY,
     NO_EXTENT,
     NO_PATCHES,
     OPEN_PATCH_SIDES,
@@ -416,12 +412,12 @@ def _orientation_findings(
     """
     findings = []
     if mixed:
-        findings.append(finding(FLIPPED_PATCHES_SLIGHTLY if slight_patches else FLIPPED_PATCHES, count=mixed))
+        findings.append(finding(FLIPPED_PATCHES, slight=slight_patches, count=mixed))
         if closure.non_manifold_sides:
             findings.append(finding(AMBIGUOUS_PATCH_SIDES, count=int(closure.non_manifold_sides)))
     if turn.any():
-        code = INVERTED_PATCH_COMPONENTS_SLIGHTLY if slight_parts else INVERTED_PATCH_COMPONENTS
-        findings.append(finding(code, count=int(turn.sum()), total=int(closure.number)))
+        values = {"count": int(turn.sum()), "total": int(closure.number)}
+        findings.append(finding(INVERTED_PATCH_COMPONENTS, slight=slight_parts, **values))
     return findings
 
 
@@ -447,21 +443,12 @@ def _closing_findings(
     if flat:
         capped = sum(loop.area for loop in flat)
         slight = capped * size < NEGLIGIBLE * volume
-        findings.append(
-            finding(
-                FLAT_PATCH_HOLES_CAPPED_SLIGHTLY if slight else FLAT_PATCH_HOLES_CAPPED,
-                count=len(flat),
-                share=float(capped / area),
-            )
-        )
+        findings.append(finding(FLAT_PATCH_HOLES_CAPPED, slight=slight, count=len(flat), share=float(capped / area)))
     crossing = sum(bool(loop.self_intersecting) for loop in loops)
     if crossing:
         findings.append(finding(PATCH_BOUNDARY_CROSSES_ITSELF, count=crossing))
     if curved:
         capped, worst = sum(loop.area for loop in curved), max(loop.out_of_plane for loop in curved)
-        values = {"count": len(curved), "share": float(capped / area)}
-        if capped * size < NEGLIGIBLE * volume:
-            findings.append(finding(CURVED_PATCH_HOLES_CAPPED_SLIGHTLY, **values))
-        else:
-            findings.append(finding(CURVED_PATCH_HOLES_CAPPED, **values, out_of_plane=float(worst / size)))
+        values = {"count": len(curved), "share": float(capped / area), "out_of_plane": float(worst / size)}
+        findings.append(finding(CURVED_PATCH_HOLES_CAPPED, slight=capped * size < NEGLIGIBLE * volume, **values))
     return findings

@@ -19,9 +19,7 @@ from ..verdict.tolerances import NEGLIGIBLE
 from .boundary_loops import distinct_vertex_pairs
 from .findings import (
     DUPLICATE_FACES_COUNTED,
-    DUPLICATE_FACES_COUNTED_SLIGHTLY,
     DUPLICATE_FACES_IGNORED,
-    DUPLICATE_FACES_IGNORED_SLIGHTLY,
 )
 from .repaired_mesh import RepairedMesh
 
@@ -109,18 +107,10 @@ def _copies_findings(
     findings = []
     if len(ignored):
         slight = area[ignored].sum() < NEGLIGIBLE * area.sum()
-        findings.append(
-            finding(
-                DUPLICATE_FACES_IGNORED_SLIGHTLY if slight else DUPLICATE_FACES_IGNORED, ignored, count=len(ignored)
-            )
-        )
+        findings.append(finding(DUPLICATE_FACES_IGNORED, ignored, slight=slight, count=len(ignored)))
     if len(counted):
         slight = area[counted].sum() < NEGLIGIBLE * area.sum()
-        findings.append(
-            finding(
-                DUPLICATE_FACES_COUNTED_SLIGHTLY if slight else DUPLICATE_FACES_COUNTED, counted, count=len(counted)
-            )
-        )
+        findings.append(finding(DUPLICATE_FACES_COUNTED, counted, slight=slight, count=len(counted)))
     return findings
 
 

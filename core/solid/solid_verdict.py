@@ -29,19 +29,13 @@ from .findings import (
     COMPONENTS_OVERLAP,
     FLAT_COMPONENTS,
     FLAT_SURFACE,
-    FLIPPED_FACES_SLIGHTLY,
     HOLES_CAPPED,
-    HOLES_CAPPED_SLIGHTLY,
     INVERTED_COMPONENTS,
-    INVERTED_COMPONENTS_SLIGHTLY,
     NON_PLANAR_FACES,
-    NON_PLANAR_FACES_SLIGHTLY,
     OVERLAP_UNCHECKED,
     SELF_INTERSECTING,
-    SELF_INTERSECTION_SLIGHTLY,
     SELF_INTERSECTION_UNCHECKED,
     VERTICES_WELDED,
-    VERTICES_WELDED_SLIGHTLY,
 )
 from .orientation import ComponentComparison, OrientedSolid
 from .repaired_mesh import RepairedMesh
@@ -187,7 +181,7 @@ def judge(
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
         slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
-        findings.append(finding(FLIPPED_FACES_SLIGHTLY if slight else FLIPPED_FACES, flipped, count=len(flipped)))
+        findings.append(finding(FLIPPED_FACES, flipped, slight=slight, count=len(flipped)))
     if len(inverted):
         findings.append(_inverted_finding(mesh, inverted, checked.size, volume.total))
     if caps[:2].any():
@@ -258,7 +252,7 @@ def _float32_step(surface: Surface) -> float:
 
 def _weld_finding(displacement: float, size: float, area: float, volume: float) -> Finding:
     slight = displacement * area < NEGLIGIBLE * abs(volume)
-    return finding(VERTICES_WELDED_SLIGHTLY if slight else VERTICES_WELDED, share=float(displacement / size))
+    return finding(VERTICES_WELDED, slight=slight, share=float(displacement / size))
 
 
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
@@ -276,8 +270,7 @@ def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: floa
     which[inverted] = True
     faces = NO_FACES if which.all() else mesh.faces_of(which)
     slight = not which.all() and _is_slight(mesh, which[mesh.component], size, volume)
-    code = INVERTED_COMPONENTS_SLIGHTLY if slight else INVERTED_COMPONENTS
-    return finding(code, faces, count=len(inverted), total=int(mesh.number))
+    return finding(INVERTED_COMPONENTS, faces, slight=slight, count=len(inverted), total=int(mesh.number))
 
 
 def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[np.intp]:
@@ -295,9 +288,8 @@ def cap_finding(
     caps: (3,) flat ones, curved ones, and their area; share: of the surface's.
     """
     flat, curved = map(int, caps[:2])
-    if caps[2] * size < NEGLIGIBLE * volume:  # all their moments together
-        return finding(HOLES_CAPPED_SLIGHTLY, edges, count=flat + curved, share=share)
-    return finding(HOLES_CAPPED, edges, count=flat + curved, flat=flat, curved=curved, share=share)
+    slight = caps[2] * size < NEGLIGIBLE * volume  # all their moments together
+    return finding(HOLES_CAPPED, edges, slight=slight, count=flat + curved, flat=flat, curved=curved, share=share)
 
 
 def _component_findings(
@@ -318,8 +310,7 @@ def _component_findings(
         if which.any():
             decided = _all_but_largest(mesh, which) if code == COMPONENTS_OVERLAP else which
             slight = code in WITH_SLIGHT and _is_slight(mesh, decided[mesh.component], size, volume)
-            name = code + "_slightly" if slight else code
-            findings.append(finding(name, mesh.faces_of(which), count=int(which.sum()), **values))
+            findings.append(finding(code, mesh.faces_of(which), slight=slight, count=int(which.sum()), **values))
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
     return findings
@@ -337,8 +328,8 @@ def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np
 def _intersection_findings(intersection: SelfIntersection, volume: float) -> list[Finding]:
     """Return findings about a component that goes through itself, or that was not tested."""
     if intersection.state is Intersection.FOUND:
-        code = SELF_INTERSECTION_SLIGHTLY if intersection.effect < NEGLIGIBLE else SELF_INTERSECTION
-        return [finding(code, share=intersection.volume / volume)]
+        slight = intersection.effect < NEGLIGIBLE
+        return [finding(SELF_INTERSECTION, slight=slight, share=intersection.volume / volume)]
     return [finding(SELF_INTERSECTION_UNCHECKED)] if intersection.state is Intersection.NOT_CHECKED else []
 
 
@@ -350,4 +341,4 @@ def shape_findings(is_solid: bool, planarity: Planarity, volume: Moments) -> lis
     if not planarity.volume_spread > MIN_REPORTED_AMBIGUITY * total > 0.0:
         return []
     share = float(planarity.volume_spread / total)
-    return [finding(NON_PLANAR_FACES_SLIGHTLY if share < NEGLIGIBLE else NON_PLANAR_FACES, share=share)]
+    return [finding(NON_PLANAR_FACES, slight=share < NEGLIGIBLE, share=share)]

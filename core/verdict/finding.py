@@ -133,9 +133,12 @@ class Finding:
         return sentence(self)
 
 
-def finding(code: str, elements: Elements = (), /, **values: Any) -> Finding:
-    """Make a finding of that code, about these elements, with these values."""
-    return Finding(code, values, elements)
+def finding(code: str, elements: Elements = (), /, *, slight: bool = False, **values: Any) -> Finding:
+    """Make a finding of that code, about these elements, with these values.
+
+    slight: its effect on mass, size and inertia is negligible (`core/verdict/tolerances.py`): a warning is a note then.
+    """
+    return Finding(code, {**values, "slight": True} if slight else values, elements)
 
 
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:

@@ -12,7 +12,8 @@ Values stay numbers, strings, booleans and lists; only the template formats them
     {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of “Cube”
 
 The optional value `sources` (names of the objects that a surface came from, if not the measured object itself) puts
-“A”, “B”: before any message. `accepted` says that a user has judged the finding: a warning is a note then.
+“A”, “B”: before any message. `accepted` says that a user has judged the finding, `slight` that its effect is
+negligible: a warning is a note then.
 """
 
 from __future__ import annotations
@@ -114,9 +115,10 @@ def sentence(
 
 
 def severity(finding: Finding) -> Severity:
-    """Return the severity of a finding, by its code; an accepted warning is a note."""
-    by_code = declared(finding.code).severity
-    return Severity.NOTE if by_code == Severity.WARNING and finding.values.get("accepted") else by_code
+    """Return the severity of a finding, by its code; an accepted or slight warning is a note."""
+    by_code, values = declared(finding.code).severity, finding.values
+    is_lowered = values.get("accepted") or values.get("slight")
+    return Severity.NOTE if by_code == Severity.WARNING and is_lowered else by_code
 
 
 def of_severity(findings: Iterable[Finding], *severities: Severity) -> list[Finding]:

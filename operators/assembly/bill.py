@@ -12,11 +12,11 @@ from bpy.props import BoolProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
 from ...blender.bodies.assembly.assembly import MemberBody
-from ...blender.bodies.assembly.given import properties_of
 from ...blender.bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...blender.write import reports
 from ...blender.write.bill import BillRow, bill_csv
 from ...core.files.whole_file import whole_file
+from ...core.measurement.builder import find_properties
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files, selection
 from ..findings import BILL_WRITTEN, FILE_NOT_WRITTEN, NO_EXPORT_FILE
@@ -46,10 +46,10 @@ def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = Tru
         row = replace(
             row,
             share=moments.total / mass if counted else None,
-            density=moments.total / part.volume if part.volume else None,
-            volume=part.volume,
-            area=part.area,
-            properties=properties_of(moments, np.eye(3)),
+            density=moments.total / part.volume[0] if part.volume[0] else None,
+            volume=part.volume[0],
+            area=part.area[0],
+            properties=find_properties(moments, np.eye(3)),
         )
     yield row
     given = any(found.code == ASSEMBLY_MASS_GIVEN for found in part.findings)

@@ -21,7 +21,7 @@ from bpy_extras.io_utils import ImportHelper
 from numpy.typing import NDArray
 
 from ...blender.read.grids.vdb import openvdb
-from ...blender.settings.grid import positions_text
+from ...blender.settings.grid_values import positions_text
 from ...blender.settings.limits import scan_limits
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal

@@ -9,7 +9,7 @@ from bpy.types import Context, Depsgraph, Object, Operator
 
 from ...blender.bodies.flat.flat import area_findings, flat_region
 from ...blender.read.fingerprint import fingerprint, matrix_hash, settings_hash
-from ...blender.read.section import SECTION_TYPES
+from ...blender.read.visibility import SECTION_TYPES
 from ...blender.session.stored import outcome
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports

@@ -17,7 +17,7 @@ from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
 from ...blender.write import properties, reports
-from ...core.solid.findings import FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, INVERTED_COMPONENTS_SLIGHTLY
+from ...core.solid.findings import INVERTED_COMPONENTS
 from ...core.verdict.finding import EditRefusedError, MeasureError, finding
 from ...core.verdict.findings import FLIPPED_FACES
 from .. import selection
@@ -30,7 +30,7 @@ from ..findings import (
 from ..measure.select_faults import require_editable_mesh
 
 # Findings whose elements are the faces that were reversed; without elements, all faces were
-REVERSED = (FLIPPED_FACES, FLIPPED_FACES_SLIGHTLY, INVERTED_COMPONENTS, INVERTED_COMPONENTS_SLIGHTLY)
+REVERSED = (FLIPPED_FACES, INVERTED_COMPONENTS)
 MILLIMETER = 0.001
 
 

@@ -15,7 +15,6 @@ from ...blender.session.displayed import drawn
 from ...blender.session.stored import stability
 from ...blender.session.tracking import staleness
 from ...blender.write.translations import localized
-from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.findings import NO_STABLE_POSE
 from ...core.statics.resting import RestingPoses
 from ...core.verdict.finding import EditRefusedError, Finding, finding
@@ -103,8 +102,7 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         normals = poses.normals @ rotation.T
         place = (self.pose - 1) % len(normals) if self.pose else int((normals @ down).argmax())
         turn = shortest_turn(normals[place], down)
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
-        center, size = np.array(body.world.center) / unit, max(body.world.gyration) / unit
+        center, size = np.array(body.world.center) / body.unit, max(body.world.gyration) / body.unit
         target = world(obj)
         target[:3, :3] = turn @ target[:3, :3]
         target[:3, 3] = center + turn @ (target[:3, 3] - center)

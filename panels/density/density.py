@@ -11,15 +11,14 @@ import bpy
 from bpy.types import Context, Object, Scene, UILayout
 
 from ...blender.read.visibility import GEOMETRY_TYPES
-from ...blender.session.stored import walls as wall_slider
+from ...blender.session import stored
 from ...blender.settings.given import shows_collection
 from ...blender.settings.preferences import default_material
 from ...blender.settings.properties import density_field_name
 from ...blender.write.translations import CONTEXT
 from ...blender.write.units import Units
-from ...core.verdict.finding import finding
+from ...core.lazy import loaded_module
 from .. import rows
-from ..findings import PANEL_NO_MATERIAL_SLOTS, PANEL_OVERRIDE, PANEL_WALL_FOLDS, PANEL_WALL_LIMIT
 from ..places import in_both_places
 from ..settings import setting
 from . import grid
@@ -67,7 +66,12 @@ def material_row(layout: UILayout, context: Context, obj: Object) -> None:
 def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     if obj.override_library is not None:
-        rows.message(layout, context, finding(PANEL_OVERRIDE))
+        rows.remark(
+            layout,
+            context,
+            "Library override: settings and results are lost on saving. Make it local.",
+            icon="ERROR",
+        )
     if obj.type == "VOLUME" and grid.settings_rows(layout, context, obj):
         return
     column = layout.column()
@@ -115,13 +119,17 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
 
 def _max_thickness(layout: UILayout, context: Context, obj: Object) -> None:
     """Draw the largest thickness of the wall, once it is known."""
-    limit = wall_slider.max_thickness(obj)
+    walls = loaded_module(stored, "walls")
+    limit = None if walls is None else walls.max_thickness(obj)
     if limit is None:
         return
-    folds = wall_slider.is_too_thick(obj)
+    folds = walls.is_too_thick(obj)
     row = layout.row()
     row.alert = folds
-    rows.message(row, context, finding(PANEL_WALL_FOLDS if folds else PANEL_WALL_LIMIT, length=limit))
+    if folds:
+        rows.remark(row, context, "Folds over from {length:length}", icon="ERROR", length=limit)
+    else:
+        rows.remark(row, context, "Largest wall: {length:length}", length=limit)
 
 
 def _materials(layout: UILayout, context: Context, obj: Object) -> None:
@@ -132,7 +140,7 @@ def _materials(layout: UILayout, context: Context, obj: Object) -> None:
     for material in shown:
         materials.density_row(column, context.scene, material, material.name)
     if not shown:
-        rows.message(column, context, finding(PANEL_NO_MATERIAL_SLOTS))
+        rows.remark(column, context, "No material slots")
     column = layout.column()
     column.use_property_split = True
     _uniform_density(column, context, settings, "Others")

@@ -9,17 +9,15 @@ from bpy.types import Context
 from ...blender.session.displayed import displayed
 from ...blender.write import properties
 from ...blender.write.units import Units
-from ...core.verdict.finding import finding
 from .. import rows
-from ..findings import PANEL_EQUAL_MOMENTS_12, PANEL_EQUAL_MOMENTS_23, PANEL_EQUAL_MOMENTS_ALL
 from ..places import in_both_places
 from .numbers import PRINCIPAL_LABELS
 
 ERROR_OF_A_DIFFERENCE = 6.0  # each principal moment is off by at most 3 times the error of a tensor entry
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
-    (True, True): PANEL_EQUAL_MOMENTS_ALL,
-    (True, False): PANEL_EQUAL_MOMENTS_12,
-    (False, True): PANEL_EQUAL_MOMENTS_23,
+    (True, True): "All principal moments are equal",
+    (True, False): "Principal moments 1 and 2 are equal",
+    (False, True): "Principal moments 2 and 3 are equal",
 }
 
 
@@ -52,9 +50,9 @@ class InertiaPanel:
             rows.direction(column, label, axis)
         error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
         equal = [b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in zip(moments, moments[1:])]
-        code = EQUAL_MOMENTS.get(tuple(equal))
-        if code:
-            rows.message(column, context, finding(code))
+        text = EQUAL_MOMENTS.get(tuple(equal))
+        if text:
+            rows.remark(column, context, text)
         column = layout.column(align=True)
         rows.heading(column, "Radii of Gyration", "length", shown.gyration)
         rows.values(column, units, PRINCIPAL_LABELS, "length", shown.gyration)

@@ -6,11 +6,10 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ...blender.session.stored import moments as moments_table
+from ...blender.session import stored
 from ...blender.session.tracking.staleness import stale_reason
-from ...core.verdict.finding import finding
+from ...core.lazy import loaded_module
 from .. import rows
-from ..findings import PANEL_ORDERS_COPIED
 from ..places import in_both_places
 from ..settings import setting
 
@@ -30,20 +29,21 @@ class MomentsPanel:
         setting(column, settings, "moments_about")
         setting(column, settings, "frame", expand=True)
         rows.button(layout, context, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
-        computed = moments_table.computed_moments(obj)
+        table = loaded_module(stored, "moments")
+        computed = None if table is None else table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, context, stale_reason(obj, context.scene, moments_table.stamp_of))
-        degrees, missing = moments_table.current_numbers(obj, context.scene)
+        rows.stale_row(layout, context, stale_reason(obj, context.scene, table.stamp_of))
+        degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
             rows.message(layout, context, missing)
         for degree in degrees:
             column = layout.column(align=True)
             rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
-        if computed.order > moments_table.MAX_SHOWN_ORDER:
-            orders = finding(PANEL_ORDERS_COPIED, first=moments_table.MAX_SHOWN_ORDER + 1, last=computed.order)
-            rows.message(layout, context, orders)
+        if computed.order > table.MAX_SHOWN_ORDER:
+            text, first = "Orders {first} to {last} are only in the copy.", table.MAX_SHOWN_ORDER + 1
+            rows.remark(layout, context, text, first=first, last=computed.order)
         rows.button(layout, context, "object.body_moments_copy_moments", "COPYDOWN", short="Copy as CSV")
 
 

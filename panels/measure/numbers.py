@@ -9,9 +9,7 @@ from bpy.types import Context, UILayout
 from ...blender.session.displayed import Displayed
 from ...blender.write import properties
 from ...blender.write.units import Units
-from ...core.verdict.finding import finding
 from .. import rows
-from ..findings import PANEL_DENSITY_MEAN
 
 AXIS_LABELS = ("X", "Y", "Z")
 PRINCIPAL_LABELS = ("1", "2", "3")
@@ -36,7 +34,7 @@ def numbers(layout: UILayout, context: Context, units: Units, displayed: Display
     rows.quantities(column, units, entries)
     source = properties.density_from(context.object)
     if source:
-        rows.message(column, context, finding(PANEL_DENSITY_MEAN, cause=source), icon="BLANK1")
+        rows.remark(column, context, "Mean density, from {cause}", icon="BLANK1", cause=source)
     column = layout.column(align=True)
     is_rig = context.object.type == "ARMATURE" and not displayed.is_posed
     headings = RESTING_HEADINGS if is_rig else CENTER_HEADINGS

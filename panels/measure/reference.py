@@ -4,13 +4,12 @@
 
 from __future__ import annotations
 
-import numpy as np
 from bpy.types import Context
 
-from ...blender.session.stored import reference
-from ...blender.write import properties
+from ...blender.session import stored
+from ...blender.write.properties import ENTRIES, is_stored, tensor_entries
 from ...blender.write.units import Units
-from ...core.inertia.reference import ReferredInertia
+from ...core.verdict.finding import Finding
 from .. import rows
 from ..places import in_both_places
 from ..settings import setting
@@ -37,10 +36,10 @@ class ReferencePanel:
             rows.button(
                 layout, context, "object.body_moments_axis_from_selection", "EYEDROPPER", short="From Selection"
             )
-        result = reference.referred(context.object, scene)
+        result = stored.reference.referred(context.object, scene) if is_stored(context.object) else None
         if result is None:
             return
-        if not isinstance(result, ReferredInertia):
+        if isinstance(result, Finding):
             rows.message(layout, context, result)
             return
         units = Units.from_settings(scene.unit_settings)
@@ -51,13 +50,13 @@ class ReferencePanel:
             rows.values(column, units, ("Radius of Gyration", "Distance of Center"), "length", distances)
         column = layout.column(align=True)
         rows.heading(column, "Center of Mass from There", "length", result.center)
-        rows.values(column, units, AXIS_LABELS, "length", result.center, float(np.abs(result.center).max()))
+        rows.values(column, units, AXIS_LABELS, "length", result.center, max(map(abs, result.center)))
         column = layout.column(align=True)
-        entries = properties.tensor_entries(result.inertia)
+        entries = tensor_entries(result.inertia)
         rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", entries)
-        rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+        rows.values(column, units, ["I" + name for name in ENTRIES], "inertia", entries)
         column = layout.column(align=True)
-        size = float(np.abs(result.inertia).max())
+        size = max(map(abs, entries))
         bounds = {
             label: error["inertia"]
             for label, error in (("Rounding, at Most", result.rounding_error), ("Float32, at Most", result.input_error))

@@ -8,7 +8,7 @@ from math import degrees
 
 from bpy.types import Context, UILayout
 
-from ...blender.read.section import SECTION_TYPES
+from ...blender.read.visibility import SECTION_TYPES
 from ...blender.session.tracking.staleness import stale_reason
 from ...blender.session.tracking.stamps import of_section
 from ...blender.write import section as record

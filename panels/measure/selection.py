@@ -10,12 +10,8 @@ from bpy.types import Context, UILayout, UIList
 from ...blender.session import displayed
 from ...blender.session.displayed import Trust, drawn
 from ...blender.session.stored.listing import SortBy, listed_masses, listing
-from ...blender.write.translations import localized
 from ...blender.write.units import Units
-from ...core.verdict.finding import finding
-from ...core.verdict.sentences import truncate_list
 from .. import rows
-from ..findings import PANEL_NOTHING_MEASURED
 from ..places import in_both_places
 from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 
@@ -109,18 +105,18 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
     total = displayed.total(context)
     column = layout.column(align=True)
     if not total.count:
-        rows.message(column, context, finding(PANEL_NOTHING_MEASURED))
+        rows.remark(column, context, "No selected object is measured")
         return
     rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
     for names, text in (
-        (total.missing, "Not measured: {:s}"),
-        (total.stale, "Out of date: {:s}"),
-        (total.doubtful, "Doubtful: {:s}"),
+        (total.missing, "Not measured: {objects}"),
+        (total.stale, "Out of date: {objects}"),
+        (total.doubtful, "Doubtful: {objects}"),
     ):
         if names:
             row = column.row()
             row.alert = True
-            rows.sentence(row, context, localized(text).format(truncate_list(names, translate=localized)), icon="ERROR")
+            rows.remark(row, context, text, icon="ERROR", objects=names)
     for caveat in total.findings:
         rows.message(column, context, caveat)
     column = layout.column(align=True)

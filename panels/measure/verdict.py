@@ -11,19 +11,10 @@ from ...blender.session.live.following import Lag, current_numbers
 from ...blender.session.tracking import posed
 from ...blender.write import properties
 from ...blender.write.translations import localized
-from ...core.verdict.finding import finding
 from ...core.verdict.method import Source
 from ...core.verdict.sentences import METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
 from .. import rows
-from ..findings import (
-    PANEL_LIVE,
-    PANEL_LIVE_BEHIND,
-    PANEL_LIVE_FIRST_ORDER,
-    PANEL_POSED,
-    PANEL_POSED_MISSING,
-    PANEL_POSED_STALE,
-)
 from . import remedies
 
 ICONS = {
@@ -40,9 +31,11 @@ ICONS = {
 SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # prefix for the measured data, before a verdict
 
 LIVE = {
-    Lag.NONE: PANEL_LIVE,
-    Lag.FIRST_ORDER: PANEL_LIVE_FIRST_ORDER,
-    Lag.BEHIND: PANEL_LIVE_BEHIND,
+    Lag.NONE: "Live ({milliseconds:.0f} ms). Press Measure to store",
+    Lag.FIRST_ORDER: (
+        "Live: mass, volume and center of this frame; inertia follows when it stops ({milliseconds:.0f} ms)"
+    ),
+    Lag.BEHIND: "Live lags: measuring takes {milliseconds:.0f} ms, and waits until the edit stops",
 }
 
 
@@ -64,7 +57,7 @@ def verdict(layout: UILayout, context: Context, obj: Object, shown: Displayed | 
         return
     _headline(column, context, obj, shown)
     if shown.live is not None and shown.reason is None:
-        rows.message(column, context, finding(LIVE[shown.lag], milliseconds=1e3 * shown.live.seconds), icon="REC")
+        rows.remark(column, context, LIVE[shown.lag], icon="REC", milliseconds=1e3 * shown.live.seconds)
     now = current_numbers(obj)
     if now is not None and now.refusal is not None and now.refusal != refusal:
         rows.message(column, context, now.refusal)
@@ -74,13 +67,14 @@ def verdict(layout: UILayout, context: Context, obj: Object, shown: Displayed | 
 def _posed(column: UILayout, context: Context, armature: Object) -> None:
     """Draw the meshes that an armature deforms, with warnings about missing and outdated numbers."""
     meshes = posed.deformed_meshes(armature)
-    rows.message(column, context, finding(PANEL_POSED, count=len(meshes)), icon="POSE_HLT")
+    texts = "Sum of {count} mesh of the armature", "Sum of {count} meshes of the armature"
+    rows.remark(column, context, *texts, icon="POSE_HLT", count=len(meshes))
     numbers = {mesh.name: displayed(mesh, context.scene) for mesh in meshes}
     lacking = [name for name, shown in numbers.items() if shown is None]
     stale = [name for name, shown in numbers.items() if shown is not None and shown.trust == Trust.OUT_OF_DATE]
-    for code, names in ((PANEL_POSED_MISSING, lacking), (PANEL_POSED_STALE, stale)):
+    for text, names in (("Not measured: {objects}", lacking), ("Out of date: {objects}", stale)):
         if names:
-            rows.message(column, context, finding(code, objects=names))
+            rows.remark(column, context, text, icon="ERROR", objects=names)
 
 
 def _headline(column: UILayout, context: Context, obj: Object, shown: Displayed) -> None:

@@ -26,8 +26,8 @@ from ...blender.settings.overlay import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import lines
 from .bodies import Bodies, collect
-from .details import objects_details
-from .view import View
+from .details import list_details
+from .draw import drawn_objects
 
 MAX_REGIONS = 8  # number of regions with cached batches
 SETTINGS = tuple(name for name in BodyMomentsOverlaySettings.__annotations__ if name != "show")
@@ -57,11 +57,12 @@ def draw_region(context: Context) -> None:
     if drawn is None or drawn.key != key:
         if drawn is None and len(_regions) == MAX_REGIONS:
             del _regions[next(iter(_regions))]
-        bodies, details = collect(context), list(objects_details(context, settings))
+        objects = drawn_objects(context, settings.show_all)
+        bodies, details = collect(context, objects), list_details(context, objects)
         segments = [*lines.body_lines(bodies, settings), *(detail.segments for detail in details)]
         fills = _fill_batches([detail.triangles for detail in details])
         drawn = _regions[pointer] = _Drawn(key, bodies, _line_batches(segments), fills)
-    if not (drawn.lines or drawn.fills or len(drawn.bodies)):
+    if not (drawn.lines or drawn.fills or len(drawn.bodies.centers)):
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
     if drawn.view_key != view_key:
@@ -94,8 +95,8 @@ def _scale() -> float:
     return bpy.context.preferences.system.ui_scale
 
 
-def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> View:
-    return View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
+def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> lines.View:
+    return lines.View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
 
 
 def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
@@ -121,12 +122,13 @@ def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
     return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
 
 
-def _discs(bodies: Bodies, view: View, with_digits: bool) -> tuple[Batch, ...]:
-    if not len(bodies):
+def _discs(bodies: Bodies, view: lines.View, with_digits: bool) -> tuple[Batch, ...]:
+    if not len(bodies.centers):
         return ()
-    points, colors, triangles = lines.disc_triangles(bodies, view, _scale(), with_digits)
-    if not len(points):
+    discs = lines.disc_triangles(bodies, view, _scale(), with_digits)
+    if discs is None:
         return ()
+    points, colors, triangles = discs
     shader = gpu.shader.from_builtin("FLAT_COLOR")
     return tuple(
         batch_for_shader(shader, "TRIS", {"pos": points, "color": tints}, indices=triangles) for tints in colors

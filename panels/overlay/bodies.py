@@ -7,13 +7,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from bpy.types import Context
+from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...blender.session.displayed import Displayed, drawn, drawn_bone, total
 from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
-from .draw import drawn_objects
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,18 +27,14 @@ class Bodies:
     gyration: NDArray[np.float64]
     verdicts: NDArray[np.intp]
 
-    def __len__(self) -> int:
-        return len(self.centers)
 
-
-def collect(context: Context) -> Bodies:
-    """Gather the displayed bodies: of objects, of selected pose bones, and if enabled of the selection as one."""
+def collect(context: Context, objects: list[Object]) -> Bodies:
+    """Gather the displayed bodies: of these objects, of selected pose bones, and if enabled of the selection as one."""
     scene = context.scene
-    settings = scene.body_moments.overlay
-    shown: list[Displayed | None] = [drawn(obj, scene) for obj in drawn_objects(context, settings.show_all)]
+    shown: list[Displayed | None] = [drawn(obj, scene) for obj in objects]
     shown += [drawn_bone(bone, scene) for bone in context.selected_pose_bones or ()]
     bodies = [(body.world, body.trust) for body in shown if body is not None]
-    if settings.show_sum:
+    if scene.body_moments.overlay.show_sum:
         whole = total(context)
         if whole.count > 1 and whole.numbers is not None:
             bodies.append((whole.numbers, "sum"))

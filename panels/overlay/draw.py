@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import bpy
 from bpy.types import Context, Object, SpaceView3D
 
@@ -27,21 +25,22 @@ def draw() -> None:
     settings = scene.body_moments.overlay
     if not settings.show:
         return
-    _has_drawn = _has_drawn or settings.show_path or next(drawn_objects(context, settings.show_all), None) is not None
+    _has_drawn = _has_drawn or settings.show_path or bool(drawn_objects(context, settings.show_all))
     if _has_drawn:
         overlay.batches.draw_region(context)
 
 
-def drawn_objects(context: Context, show_all: bool) -> Iterator[Object]:
-    """Yield the objects with numbers to draw in a view: visible and, if not all, selected.
+def drawn_objects(context: Context, show_all: bool) -> list[Object]:
+    """Return the objects with numbers to draw in a view: visible and, if not all, selected.
 
     In Pose Mode an armature represents its meshes.
     """
     layer, space = context.view_layer, context.space_data
-    for obj in layer.objects if show_all else layer.objects.selected:
-        has_numbers = "body_mass" in obj or is_live(obj) or stands_for_meshes(obj)
-        if has_numbers and obj.visible_in_viewport_get(space):
-            yield obj
+    return [
+        obj
+        for obj in (layer.objects if show_all else layer.objects.selected)
+        if ("body_mass" in obj or is_live(obj) or stands_for_meshes(obj)) and obj.visible_in_viewport_get(space)
+    ]
 
 
 def register() -> None:

@@ -23,6 +23,7 @@ from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.inertia.affine_image import affine_image
+from ....core.measurement.body import Body
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
@@ -31,7 +32,6 @@ from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.verdict import internal_error
 from ....core.verdict.finding import MeasureError
 from ....core.verdict.method import Method, Source, Verdict
-from ...bodies.body import Body
 from ...bodies.measure_object import measure_body
 from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
@@ -146,7 +146,7 @@ def stop(obj: Object) -> None:
 def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:
     plain = MeasureOptions(compare=False)
     request = Request.resolve(obj, depsgraph, plain)
-    options, unit = request.options, request.unit
+    options, unit = request.settings, request.settings.unit
     can_track = options.kind == "solid" and options.overlap == "signed" and request.density is None
     reading = read_patches(obj, depsgraph) if can_track and obj.type == "SURFACE" else None
     if reading is None or reading.all_singular:

@@ -15,10 +15,9 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
-from ...read.fingerprint import given_density, settings_hash, settings_hash_with
+from ...read.fingerprint import VERSION, current_settings
 from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
@@ -59,7 +58,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     The scene's unit scale and default density count.
     """
     stamp = stamps.of_results(obj)
-    if stamp is None or not stamp.is_valid or "body_density_from" in obj or not _can_store(obj):
+    if stamp is None or stamp.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return
     numbers = properties.numbers(obj)
     if numbers is None:
@@ -70,19 +69,18 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
         return  # no mass multiplies it
     mass = numbers[0][0]
-    if stamp.settings not in (
-        settings_hash_with(obj, scene, mass / extent, None),
-        settings_hash_with(obj, scene, None, mass),
-    ):
+    present = current_settings(obj, scene)
+    weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
+    if stamp.settings not in [replace(present, **weight).digest for weight in weights]:
         return
-    now, findings = settings_hash(obj, scene), _findings(obj, scene)
+    now, findings = present.digest, _findings(obj, scene)
     if now == stamp.settings:  # a measured density may have more digits than the setting holds
         if findings != list(properties.findings(obj)):
             properties.store_findings(obj, findings)
         return
     settings = obj.body_moments
-    is_mass_given = settings.mass_from == "MASS"
-    density = shortest_decimal(settings.mass) / extent if is_mass_given else given_density(obj, scene)
+    density = present.density if present.mass is None else present.mass / extent
+    assert density is not None
     mass_now = density * extent
     if not 0.0 < mass_now < float("inf"):
         return

@@ -16,7 +16,6 @@ from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.mesh.hulls import ConvexHull
-from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.statics.resting import RestingPoses, resting_poses
 from ....core.statics.support import CONTACT_RTOL, Support, find_support
@@ -97,7 +96,7 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
         if body is not None:
             matrix = np.array(obj.matrix_world, np.float64)
             points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
-            center = np.array(body.world.center) / shortest_decimal(scene.unit_settings.scale_length)
+            center = np.array(body.world.center) / body.unit
             remembered.support = find_support(points, center, down(scene), _tolerance(points, remembered.hull, matrix))
     return remembered.support
 
@@ -123,7 +122,7 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
         return None
     location, rotation = frame(obj)
     scale = rotation.T @ np.array(obj.matrix_world.to_3x3(), np.float64)
-    center = np.array(body.world.center) / shortest_decimal(scene.unit_settings.scale_length)
+    center = np.array(body.world.center) / body.unit
     shape = np.concatenate([scale, [rotation.T @ (center - location)]])
     size = np.abs(np.ptp(remembered.hull.points, axis=0)) @ np.abs(scale).T
     tolerance = SAME_SHAPE_RTOL * np.r_[np.full(3, np.abs(scale).max()), size.max()]

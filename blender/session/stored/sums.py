@@ -55,11 +55,11 @@ def _of_parts(armature: Object, scene: Scene, parts: Sequence[Displayed]) -> Dis
     if world is None:
         return None
     location, turn, _ = armature.matrix_world.decompose()
-    place = np.array(location, np.float64) * shortest_decimal(scene.unit_settings.scale_length)
-    body = world.body.in_frame(rotation_matrix(turn), place)
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    body = world.body.in_frame(rotation_matrix(turn), np.array(location, np.float64) * unit)
     own = StoredProperties.of_body(body, world.density, world.volume, world.area, world.error_bound)
     worst = max(parts, key=lambda part: tuple(Trust).index(part.trust))
-    return Displayed(own, world, worst.method, worst.findings, worst.trust, is_posed=True)
+    return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
 
 
 def _combine(bodies: Sequence[MassProperties]) -> MassProperties | None:

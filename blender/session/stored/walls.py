@@ -92,7 +92,7 @@ def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
         return
     request = Request.resolve(obj, unit=cached.unit)
     try:
-        body = _walls_on_side(cached, obj).body(request.options.thickness, check_overlap=False)
+        body = _walls_on_side(cached, obj).body(request.settings.thickness, check_overlap=False)
         measurement = measurement_of(cached.reading, body, request)
     except MeasureError:  # the panel shows how thick it may be
         return

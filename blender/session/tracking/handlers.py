@@ -47,8 +47,6 @@ on_save: list[Callable[[], None]] = []
 LISTS = on_update, before_undo, on_undo, on_load, on_save
 
 _generation = 0
-_moves_from = 0  # the generation after which objects have moved, and nothing else has changed
-_moved: set[int] = set()  # their session uids
 
 
 def generation() -> int:
@@ -56,20 +54,10 @@ def generation() -> int:
     return _generation
 
 
-def moved_since(generation: int) -> set[int] | None:
-    """Return session uids of the objects that have moved since a generation; None if there were other changes.
-
-    Some of the objects may have moved before it.
-    """
-    return _moved if generation >= _moves_from else None
-
-
 def count_change() -> None:
-    """Count a change that Blender does not report, such as of a note about an object."""
-    global _generation, _moves_from
+    """Count a change, also one that Blender does not report, such as of a note about an object."""
+    global _generation
     _generation += 1
-    _moves_from = _generation
-    _moved.clear()
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
@@ -126,18 +114,9 @@ def _on_frame(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
 
 
 def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool) -> None:
-    global _generation
-    if depsgraph is None or depsgraph.mode != "VIEWPORT":
-        count_change()
-        return
-    updates = _updates(scene, depsgraph, frame_changed)
-    others = frame_changed or updates.reshaped or updates.others or updates.collections
-    if others or depsgraph.id_type_updated("SCENE"):
-        count_change()
-    else:
-        _generation += 1
-        _moved.update(updates.moved)
-    _call(on_update, updates)
+    count_change()
+    if depsgraph is not None and depsgraph.mode == "VIEWPORT":
+        _call(on_update, _updates(scene, depsgraph, frame_changed))
 
 
 @persistent

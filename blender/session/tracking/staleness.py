@@ -34,7 +34,7 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from ....core.numerics.float32 import shortest_decimal
 from ... import bodies, read
 from ...bodies import assembly
-from ...read.fingerprint import digest, has_transform, matrix_hash, scale_hash, settings_hash
+from ...read.fingerprint import VERSION, digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
 from ...write import properties
 from . import handlers, stamps, updates
@@ -63,7 +63,7 @@ def stale_reason(
     stamp = stamp_of(owner)
     if stamp is None:
         return None
-    if not stamp.is_valid:
+    if stamp.version != VERSION:
         return Stale.FINGERPRINT
     for reason, holds in CHECKS[stamp.kind]:
         if not holds(owner, stamp, scene):
@@ -81,7 +81,8 @@ def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
 
 
 def _is_unedited(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool:
-    return stamp.geometry != EDITED and stamp.text not in _edited_stamps(obj)
+    edited = _edited_stamps(obj)
+    return stamp.geometry != EDITED and not (edited and stamp.text in edited)
 
 
 def _has_transform(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
@@ -257,18 +258,16 @@ def note_edits(obj: Object) -> None:
     if seen >= newest:
         return
     _resolved[uid] = newest
-    edit, returned = updates.last_edit(obj, seen), updates.last_return(obj)
-    last = max(edit, returned)
+    edit, last = updates.last_since(obj, seen)
     if last.number <= seen:
         return
-    of_geometry = stamps.with_geometry(obj)
-    depsgraph = updates.depsgraph_of(last) if any([stamp.text in _shapes for stamp in of_geometry]) else None
+    carried = stamps.with_geometry(obj)
+    depsgraph = updates.depsgraph_of(last) if any([text in _shapes for text in carried]) else None
     shape = None if depsgraph is None else read.shapes.shape_digest(obj, depsgraph)
-    for stamp in of_geometry:
-        text = stamp.text
+    for text, kind in carried.items():
         if shape is not None and text in _shapes:
             set_edited(obj, text, shape != _shapes[text])
-        elif edit.number or text in _shapes or stamp.kind in (Kind.MOMENTS, Kind.HULL):
+        elif edit.number or text in _shapes or kind in (Kind.MOMENTS, Kind.HULL):
             # Redo brings back an edit whose note may have been taken back; undo brings back no data in memory.
             set_edited(obj, text, True)
 

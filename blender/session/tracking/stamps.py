@@ -74,11 +74,6 @@ class Stamp(NamedTuple):
         """The stored form."""
         return ":".join(self[1:5])
 
-    @property
-    def is_valid(self) -> bool:
-        """Whether this version of the add-on can read it."""
-        return self.version == VERSION
-
 
 # The stamps of objects' data in memory, by kind.
 _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
@@ -122,11 +117,12 @@ def of_symmetry(obj: Object) -> Stamp | None:
     return Stamp.parse(text, Kind.SYMMETRY) if text else None
 
 
-def with_geometry(obj: Object) -> list[Stamp]:
-    """Return all stamps of an original object that hold for its own geometry."""
-    stored = [stamp for stamp in (of_results(obj), of_section(obj), of_symmetry(obj)) if stamp is not None]
-    stored = [stamp for stamp in stored if stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)]
-    return [*stored, *(_carried.get(obj) or {}).values()]
+def with_geometry(obj: Object) -> dict[str, Kind]:
+    """Return the stored forms of all stamps of an original object that hold for its own geometry, and their kinds."""
+    found = [of_results(obj), of_section(obj), of_symmetry(obj), *(_carried.get(obj) or {}).values()]
+    return {
+        stamp.text: stamp.kind for stamp in found if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
+    }
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:

@@ -85,24 +85,25 @@ def last_edit(obj: Object, since: int = 0) -> Update:
     return last if last.number > since else NEVER
 
 
-def last_return(obj: Object) -> Update:
-    """Return the last update of an object's geometry that was of a setting, or after undo, else `NEVER`."""
-    return _returns.get(obj.session_uid, NEVER)
+def last_since(obj: Object, since: int) -> tuple[Update, Update]:
+    """Return the last update of an object or its instances that may be an edit, and of the geometry for any reason.
+
+    since: number of an update. An edit is `NEVER` if it did not come after it.
+    """
+    edit = last_edit(obj, since)
+    return edit, max(edit, _returns.get(obj.session_uid, NEVER))
 
 
 def last_change_of_geometry(obj: Object) -> int:
     """Return the number of the last update of an object's geometry, of any kind, or of its instances."""
-    return max(last_edit(obj).number, last_return(obj).number)
+    return last_since(obj, 0)[1].number
 
 
-def last_change_but_moves(obj: Object) -> int:
-    """Return the number of the last update of an object or of its instances, except for its own transform."""
-    return max(last_change_of_geometry(obj), _touches.get(obj.session_uid, NEVER).number)
-
-
-def last_change(obj: Object) -> int:
-    """Return the number of the last update of any kind of an object, or of its instances."""
-    return max(last_change_but_moves(obj), _moves.get(obj.session_uid, NEVER).number)
+def last_change_and_move(obj: Object) -> tuple[int, int]:
+    """Return the numbers of the last update of an object or of its instances, and of its transform alone."""
+    uid = obj.session_uid
+    change = max(last_change_of_geometry(obj), _touches.get(uid, NEVER).number)
+    return change, _moves.get(uid, NEVER).number
 
 
 def depsgraph_of(stamp: Update) -> Depsgraph | None:

@@ -10,6 +10,7 @@ import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session.stored import walls as wall_slider
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError
@@ -193,7 +194,7 @@ def test_another_side_is_stored_at_once_too():
     assert abs(stored(obj).volume - (1.25**3 - 1)) < 1e-13
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.wall = "THIN"
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
 
 
 @pytest.mark.parametrize("change", ["edited", "scaled"])
@@ -219,7 +220,7 @@ def test_too_thick_slider_keeps_results_and_tells_limit():
     assert wall_slider.max_thickness(obj) == pytest.approx(0.5) and not wall_slider.is_too_thick(obj)
     obj.body_moments.thickness = 0.75
     assert properties.numbers(obj) == before and wall_slider.is_too_thick(obj)
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
     obj.body_moments.thickness = 0.25
     assert abs(stored(obj).volume - (1 - 0.5**3)) < 1e-13
 
@@ -233,7 +234,7 @@ def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
     obj = bpy.data.objects["Box"]
     assert obj.body_moments.wall == "INWARD" and staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.thickness = 0.2
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
     press(obj)
     assert abs(stored(obj).volume - (1 - 0.6**3)) < 1e-6
 

@@ -218,15 +218,15 @@ def test_a_part_faces_as_most_of_its_patches_do(turned):
     assert abs(found.volume.total / (6.0 - 0.5 * 0.25 * 0.125) - 1.0) <= 1e-13
 
 
-@pytest.mark.parametrize(("side", "ending"), [(1e-3, "_slightly"), (0.1, "")])
-def test_negligible_finding_is_a_note(side, ending):
+@pytest.mark.parametrize(("side", "slight"), [(1e-3, {"slight": True}), (0.1, {})])
+def test_negligible_finding_is_a_note(side, slight):
     """Beside a box of 1 by 2 by 3, a small one that is inside out, or has a patch that faces against the others."""
     small = box((side, side, side), (7.0, -3.0, 2.0))
     inverted = [patch.reverse_orientation() for patch in small]
     misoriented = [small[0], small[1].reverse_orientation(), *small[2:]]
     for patches, finding in (
-        (inverted, Finding("inverted_patch_components" + ending, {"count": 1, "total": 2})),
-        (misoriented, Finding("flipped_patches" + ending, {"count": 1})),
+        (inverted, Finding("inverted_patch_components", {"count": 1, "total": 2, **slight})),
+        (misoriented, Finding("flipped_patches", {"count": 1, **slight})),
     ):
         found = measure_patches([*box(), *patches])
         assert only(found) == finding and found.method == "reoriented"

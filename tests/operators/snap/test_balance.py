@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 from mathutils import Matrix
 
@@ -263,7 +264,7 @@ def test_other_users_of_balanced_mesh_become_stale(reported):
     assert "balance_mesh_shared" in reported.codes
     bpy.context.view_layer.update()
     reasons = [staleness.stale_reason(one, bpy.context.scene) for one in (obj, other)]
-    assert reasons == [None, "stale_geometry"]
+    assert reasons == [None, Stale.GEOMETRY]
 
 
 def test_undo_brings_the_vertices_back():
