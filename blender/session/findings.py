@@ -25,9 +25,12 @@ LINEAR_DENSITY_DEFAULTED = warning(
 LINEAR_DENSITY_DEFAULT_KEPT = note(
     "linear_density_default_kept", "No linear density is set: 1 kg/m was used. Set Linear Density."
 )
-OPEN_OBJECT = error(
-    "open_object",
-    "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
-)
 ROBOT_WITHOUT_BONES = error("robot_without_bones", "There is no link. Select an armature with what it moves.")
 LEFT_OUT_OF_ROBOT = warning("left_out_of_robot", "{count} of {total} objects are no links: {causes}")
+NO_SUCH_COLLECTION = error("no_such_collection", "There is no collection “{collection}”. Choose another one.")
+BALANCE_GROUP_WITHOUT_CONTACTS = error(
+    "balance_group_without_contacts", "“{collection}” has no object with a surface. Choose another collection."
+)
+BALANCE_GROUP_EMPTY_GROUP = error(
+    "balance_group_empty_group", "Nothing to follow. Select objects with a surface, or an armature that deforms some."
+)

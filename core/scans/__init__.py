@@ -6,7 +6,7 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    SUFFIXES="formats",
+    SUFFIXES="suffixes",
     Scan="scan",
     read_positions="positions",
     read_scan="formats",
