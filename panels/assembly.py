@@ -16,9 +16,8 @@ from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.verdict.sentences import severity
-from . import rows
+from . import remedies, rows
 from .density import given_rows
-from .measure import remedies
 from .places import in_both_places
 
 MEMBER_ICONS = {

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ...core import flat
+from ... import core
 from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.sentences import sentence, severity
 from .properties import findings_in, findings_text, warning_lines
@@ -126,7 +126,7 @@ def clear(obj: bpy.types.Object) -> bool:
 def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
     values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
     axes = values["axes"]
-    section = flat.Section.from_numbers(
+    section = core.flat.Section.from_numbers(
         (values["origin"], (axes[0::3], axes[1::3], axes[2::3]), values["off"][0], named),
         values["area"][0],
         values["perimeter"][0],

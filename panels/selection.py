@@ -7,12 +7,12 @@ from __future__ import annotations
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
-from ...blender.session import displayed
-from ...blender.session.displayed import Trust, drawn
-from ...blender.session.stored.listing import SortBy, listed_masses, listing
-from ...blender.write.units import Units
-from .. import rows
-from ..places import in_both_places
+from ..blender.session import displayed
+from ..blender.session.displayed import Trust, drawn
+from ..blender.session.stored.listing import SortBy, listed_masses, listing
+from ..blender.write.units import Units
+from . import rows
+from .places import in_both_places
 
 VERDICT_ICONS = {  # the form says it, not the color alone
     Trust.EXACT: "CHECKMARK",

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ...blender.session import stored
-from ...blender.session.displayed import displayed
-from ...blender.session.tracking.staleness import stale_reason
-from ...blender.write import properties
-from ...blender.write.units import Units
-from ...core.lazy import loaded_module
-from .. import rows
-from ..places import in_both_places
+from ..blender.session import stored
+from ..blender.session.displayed import displayed
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.write import properties
+from ..blender.write.units import Units
+from ..core.lazy import loaded_module
+from . import rows
+from .places import in_both_places
 
 BOUNDS = (("Rounding, at Most", None), ("Float32 Coordinates, at Most", "input"))
 ESTIMATED = "Quadrature and Rounding, Estimated"

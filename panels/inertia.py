@@ -6,13 +6,13 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ...blender.session import stored
-from ...blender.session.displayed import displayed
-from ...blender.write.properties import tensor_entries
-from ...blender.write.units import Units
-from ...core.verdict.finding import Finding
-from .. import rows
-from ..places import in_both_places
+from ..blender.session import stored
+from ..blender.session.displayed import displayed
+from ..blender.write.properties import tensor_entries
+from ..blender.write.units import Units
+from ..core.verdict.finding import Finding
+from . import rows
+from .places import in_both_places
 
 ERROR_OF_A_DIFFERENCE = 6.0  # each principal moment is off by at most 3 times the error of a tensor entry
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal

@@ -8,15 +8,14 @@ from math import degrees
 
 from bpy.types import Context, UILayout
 
-from ...blender.read.visibility import SECTION_TYPES
-from ...blender.session.tracking.staleness import stale_reason
-from ...blender.session.tracking.stamps import of_section
-from ...blender.write import section as record
-from ...blender.write.translations import localized
-from ...blender.write.units import Units, number
-from .. import rows
-from ..places import in_both_places
-from . import remedies
+from ..blender.read.visibility import SECTION_TYPES
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import of_section
+from ..blender.write import section as record
+from ..blender.write.translations import localized
+from ..blender.write.units import Units, number
+from . import remedies, rows
+from .places import in_both_places
 
 ABOUT_LABELS = ("x", "y", "1", "2")
 BOUND_LABELS = {
