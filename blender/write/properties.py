@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...core import inertia, numerics
+from ...core import inertia
 from ...core.measurement.documents import TENSOR, plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
@@ -191,7 +191,7 @@ def store(obj: Owner, measurement: Measurement) -> None:
         body.center.tolist(),
         tensor_entries(body.inertia).tolist(),
         body.principal.moments.tolist(),
-        numerics.quaternion(body.principal.axes).tolist(),
+        body.principal.quaternion.tolist(),
         [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
     )
     values: dict[str, Any] = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
@@ -226,7 +226,7 @@ def store_stack(
         body.center,
         body.inertia[:, ROWS, COLUMNS],
         body.principal.moments,
-        numerics.quaternion(body.principal.axes),
+        body.principal.quaternion,
         error_bounds.reshape(-1, 8),
     )
     rows = zip(*[column.tolist() for column in columns])
