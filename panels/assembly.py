@@ -17,11 +17,9 @@ from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.verdict.sentences import severity
 from . import rows
-from .density.given import given_rows
+from .density import given_rows
 from .measure import remedies
-from .measure.numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
-from .settings import setting
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -79,9 +77,9 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     layout.use_property_decorate = False
     settings, target = settings_of(root), "COLLECTION" if isinstance(root, Collection) else "OBJECT"
     column = layout.column()
-    setting(column, settings, "mass_from", expand=True)
+    rows.setting(column, settings, "mass_from", expand=True)
     if settings.mass_from == "MASS":
-        setting(column, settings, "mass", text="Mass (kg)")
+        rows.setting(column, settings, "mass", text="Mass (kg)")
         given_rows(layout, settings)
     button = layout.row()
     button.scale_y = 1.4
@@ -131,14 +129,9 @@ def _numbers(layout: UILayout, units: Units, stored: properties.StoredProperties
     column = layout.column(align=True)
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
     rows.quantities(column, units, [entry for entry in entries if entry[-1]])
-    column = layout.column(align=True)
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
-    rows.heading(column, heading, "length", stored.center)
-    rows.values(column, units, AXIS_LABELS, "length", stored.center, max(stored.gyration))
-    column = layout.column(align=True)
-    moments = stored.moments
-    rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+    rows.center(layout, units, heading, stored)
+    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
 
 
 class AssemblyPanel:

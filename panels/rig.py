@@ -10,9 +10,7 @@ from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.units import Units
 from . import rows
-from .measure.numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
-from .settings import setting
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -75,11 +73,11 @@ class BONE_PT_body_moments(Panel):
         layout.use_property_decorate = False
         settings = bone.body_moments
         column = layout.column()
-        setting(column, settings, "mass_from")
+        rows.setting(column, settings, "mass_from")
         if settings.mass_from == "DENSITY":
-            setting(column, settings, "density", text="Density (kg/m³)")
+            rows.setting(column, settings, "density", text="Density (kg/m³)")
         elif settings.mass_from == "MASS":
-            setting(column, settings, "mass", text="Mass (kg)")
+            rows.setting(column, settings, "mass", text="Mass (kg)")
         rows.button(layout, context, "object.body_moments_measure_bones", "BONE_DATA")
         rows.stale_row(layout, context, stale_reason(bone.id_data, context.scene))
         _numbers(layout, context, bone)
@@ -99,16 +97,9 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
     stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     column = layout.column(align=True)
     rows.quantities(column, units, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
-    column = layout.column(align=True)
-    rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.center)
-    rows.values(column, units, AXIS_LABELS, "length", stored.center, max(stored.gyration))
-    column = layout.column(align=True)
-    moments = stored.moments
-    rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
-    column = layout.column(align=True)
-    rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", stored.inertia)
-    rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", stored.inertia)
+    rows.center(layout, units, "Center of Mass (Rest Frame)", stored)
+    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
+    rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
 
 
 VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones = in_both_places(BonesPanel, "bones")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of a narrow panel: values that can be copied, and sentences that wrap.
+"""Rows of a narrow panel: settings, values that can be copied, and sentences that wrap.
 
 Blender translates labels as it draws them: constant labels are passed as in the source, filled ones are translated
 before that (`filled`, `message`). Names, numbers and filled texts are drawn without translation.
@@ -13,8 +13,9 @@ from functools import lru_cache, partial
 
 import blf
 import bpy
-from bpy.types import Context, UILayout
+from bpy.types import Context, PropertyGroup, UILayout
 
+from ..blender.write.properties import ENTRIES, StoredProperties
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.measurement.documents import plain
@@ -34,7 +35,46 @@ NARROW = 220  # regions below this width have buttons without icons, and heading
 ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
 
 
+AXIS_LABELS, PRINCIPAL_LABELS = ("X", "Y", "Z"), ("1", "2", "3")
+TENSOR_LABELS = tuple("I" + name for name in ENTRIES)
+VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
+BUTTON_MARGIN = "m"  # a letter as wide as what a button has around its text
 Cell = tuple[str, str, str, str]  # label, text, what is copied, its unit
+
+
+def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False) -> None:
+    """Draw a setting with its label, by default its own, in a column: beside it, or above it in a narrow region.
+
+    `expand` puts choices side by side if there is room for their names.
+    """
+    definition = data.bl_rna.properties[name]
+    options = {"text": text} if text else {}
+    narrow = is_narrow(bpy.context)
+    if narrow and definition.type != "BOOLEAN":
+        title(layout, text or definition.name)
+        options = {"text": ""}
+    row = layout.row()
+    row.use_property_split = not narrow
+    if expand:
+        names = [localized(item.name) for item in definition.enum_items]
+        expand = fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
+    row.prop(data, name, expand=expand, **options)
+
+
+def group(
+    layout: UILayout,
+    units: Units,
+    label: str,
+    labels: Sequence[str],
+    quantity: str,
+    si: Sequence[float],
+    size: float = 0.0,
+) -> UILayout:
+    """Draw a heading, and a row for each value below it; return their column."""
+    column = layout.column(align=True)
+    heading(column, label, quantity, si)
+    values(column, units, labels, quantity, si, size)
+    return column
 
 
 def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
@@ -63,6 +103,22 @@ def values(
     table(
         layout,
         [(label, text, repr(float(number)), SI_UNITS[quantity]) for label, text, number in zip(labels, texts, si)],
+    )
+
+
+def center(layout: UILayout, units: Units, label: str, numbers: StoredProperties) -> None:
+    """Draw the center of mass; what is left of a coordinate by rounding, beside the body's size, is 0."""
+    group(layout, units, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
+
+
+def bounds(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float, float]]) -> None:
+    """Draw a row for each (label, quantity, SI error bound, value beside it)."""
+    table(
+        layout,
+        [
+            (label, units.bound(quantity, bound, beside), repr(bound), SI_UNITS[quantity])
+            for label, quantity, bound, beside in entries
+        ],
     )
 
 

@@ -16,7 +16,7 @@ import struct
 import bpy
 
 from ...core.measurement.settings import Settings
-from ..settings.digest import density_key
+from ..settings.density import density_key
 from ..settings.resolve import object_settings
 
 VERSION = "v1"

@@ -11,7 +11,6 @@ from ...core.lazy import lazy_names
 
 if TYPE_CHECKING:
     from . import density as density
-    from . import digest as digest
     from . import given as given
     from . import grid as grid
     from . import grid_values as grid_values
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     density="density",
-    digest="digest",
     given="given",
     grid="grid",
     grid_values="grid_values",

@@ -1,10 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of an assembly, a collection or an empty with its children, and the rows of its tree."""
+"""The settings of masses that are more or less than an object: of assemblies and of pose bones.
 
-import bpy
+An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its settings.
+"""
+
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import Collection, Object, PropertyGroup
+from bpy.types import Collection, Object, PoseBone, PropertyGroup
 
 from .given import GivenPartProperties, shows_collection
 from .hooks import part_changed
@@ -73,20 +75,44 @@ def settings_of(data: Root) -> PropertyGroup:
     return data.body_moments if isinstance(data, Collection) else data.body_moments_assembly
 
 
-CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings)
+class BodyMomentsBoneSettings(PropertyGroup):
+    """Settings of the material of a bone's part."""
 
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Collection.body_moments = bpy.props.PointerProperty(name="Body Moments", type=BodyMomentsAssemblySettings)
-    bpy.types.Object.body_moments_assembly = bpy.props.PointerProperty(
-        name="Body Moments Assembly", type=BodyMomentsAssemblySettings
+    mass_from: EnumProperty(
+        name="Specify",
+        description="Where the mass of the bone's part comes from",
+        items=(
+            ("MESH", "Mesh", "The density of each mesh that the part is of"),
+            ("DENSITY", "Density", "A density for what is skinned to the bone; objects parented to it keep theirs"),
+            ("MASS", "Mass", "The mass of the bone's whole part"),
+        ),
+        default="MESH",
+        update=part_changed,
+    )
+    density: FloatProperty(
+        name="Density",
+        description="Density in kg/m³ of what is skinned to the bone, independent of the scene units",
+        default=1000.0,
+        min=0.0,
+        soft_max=25000.0,
+        step=1000,
+        precision=3,
+        update=part_changed,
+    )
+    mass: FloatProperty(
+        name="Mass",
+        description="Mass of the bone's part in kilograms, independent of the scene units",
+        default=1.0,
+        min=0.0,
+        step=10,
+        precision=6,
+        update=part_changed,
     )
 
 
-def unregister() -> None:
-    del bpy.types.Object.body_moments_assembly
-    del bpy.types.Collection.body_moments
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings, BodyMomentsBoneSettings)
+POINTERS = {
+    (Collection, "body_moments"): BodyMomentsAssemblySettings,
+    (Object, "body_moments_assembly"): BodyMomentsAssemblySettings,
+    (PoseBone, "body_moments"): BodyMomentsBoneSettings,
+}

@@ -19,12 +19,8 @@ OBJECT_DENSITY_USED_FOR_MATERIALS = warning(
     "{count} of {total} faces take the object's {density:.7g} kg/m³, as these materials have no density: {materials}.",
 )
 DENSITY_FROM_POLYNOMIAL = note("density_from_polynomial", "polynomial {polynomial}, in {frame:word} coordinates")
-VALUES_SCALED = note(
-    "values_scaled", "A value of 1 stands for {density:.6g} kg/m³ (spline order {order}, 1 for voxels)."
-)
-VALUES_BY_TABLE = note(
-    "values_by_table", "Values become densities by the transfer table (spline order {order}, 1 for voxels)."
-)
+VALUES_SCALED = note("values_scaled", "A value of 1 stands for {density:.6g} kg/m³ (spline order {order}).")
+VALUES_BY_TABLE = note("values_by_table", "Values become densities by the transfer table (spline order {order}).")
 BACKGROUND_EMPTY = warning("background_empty", "Voxels with the background value {value:.6g} count as empty.")
 VALUES_NON_FINITE_FOR_TABLE = error(
     "values_non_finite_for_table", "Some values are not finite and have no density in the transfer table. Remove them."

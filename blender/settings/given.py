@@ -12,7 +12,7 @@ from bpy.types import Object, PropertyGroup
 
 from ...core.measurement.documents import plain
 from ...core.numerics.float32 import shortest_decimal
-from .hooks import given_changed
+from .hooks import changed
 
 GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_diagonal", "given_inertia_products")
 Row = tuple[float, ...]
@@ -25,7 +25,7 @@ class GivenPartProperties:
         name="Given Center",
         description="Enter the center of mass instead of taking that of the geometry",
         default=False,
-        update=given_changed,
+        update=changed,
     )
     given_center: FloatVectorProperty(
         name="Center of Mass",
@@ -33,13 +33,13 @@ class GivenPartProperties:
         subtype="XYZ",
         unit="LENGTH",
         precision=6,
-        update=given_changed,
+        update=changed,
     )
     use_inertia: BoolProperty(
         name="Given Inertia",
         description="Enter the inertia tensor instead of taking that of the geometry with the given mass",
         default=False,
-        update=given_changed,
+        update=changed,
     )
     given_inertia_diagonal: FloatVectorProperty(
         name="Ixx, Iyy, Izz",
@@ -49,13 +49,13 @@ class GivenPartProperties:
         ),
         min=0.0,
         precision=6,
-        update=given_changed,
+        update=changed,
     )
     given_inertia_products: FloatVectorProperty(
         name="Ixy, Ixz, Iyz",
         description="Tensor entries off the diagonal in kg·m², independent of the scene units: Ixy = −∫xy dm",
         precision=6,
-        update=given_changed,
+        update=changed,
     )
 
 

@@ -192,7 +192,7 @@ def store(obj: Owner, measurement: Measurement) -> None:
         "body_center_of_mass": body.center.tolist(),
         "body_inertia": tensor_entries(body.inertia).tolist(),
         "body_principal_moments": body.principal.moments.tolist(),
-        "body_principal_axes": numerics.quaternion(body.principal.axes).tolist(),
+        "body_principal_axes": numerics.rotations.quaternion(body.principal.axes).tolist(),
         "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
     }
     optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
@@ -230,7 +230,7 @@ def store_stack(
         body.center,
         body.inertia[:, ROWS, COLUMNS],
         body.principal.moments,
-        numerics.quaternion(body.principal.axes),
+        numerics.rotations.quaternion(body.principal.axes),
         error_bounds.reshape(-1, 8),
     )
     rows = zip(*[column.tolist() for column in columns])
@@ -377,7 +377,7 @@ def method_text(obj: Owner) -> str:
 
 
 def fingerprint(obj: Owner) -> str:
-    """Return the mark of the numbers' inputs (session/marks.py), "" if there is none."""
+    """Return the stamp of the numbers' inputs (session/tracking/stamps.py) as text, "" if there is none."""
     return str(obj.get("body_fingerprint", ""))
 
 

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from ...core.density.density_units import DENSITY_UNITS, FOOT, POUND, density_unit
+from ...core.density.materials import DENSITY_UNITS, FOOT, POUND, density_unit
 from ...core.numerics.float32 import shortest_decimal
 
 LENGTHS = {

@@ -20,7 +20,7 @@ from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
-ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd", "gltf")  # `core/robots/write/formats.py` has what writes them
+MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
@@ -246,10 +246,5 @@ def _cell(value: Any) -> Any:
     return value
 
 
-def to_robot(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield the robot description of each file, as written by the process that measured it."""
-    return (file_document.get("robot", "") for file_document in documents)
-
-
 # From documents, which may be gone through twice, to pieces of text.
-FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv, **dict.fromkeys(ROBOT_FORMATS, to_robot)}
+FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}

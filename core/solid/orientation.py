@@ -26,11 +26,10 @@ from .repaired_mesh import RepairedMesh
 class ComponentComparison:
     """Result of comparing the components of a body; masks are (c,).
 
-    `flipped`: components to turn. `solid`: components with a volume.
-    `nested`, `cavities`: outward and inward components in the material of others.
-    `intersecting`: components that share a part of their interiors with another one or copy it, except `breaking` ones.
-    `breaking`: cavities that break through the wall around them, by at most `breakthrough` (unit).
-    `host`: as `ClosedParts.host_part`. `undecided_pairs`: number of pairs that would have been too much work.
+    `flipped`: components to turn. `solid`: with a volume. `nested`, `cavities`: outward and inward ones in material of
+    others. `intersecting`: sharing a part of their interiors with others, except `breaking` ones: cavities that break
+    through the wall around them, by at most `breakthrough` (unit). `host`: as `ClosedParts.host_part`.
+    `undecided_pairs`: number of pairs that would have been too much work.
     """
 
     flipped: NDArray[np.bool_]
@@ -80,12 +79,11 @@ class ComponentComparison:
 class OrientedSolid:
     """A body with components that face as they count; masks are (c,).
 
-    `is_proven`: True if nothing had to be repaired, so that `surface` has the input's faces.
-    `surface`: the surface with the signed sum `volume`: without flat parts, with caps.
-    `volume`: not negative, except for rounding noise of either sign in flat bodies.
-    `is_solid`: True if any component has a volume. `solid`: the components that have one.
-    `turned`: components turned as a whole. `reversed`: components with triangles in `mesh` that run against `surface`.
-    `comparison`: None for a single component.
+    `is_proven`: True if nothing had to be repaired, so that `surface` has the input's faces. `surface`: the surface
+    with the signed sum `volume`: without flat parts, with caps; not negative, except for rounding noise of flat bodies.
+    `is_solid`: True if any component has a volume. `solid`: the components that have one. `turned`: components turned
+    as a whole. `reversed`: components with triangles in `mesh` that run against `surface`. `comparison`: None for one
+    component.
     """
 
     mesh: RepairedMesh
@@ -125,7 +123,7 @@ def orient_components(
 ) -> OrientedSolid:
     """Compare the components of a body, turn components that are inside out, and integrate the result.
 
-    given: of the same surface; reused if only caps were added. mesh: ``given.proven``, or the surface repaired.
+    given: reused if only caps were added. mesh: ``given.proven``, or the surface repaired.
     """
     is_proven, comparison, flipped = mesh is given.proven, None, np.zeros(mesh.number, bool)
     surface, volume = checked.surface, given.volume
@@ -155,10 +153,7 @@ def orient_components(
 
 
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
-    """Find the components with a volume, and their relations.
-
-    tolerance: distance below which points touch (unit). error: displacement of the points by storing them (unit).
-    """
+    """Find the components with a volume, and their relations. Points touch nearer than `tolerance`."""
     components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
     size = np.linalg.norm(components.high - components.low, axis=1)
     threshold = zero_volume(size, components.area, mesh.caps.any(axis=1), error)
@@ -169,10 +164,7 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume below which a component counts as flat.
-
-    It is a closed sheet's rounding, or a capped flat sheet's error.
-    """
+    """Return the volume below which a component is flat: a closed sheet's rounding, or a capped flat sheet's error."""
     return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
 
 

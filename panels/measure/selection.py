@@ -13,7 +13,6 @@ from ...blender.session.stored.listing import SortBy, listed_masses, listing
 from ...blender.write.units import Units
 from .. import rows
 from ..places import in_both_places
-from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 
 VERDICT_ICONS = {  # the form says it, not the color alone
     Trust.EXACT: "CHECKMARK",
@@ -126,13 +125,8 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
     rows.quantities(column, units, [(label, quantity, si) for label, quantity, si in entries if si])
     if numbers is None:
         return
-    column = layout.column(align=True)
-    rows.heading(column, "Center of Mass (World)", "length", numbers.center)
-    rows.values(column, units, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
-    column = layout.column(align=True)
-    moments = numbers.moments
-    rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+    rows.center(layout, units, "Center of Mass (World)", numbers)
+    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
 
 
 PANELS = VIEW3D_PT_body_moments_selection, OBJECT_PT_body_moments_selection = in_both_places(

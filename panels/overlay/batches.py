@@ -22,7 +22,7 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ...blender.session.tracking import handlers
-from ...blender.settings.overlay import BodyMomentsOverlaySettings
+from ...blender.settings.scene import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import lines
 from .bodies import Bodies, collect

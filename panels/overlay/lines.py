@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...blender.settings.overlay import BodyMomentsOverlaySettings
+from ...blender.settings.scene import BodyMomentsOverlaySettings
 from . import appearance as look
 from . import glyphs
 from .bodies import Bodies

@@ -23,7 +23,7 @@ from ....core.verdict.method import Method, Source, Verdict
 from ...read.grids.volume import VolumeReading, volume_reading
 from ...read.reading import Part, Reading, to_si
 from ...read.tracking import tracking_paused
-from ...settings.digest import density_key, grid_key
+from ...settings.density import density_key, grid_key
 from ...settings.grid import GridOptions
 from ...settings.grid_values import density_function, empty_background_note, sample_positions
 from ..body import MAX_MASS_MOMENT, MeshBody

@@ -22,19 +22,17 @@ from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
 from .. import stored
-from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULT_KEPT, LINEAR_DENSITY_DEFAULTED
+from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED
 from ..tracking import staleness, stamps
 
 if TYPE_CHECKING:
     from ....core.measurement.measurement import Measurement
 
 DEFAULTS = {  # notes on an unset density, by the setting
-    "density": finding(DENSITY_DEFAULT_KEPT),
-    "linear_density": finding(LINEAR_DENSITY_DEFAULT_KEPT),
+    "density": finding(DENSITY_DEFAULT_KEPT, density="1000 kg/m³"),
+    "linear_density": finding(DENSITY_DEFAULT_KEPT, density="1 kg/m"),
 }
-OF_DEFAULT_DENSITY = frozenset(
-    {DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULTED, *(note.code for note in DEFAULTS.values())}
-)
+OF_DEFAULT_DENSITY = frozenset({DENSITY_DEFAULTED, DENSITY_DEFAULT_KEPT})
 
 
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:

@@ -24,7 +24,7 @@ from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
 from ...read.grids.volume import VolumeReading
 from ...settings import hooks
-from ...settings.digest import grid_key
+from ...settings.density import grid_key
 from ...settings.grid import GridOptions
 from ...write import properties
 from ..tracking import staleness, stamps

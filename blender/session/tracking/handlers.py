@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.types import ID, Collection, Depsgraph, Object, Scene
+from bpy.types import Collection, Depsgraph, Object, Scene
 
 from . import cache
 
@@ -67,40 +67,21 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
             calls.callback(subscriber, *args)
 
 
-# Evaluated data-blocks → session uids of their originals, 0 for neither objects nor collections, until Blender builds
-# another graph: looking them up takes most of the time of thousands.
-_uids: dict[ID, int] = {}
-_evaluated_collections: set[ID] = set()
-
-
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
     updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
-    if not frame_changed and depsgraph.id_type_updated("SCENE"):  # objects come, go, or are hidden
-        _forget_evaluated()
     for update in depsgraph.updates:  # no call and no attribute that is not needed
         data = update.id
-        if data in _uids:
-            uid = _uids[data]
-        else:
-            uid = _uids[data] = data.original.session_uid if isinstance(data, Object | Collection) else 0
-            if isinstance(data, Collection):
-                _evaluated_collections.add(data)
-        if not uid:
+        is_object = isinstance(data, Object)
+        if not is_object and not isinstance(data, Collection):
             continue
+        uid = data.original.session_uid
         if update.is_updated_geometry:
-            (updates.collections if data in _evaluated_collections else updates.reshaped).append(uid)
+            (updates.reshaped if is_object else updates.collections).append(uid)
         elif update.is_updated_transform:
             updates.moved.append(uid)
         else:
             updates.others.append(uid)
-    if updates.collections:  # there may be other objects
-        _forget_evaluated()
     return updates
-
-
-def _forget_evaluated() -> None:
-    _uids.clear()
-    _evaluated_collections.clear()
 
 
 @persistent
@@ -121,7 +102,6 @@ def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool)
 
 @persistent
 def _before_undo(*_args) -> None:
-    _forget_evaluated()
     _call(before_undo)
 
 
@@ -134,7 +114,6 @@ def _on_undo(*_args) -> None:
 @persistent
 def _on_load(*_args) -> None:
     count_change()
-    _forget_evaluated()
     cache.clear_all()
     _call(on_load)
 
@@ -168,5 +147,4 @@ def unregister() -> None:
         functions = getattr(bpy.app.handlers, name)
         if function in functions:  # scripts and other add-ons may empty these lists
             functions.remove(function)
-    _forget_evaluated()
     cache.clear_all()

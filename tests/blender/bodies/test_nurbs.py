@@ -105,7 +105,7 @@ def test_torus_and_capped_cylinder():
     assert str(torus.method) == "NURBS exact"
     assert abs(torus.volume / (2.0 * np.pi**2 * 0.75 * 0.0625 * (1.0 - 1.9e-7)) - 1.0) <= 1e-8
     tube = measured(primitive("cylinder"))
-    assert str(tube.method) == "NURBS capped" and said(tube)["flat_patch_holes_capped"]["count"] == 2
+    assert str(tube.method) == "NURBS capped" and said(tube)["patch_holes_capped"]["flat"] == 2
     assert abs(tube.volume / (2.0 * np.pi) - 1.0) <= 1e-8
 
 

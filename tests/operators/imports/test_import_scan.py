@@ -88,11 +88,11 @@ def test_refused_import_leaves_no_data(tmp_path, reported):
         return reported.codes[-1]
 
     before = len(bpy.data.objects), len(bpy.data.volumes)
-    assert refusal(written(tmp_path / "a.nrrd", b"nonsense")) == "nrrd_unrecognized"
+    assert refusal(written(tmp_path / "a.nrrd", b"nonsense")) == "file_unrecognized"
     assert reported[-2].values["object"] == "a.nrrd"
     with pytest.raises(RuntimeError, match="No file"):
         bpy.ops.object.body_moments_import_scan(filepath=str(tmp_path))
-    assert refusal(written(tmp_path / "a.txt", b"nonsense")) == "scan_file_type"
+    assert refusal(written(tmp_path / "a.txt", b"nonsense")) == "file_type"
     good = written(tmp_path / "b.nrrd", nrrd(samples()))
     written(tmp_path / "b.vdb", b"mine")
     assert refusal(good) == "file_exists" and reported[-1].values == {"file": "b.vdb"}
@@ -104,7 +104,7 @@ def test_refused_import_leaves_no_data(tmp_path, reported):
     assert (len(bpy.data.objects), len(bpy.data.volumes)) == before
     packed = bytearray(nrrd(samples(), encoding="gzip"))
     packed[-5] ^= 1
-    assert refusal(written(tmp_path / "d.nrrd", packed)) == "damage_checksum" and not (tmp_path / "d.vdb").exists()
+    assert refusal(written(tmp_path / "d.nrrd", packed)) == "damage_packed" and not (tmp_path / "d.vdb").exists()
     imported(good, overwrite=True)
 
 

@@ -181,9 +181,9 @@ class TestRefused:
         edit(obj, lambda co: co.z > 0.8)
         bpy.context.scene.cursor.location = (50.0, 0.0, 0.0)
         before = points(obj)
-        unchanged(obj, before, "balance_short_by_limit", reported)
+        unchanged(obj, before, "balance_short", reported)
         size = np.linalg.norm(np.ptp(before, axis=0))  # the limit where none is given
-        assert close(reported.values("balance_short_by_limit")["limit"], size, rel=1e-6)
+        assert close(reported.values("balance_short")["limit"], size, rel=1e-6)
         bpy.ops.object.mode_set(mode="OBJECT")
         assert properties.numbers(obj) == numbers
 
@@ -199,7 +199,7 @@ class TestRefused:
             assert balance(limit=1e-4) == {"CANCELLED"}
             bpy.context.view_layer.update()
         assert not changes and np.array_equal(points(obj), before)
-        assert close(reported.values("balance_short_by_limit")["limit"], 1e-4 * unit, rel=1e-6)
+        assert close(reported.values("balance_short")["limit"], 1e-4 * unit, rel=1e-6)
 
     def test_a_mesh_that_is_open(self, reported):
         obj = figure()
