@@ -74,7 +74,7 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
         return {"FINISHED"}
 
 
-def _text(name: str, choice: "ReferenceChoice", result: ReferredInertia) -> str:
+def _text(name: str, choice: ReferenceChoice, result: ReferredInertia) -> str:
     lines = [
         "{:s}, about {:s}".format(name, choice.text),
         "origin (m, world) {!r}".format(result.reference.origin.tolist()),
