@@ -177,7 +177,7 @@ class TestRefused:
         obj = figure()
         only(obj)
         bpy.ops.object.body_moments_measure()
-        numbers = properties.numbers(obj)
+        numbers = properties.stored(obj)
         edit(obj, lambda co: co.z > 0.8)
         bpy.context.scene.cursor.location = (50.0, 0.0, 0.0)
         before = points(obj)
@@ -185,7 +185,7 @@ class TestRefused:
         size = np.linalg.norm(np.ptp(before, axis=0))  # the limit where none is given
         assert close(reported.values("balance_short")["limit"], size, rel=1e-6)
         bpy.ops.object.mode_set(mode="OBJECT")
-        assert properties.numbers(obj) == numbers
+        assert properties.stored(obj) == numbers
 
     @pytest.mark.parametrize("unit", [1.0, 0.01])
     @pytest.mark.parametrize("way", [edit, group])
