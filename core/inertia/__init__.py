@@ -12,5 +12,4 @@ __getattr__, __dir__, __all__ = lazy_names(
     combine="mass_properties",
     pose_matrix="principal_frames",
     principal_frame="principal_frames",
-    zhang_chen_frame="principal_frames",
 )

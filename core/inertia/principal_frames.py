@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
-from ..numerics.rotations import rotation_array
+from ..numerics.rotations import quaternion, rotation_array
 from ..verdict.finding import MeasureError, finding
 from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
@@ -90,6 +90,11 @@ class PrincipalFrame:
     is_unique: PerBody
     finding: PerBody
     undetermined_axes: PerBody = ()
+
+    @property
+    def quaternion(self) -> NDArray[np.float64]:
+        """(..., 4) w, x, y, z that turn the coordinate axes into the principal ones."""
+        return quaternion(self.axes)
 
     def rotate(self, rotation: ArrayLike) -> PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""
@@ -296,37 +301,10 @@ def undetermined_axes(revolution_axes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
-    """Return the frame by Zhang and Chen's own rule: axes 1 and 2 in the direction of positive M_300 and M_030.
+    """Return the frame by Zhang and Chen's rule (ICIP 2001, eq. 11): axes 1 and 2 point along positive M_300 and M_030.
 
-    Parameters
-    ----------
-    moments : Moments
-        To order 3 at least.
-    refine : callable, optional
-        As for `principal_frame`.
-
-    Returns
-    -------
-    PrincipalFrame
-
-    Raises
-    ------
-    MeasureError
-        If one of the two moments is noise, or second moments are equal: the rule has no answer there.
-
-    Notes
-    -----
-    Zhang and Chen, ICIP 2001, eq. 11. Axis 3 completes a right-handed frame.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments
-    >>> from body_moments.core.inertia import zhang_chen_frame
-    >>> surface = Surface.from_triangles(
-    ...     np.eye(4, 3, -1) * (3, 2, 1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-    ... )
-    >>> zhang_chen_frame(polyhedron_moments(surface)[0]).is_unique
-    True
+    Axis 3 completes a right-handed frame. moments, to order 3 at least, and refine are as for `principal_frame`.
+    MeasureError if one of the two moments is noise, or second moments are equal: the rule has no answer there.
     """
     check_type("moments", moments, Moments)
     fixed = _of_one_body(moments)

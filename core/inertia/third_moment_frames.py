@@ -163,10 +163,9 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
 def _third_scores(
     moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, symmetry: NDArray[np.intp]
 ) -> tuple[NDArray, NDArray]:
-    """Return (n, 3, 3) for each body and axis i its skewness and two normalized third moments, and their error bounds.
+    """Return (n, 3, 3) for each axis i its normalized M_iii, M_ijj and M_ikk, all odd in i, and their error bounds.
 
-    The three are M_iii, M_ijj and M_ikk: the two are odd in i and even in another axis. If axes j and k are free, both
-    are replaced by their mean, which is the same for every choice of these axes.
+    If axes j and k are free, the last two are replaced by their mean, the same for every choice of these axes.
     """
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
