@@ -84,10 +84,10 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     button = layout.row()
     button.scale_y = 1.4
     button.operator("object.body_moments_measure_assembly", icon="PHYSICS").target = target
-    numbers = properties.numbers(root)
-    if numbers is None or properties.method_text(root) != "assembly":
+    stored = properties.stored(root)
+    if stored is None or properties.method_text(root) != "assembly":
         return
-    stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
+    units = Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
     rows.stale_row(layout, context, stale_reason(root, context.scene))
     remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)

@@ -31,12 +31,12 @@ class BonesPanel:
         button = layout.row()
         button.scale_y = 1.4
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
-        if not properties.is_stored(armature):
+        if properties.stored(armature) is None:
             return
         rows.stale_row(layout, context, stale_reason(armature, context.scene))
         units = Units.from_settings(context.scene.unit_settings)
-        stored = [(bone, properties.numbers(bone)) for bone in armature.pose.bones]
-        measured = [(bone, numbers[0][0]) for bone, numbers in stored if numbers is not None]
+        stored = [(bone, properties.stored(bone)) for bone in armature.pose.bones]
+        measured = [(bone, numbers.mass) for bone, numbers in stored if numbers is not None]
         total = sum(mass for _, mass in measured)
         column = layout.column(align=True)
         for bone, mass in measured[:LISTED]:
@@ -91,10 +91,9 @@ def _pose_bone(context: Context) -> PoseBone | None:
 
 
 def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
-    numbers = properties.numbers(bone)
-    if numbers is None:
+    stored, units = properties.stored(bone), Units.from_settings(context.scene.unit_settings)
+    if stored is None:
         return
-    stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     column = layout.column(align=True)
     rows.quantities(column, units, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
     rows.center(layout, units, "Center of Mass (Rest Frame)", stored)

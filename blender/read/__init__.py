@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     assembly="assembly",
+    reference="reference",
     rig="rig",
     shapes="shapes",
     total_caveats="total_caveats",
+    vdb="grids.vdb",
 )

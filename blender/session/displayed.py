@@ -24,11 +24,11 @@ from ..read.fingerprint import has_transform, settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
 from ..write.properties import StoredProperties
-from . import stored
+from . import live, stored
 from .live import following
 from .live.following import Lag, LiveResult
 from .tracking import handlers, posed, updates
-from .tracking.cache import SessionCache
+from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
@@ -107,8 +107,8 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
         return total
     current = following.followed.get(obj)
     now = None if current is None else current.result
-    if now is not None and (measurement := now.measurement) is not None:
-        own = following.current_properties(obj, scene)
+    if current is not None and now is not None and (measurement := now.measurement) is not None:
+        own = live.live.map_properties(obj, current, measurement, scene)
         method, findings, lag = measurement.method, measurement.findings, following.lag(obj)
         reason = stale_reason(obj, scene, following.stamp_of)
         is_behind = reason is not None or lag == Lag.BEHIND
@@ -207,11 +207,8 @@ def failure(obj: Object) -> Finding | None:
 
 def total(context: Context) -> Total:
     """Return the selected objects as one body, by the parallel-axis theorem, from displayed numbers."""
-    key = (handlers.generation(), context.view_layer.name)
-    cached = _totals.get(context.scene)
-    if cached is None or cached[0] != key:
-        cached = _totals[context.scene] = (key, _sum(context))
-    return cached[1]
+    key = handlers.generation(), context.view_layer.name
+    return current_value(_totals, context.scene, key, lambda: _sum(context))
 
 
 def _sum(context: Context) -> Total:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...core import inertia, numerics
+from ...core import inertia
 from ...core.measurement.documents import TENSOR, plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
@@ -89,7 +89,7 @@ IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 Vector = tuple[float, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class StoredProperties:
     """Stored results of an object as plain numbers, SI, in the object frame, or in the world after `in_world`.
 
@@ -177,33 +177,29 @@ def rotation_axes(turn: Sequence[float]) -> tuple[Vector, ...]:
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
-    """Write all results on an object, a collection or a pose bone, or none.
+    """Write all results on an object, a collection or a pose bone.
 
     EditRefusedError if it cannot hold them.
     """
     require_storable(obj)
-    body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
-    bound = measurement.error_bound
-    numbers = {
-        "body_mass": body.mass,
-        "body_density": measurement.density,
-        "body_volume": measurement.volume,
-        "body_area": measurement.area,
-        "body_center_of_mass": body.center.tolist(),
-        "body_inertia": tensor_entries(body.inertia).tolist(),
-        "body_principal_moments": body.principal.moments.tolist(),
-        "body_principal_axes": numerics.quaternion(body.principal.axes).tolist(),
-        "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
-    }
-    optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
-    numbers |= {key: value for key, value in optional.items() if value is not None}
-    varying = (
-        {}
-        if measurement.density_from.code in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS)
-        else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
+    body, bound = measurement.in_object_frame(), measurement.error_bound
+    row = (
+        body.mass,
+        measurement.density,
+        measurement.volume,
+        measurement.area,
+        body.center.tolist(),
+        tensor_entries(body.inertia).tolist(),
+        body.principal.moments.tolist(),
+        body.principal.quaternion.tolist(),
+        [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
     )
-    texts = {key: value for key, value in varying.items() if value}
-    _replace(obj, numbers | _texts(measurement.method, measurement.findings, measurement.fingerprint) | texts)
+    values: dict[str, Any] = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
+    if measurement.density_from.code not in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS):
+        values["body_density_from"] = str(measurement.density_from)
+        values["body_materials"] = "\n".join(measurement.materials) or None
+    values |= dict(zip(LENGTHS, row)) | _texts(measurement.method, measurement.findings, measurement.fingerprint)
+    _replace(obj, {key: value for key, value in values.items() if value is not None})
     retrigger_drivers(obj)
 
 
@@ -230,7 +226,7 @@ def store_stack(
         body.center,
         body.inertia[:, ROWS, COLUMNS],
         body.principal.moments,
-        numerics.quaternion(body.principal.axes),
+        body.principal.quaternion,
         error_bounds.reshape(-1, 8),
     )
     rows = zip(*[column.tolist() for column in columns])
@@ -259,21 +255,26 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
     }
 
 
-def _replace(obj: Owner, values: dict) -> None:
-    """Make these the only results, or leave the earlier ones.
-
-    The tensor is stored in two ways.
-    """
+def _replace(obj: Owner, values: dict[str, Any]) -> None:
+    """Make these the only results, or leave the earlier ones. The tensor is stored in two ways."""
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
-    values = {key: values[key] for key in DESCRIPTIONS if key in values}
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
     before = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in before.items()}
     try:
-        _write(obj, values, before)
+        _write(obj, values)
     except BaseException:
-        _write(obj, before, {})
+        _write(obj, before)
         raise
+
+
+def _write(obj: Owner, values: dict[str, Any]) -> None:
+    """Make these the only results, in the order of their descriptions."""
+    for key in DESCRIPTIONS:
+        if key in values:
+            _set(obj, key, values[key])
+        elif key in obj:
+            del obj[key]
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
@@ -292,24 +293,10 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
     retrigger_drivers(obj)
 
 
-def _write(obj: Owner, values: dict, before: dict) -> None:
-    """Make these values, by their keys, the only results of the object.
-
-    before: the earlier ones, whose descriptions stay if the kind of value does.
-    """
-    for key in DESCRIPTIONS:
-        if key not in values and key in obj:
-            del obj[key]
-    for key, value in values.items():
-        if type(before.get(key)) is type(value):
-            obj[key] = value
-        else:
-            _set(obj, key, value)
-
-
 def _set(obj: Owner, key: str, value: object) -> None:
+    is_new = key not in obj  # otherwise it has its description
     obj[key] = value
-    if not isinstance(value, str):
+    if is_new and not isinstance(value, str):
         obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
 
 
@@ -363,7 +350,7 @@ def retrigger_drivers(obj: Owner) -> None:
 
 def is_stored(obj: Owner) -> bool:
     """Return whether the object carries results."""
-    return numbers(obj) is not None
+    return stored(obj) is not None
 
 
 def method(obj: Owner) -> Method | None:
@@ -448,33 +435,21 @@ def density_from(obj: Owner) -> str:
     return str(obj.get("body_density_from", ""))
 
 
-def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
-    """Return the stored numbers unchanged, in the order of LENGTHS; None if one is missing or not finite."""
-    values = []
+def stored(obj: Owner) -> StoredProperties | None:
+    """Return the stored results, in the object frame; None if a number is missing or not finite."""
+    values: list[Any] = []
     for key, length in LENGTHS.items():
         value = obj.get(key)
         try:
-            row = tuple(float(number) for number in value) if length else (float(value),)
+            row = tuple(map(float, value)) if length else (float(value),)
         except (TypeError, ValueError):  # absent, or overwritten by something else
             return None
         if len(row) != max(length, 1) or not (key == "body_error_bound" or all(map(isfinite, row))):
             return None
-        values.append(row)
-    return tuple(values)
-
-
-def stored(obj: Owner) -> StoredProperties | None:
-    """Return the stored results, in the object frame; None if a number is missing or not finite."""
-    values = numbers(obj)
-    return None if values is None else from_numbers(values)
-
-
-def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
-    """Return the results that `numbers` has read, in the object frame."""
-    (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read
+        values.append(row if length else row[0])
+    *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    error_bound = {**rounding, "input": inputs}
-    return StoredProperties(mass, density, volume, area, center, entries, moments, rotation_axes(turn), error_bound)
+    return StoredProperties(*numbers, rotation_axes(turn), {**rounding, "input": inputs})
 
 
 def tensor_entries(tensor: NDArray) -> NDArray:

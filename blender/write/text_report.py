@@ -60,11 +60,10 @@ def stored_document(
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []
     for obj in objects:
-        numbers = properties.numbers(obj)
-        if numbers is None:
+        stored = properties.stored(obj)
+        if stored is None:
             errors.append({"name": obj.name, "reason": ReadError(NO_STORED_RESULTS).reason})
             continue
-        stored = properties.from_numbers(numbers)
         world = stored.in_world(obj.matrix_world, unit)
         bodies.append(world.body)
         entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))

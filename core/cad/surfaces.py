@@ -52,12 +52,8 @@ class SurfaceFile:
     notes: tuple[Finding, ...] = ()
 
 
-class SurfaceRefusedError(Exception):
-    """A surface that cannot be kept: the code of why, and the values of its sentence beside kind and name."""
-
-    def __init__(self, code: str, **values: object) -> None:
-        super().__init__(code)
-        self.code, self.values = code, values
+class SurfaceRefusedError(MeasureError):
+    """A surface that cannot be kept: a finding without the surface's kind and name."""
 
 
 @dataclass
@@ -80,7 +76,7 @@ class Refusals:
         except FileError:
             raise
         except SurfaceRefusedError as error:
-            self.add(error.code, kind, name, **error.values)
+            self.add(error.finding.code, kind, name, **error.finding.values)
         except MeasureError as error:  # about its control points
             self.add(SURFACE_POINTS, kind, name, cause=error.finding)
         except (ValueError, OverflowError, LookupError):

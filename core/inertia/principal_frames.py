@@ -27,7 +27,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
-from ..numerics.rotations import rotation_array
+from ..numerics.rotations import quaternion, rotation_array
 from ..verdict.finding import MeasureError, finding
 from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
@@ -90,6 +90,11 @@ class PrincipalFrame:
     is_unique: PerBody
     finding: PerBody
     undetermined_axes: PerBody = ()
+
+    @property
+    def quaternion(self) -> NDArray[np.float64]:
+        """(..., 4) w, x, y, z that turn the coordinate axes into the principal ones."""
+        return quaternion(self.axes)
 
     def rotate(self, rotation: ArrayLike) -> PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""

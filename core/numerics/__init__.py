@@ -8,4 +8,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     SplineSpace="bspline",
     clamped_space="bspline",
+    quaternion="rotations",
 )

@@ -34,7 +34,28 @@ def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
 
 
 def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
-    """Convert rotation matrices (..., 3, 3) to unit quaternions (..., 4), w, x, y, z with w ≥ 0."""
+    """Convert a rotation matrix to a unit quaternion.
+
+    Parameters
+    ----------
+    rotation : (..., 3, 3) array_like
+        Orthonormal, determinant 1.
+
+    Returns
+    -------
+    (..., 4) array
+        w, x, y, z with w ≥ 0.
+
+    Notes
+    -----
+    Shepperd's method.
+
+    Examples
+    --------
+    >>> from body_moments.core.numerics import quaternion
+    >>> quaternion(np.eye(3)).tolist()
+    [1.0, 0.0, 0.0, 0.0]
+    """
     m = np.moveaxis(float_array("rotation", rotation, ..., 3, 3), (-2, -1), (0, 1))
     # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
     outer = np.array(

@@ -25,16 +25,13 @@ from .boundary_loops import (
     vertex_pairs,
 )
 from .findings import DUPLICATE_FACES_COUNTED, NON_MANIFOLD_COMPONENTS, ONE_SIDED_COMPONENTS, T_JUNCTIONS
-from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
+from .repaired_mesh import FoldedLoops, RepairedMesh, ZeroAreaLoops
 from .shared_walls import wall_links
 
 
 def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Find the boundary loops without area, across which the surface closes in space."""
     side = mesh.state.edges.boundary_sides()
-    if not len(side):
-        none = NO_INDICES
-        return mesh.with_state(gaps=ZeroAreaLoops(none, none, 0, none, none, np.empty(0, bool)))
     start, stop = side_ends(mesh.triangles, side)
     begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
     links = join_sides(begin, end, start, stop, directed=False)
@@ -153,10 +150,8 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     if not len(side):
         return mesh
     owner, (start, stop) = side // 3, mesh.oriented_ends(side)
-    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
     component = mesh.component[owner]
-    meet = [component * len(mesh.points) + vertex for vertex in (start, stop)]
-    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
+    loops = _find_component_loops(mesh, component, start, stop)
     of_loop = loops.of_each(component)
     is_open = mesh.open.copy()
     is_open[of_loop[~loops.complete]] = True
@@ -190,6 +185,13 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         findings.append(finding(NON_MANIFOLD_COMPONENTS, edges, count=count, total=mesh.number))
     closed = not (mesh.open.any() or mesh.caps.any())
     return replace(mesh, findings=(*mesh.findings, *findings), report=replace(mesh.report, closed=closed))
+
+
+def _find_component_loops(mesh: RepairedMesh, component: NDArray, start: NDArray, stop: NDArray) -> BoundaryLoops:
+    """Return the loops of sides with these ends, which are joined within their components, head to tail."""
+    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
+    first, second = (component * len(mesh.points) + vertex for vertex in (start, stop))
+    return find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
 
 
 def _count_caps(
@@ -228,10 +230,8 @@ def _find_folded_loops(
     start, stop = side_ends(mesh.triangles, side)
     reversed_side = edges.upward[side] != (signed_count[edge] > 0.0)
     start, stop = np.where(reversed_side, stop, start), np.where(reversed_side, start, stop)
-    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
     component = mesh.component[side // 3]
-    meet = [component * len(mesh.points) + vertex for vertex in (start, stop)]
-    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
+    loops = _find_component_loops(mesh, component, start, stop)
     closes = unclosable.copy()
     closes[component[(~loops.complete | loops.has_area(tolerance))[loops.of_side]]] = False
     caps = np.stack([stop, start, loops.of_each(start)[loops.of_side]], axis=1)

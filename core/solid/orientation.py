@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -134,7 +135,7 @@ def orient_components(
         counted = np.ones(1, bool) if comparison is None else comparison.solid
         surface = _oriented_surface(surface, mesh, flipped, counted, is_proven)
     if surface is not checked.surface:
-        volume = _integrate_oriented(checked.surface, given, mesh, flipped, surface, threads)
+        volume = _integrate_oriented(given, mesh, flipped, surface, threads)
     total, has_open = volume.total, bool(mesh.open.any())
     threshold = zero_volume(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
     is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
@@ -191,29 +192,12 @@ def _oriented_surface(
 
 
 def _integrate_oriented(
-    surface: Surface,
-    given: GivenIntegrals,
-    mesh: RepairedMesh,
-    flip: NDArray[np.bool_],
-    measured: Surface,
-    threads: int,
+    given: GivenIntegrals, mesh: RepairedMesh, flip: NDArray[np.bool_], measured: Surface, threads: int
 ) -> Moments:
     """Return the volume moments of the measured surface; only its caps are integrated if the rest is as given."""
-    caps = _caps_only(surface, mesh, flip, measured)
-    about = None if caps is None else given.volume.about
-    volume = polyhedron_moments(caps or measured, area_order=0, about=about, threads=threads, allow_open=True)[0]
-    return volume if caps is None else sum_moments([given.volume, volume])
-
-
-def _caps_only(surface: Surface, mesh: RepairedMesh, flip: NDArray[np.bool_], measured: Surface) -> Surface | None:
-    """Return the caps if `measured` differs from `surface` by nothing else, or None."""
-    caps = mesh.face < 0
-    if (
-        mesh.topology_changed
-        or not caps.any()
-        or len(measured.triangles) < len(mesh.triangles)
-        or mesh.flipped.any()
-        or flip.any()
-    ):
-        return None
-    return replace(measured, triangles=measured.triangles[caps])
+    integrate = partial(polyhedron_moments, area_order=0, threads=threads, allow_open=True)
+    caps, is_turned = mesh.face < 0, mesh.flipped.any() or flip.any()
+    if mesh.topology_changed or is_turned or not caps.any() or len(measured.triangles) < len(mesh.triangles):
+        return integrate(measured)[0]
+    surface = replace(measured, triangles=measured.triangles[caps])
+    return sum_moments([given.volume, integrate(surface, about=given.volume.about)[0]])

@@ -52,12 +52,11 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         return mesh
     mesh, onto = _weld(mesh, parts.rows, vertices, same)
     rows = parts.rows[has_distinct_vertices(mesh.triangles[parts.rows])]
-    edges = find_edges(mesh.triangles[rows]) if len(rows) else None
-    still_open = edges is not None and bool(np.any(edges.count % 2))
+    edges = find_edges(mesh.triangles[rows])
     vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
     return mesh.with_state(
-        edges=edges if parts.are_all else UNKNOWN,
-        open_parts=replace(parts, rows=rows, vertices=vertices) if still_open else None,
+        edges=edges if parts.are_all and len(rows) else UNKNOWN,
+        open_parts=replace(parts, rows=rows, vertices=vertices) if np.any(edges.count % 2) else None,
     )
 
 

@@ -288,14 +288,11 @@ def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integ
     used, number = np.unique(triangles, return_inverse=True)
     triangles = number.reshape(-1, 3)
     edges = find_edges(triangles)
-    crowded = edges.count > 2
-    if crowded.any():
-        pairs = used[vertex_pairs(triangles, edges.first[crowded])]
-        raise MeasureError(WALL_NON_MANIFOLD, elements=pairs, count=len(pairs))
     misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
-    if misoriented.any():
-        pairs = used[vertex_pairs(triangles, edges.first[misoriented])]
-        raise MeasureError(WALL_INCONSISTENT_FACES, elements=pairs, count=len(pairs))
+    for code, wrong in ((WALL_NON_MANIFOLD, edges.count > 2), (WALL_INCONSISTENT_FACES, misoriented)):
+        if wrong.any():
+            pairs = used[vertex_pairs(triangles, edges.first[wrong])]
+            raise MeasureError(code, elements=pairs, count=len(pairs))
     return surface.points[used].astype(np.float64), triangles
 
 

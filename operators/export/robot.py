@@ -36,7 +36,6 @@ from ..findings import (
     ROBOT_NOT_WRITTEN,
     ROBOT_SHEARED,
 )
-from ..modal import progress
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
 
 LINKS = (
@@ -94,7 +93,7 @@ class RobotExport(ExportHelper):
         if self.links == "COLLECTION":
             root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
             return scenes.collection_links(context, name, root, objects)
-        with progress(len(objects)) as step:
+        with reports.progress(len(objects)) as step:
             return scenes.object_links(context, name, objects, step)
 
     def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:

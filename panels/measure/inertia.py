@@ -8,7 +8,7 @@ from bpy.types import Context
 
 from ...blender.session import stored
 from ...blender.session.displayed import displayed
-from ...blender.write.properties import is_stored, tensor_entries
+from ...blender.write.properties import tensor_entries
 from ...blender.write.units import Units
 from ...core.verdict.finding import Finding
 from .. import rows
@@ -81,7 +81,7 @@ class ReferencePanel:
             rows.button(
                 layout, context, "object.body_moments_axis_from_selection", "EYEDROPPER", short="From Selection"
             )
-        result = stored.reference.referred(context.object, scene) if is_stored(context.object) else None
+        result = stored.reference.referred(context.object, scene) if "body_mass" in context.object else None
         if result is None:
             return
         if isinstance(result, Finding):

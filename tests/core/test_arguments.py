@@ -36,7 +36,7 @@ from body_moments.core.fourier import polygon_transform, surface_transform
 from body_moments.core.inertia import Reference, combine
 from body_moments.core.mesh import convex_hull
 from body_moments.core.moments import normalize, sum_moments
-from body_moments.core.numerics import SplineSpace, clamped_space
+from body_moments.core.numerics import SplineSpace, clamped_space, quaternion
 from body_moments.core.nurbs import (
     Curve,
     Patch,
@@ -144,6 +144,7 @@ CALLS = {
     "polyhedron_moments": (polyhedron_moments, {"body": SURFACE, "about": ORIGIN}),
     "pose_matrix": (pose_matrix, {"center": ORIGIN, "axes": AXES}),
     "principal_frame": (principal_frame, {"moments": VOLUME, "preferred_axes": AXES}),
+    "quaternion": (quaternion, {"rotation": AXES}),
     "rank": (rank, {"query": SHAPE, "entries": []}),
     "region_moments": (region_moments, {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]}),
     "resting_poses": (resting_poses, {"hull": convex_hull(POINTS), "center": CENTRAL.about}),

@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the overlay draws, as arrays: where it is, how large, in which form. tests/window looks at its pixels."""
 
-import bpy
 import numpy as np
 import pytest
 
-from tests.blender import objects
 from tests.close import close
 
 
@@ -74,38 +72,3 @@ def test_axes_are_as_long_as_the_radii_of_gyration(registered):
     segments = lines.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
     assert close(segments.mean(axis=1), 1.0, 1e-12)
     assert close(segments[:, 1] - segments[:, 0], 2.0 * (turn * gyration).T, 1e-12)
-
-
-def test_overlay_body_has_world_center_and_gyration(scene):
-    from body_moments.blender.session.displayed import drawn
-
-    scene.unit_settings.scale_length = 0.001
-    obj = objects.add(objects.mesh_body(), location=(7, -3, 2), rotation=(0.3, 1.1, -0.4), scale=(2, 2, 2))
-    bpy.ops.object.body_moments_measure()
-    measurement = objects.measured(obj)
-    body = drawn(obj, scene).world
-    assert close(np.array(body.center) / 0.001, measurement.mass_properties.center / 0.001, 1e-6)
-    assert close(np.array(body.gyration) / 0.001, measurement.mass_properties.radii_of_gyration / 0.001, 1e-6)
-    axes = np.array(body.axes).T
-    assert close(np.abs((axes * measurement.mass_properties.principal.axes).sum(axis=0)), 1.0, 1e-6)
-    assert drawn(obj, scene).trust == "exact"
-
-
-def test_unmeasured_object_is_not_drawn(scene):
-    from body_moments.blender.session.displayed import drawn
-
-    assert drawn(objects.add(objects.mesh_body()), scene) is None
-
-
-def test_an_open_body_is_doubtful_and_an_edited_one_out_of_date(scene):
-    from body_moments.blender.session.displayed import drawn
-
-    strip = objects.add(objects.strip_mesh())
-    bpy.ops.object.body_moments_measure()
-    assert drawn(strip, scene) is None or drawn(strip, scene).trust == "doubtful"
-    body = objects.add(objects.mesh_body())
-    bpy.ops.object.body_moments_measure()
-    body.data.vertices[0].co.z -= 0.5
-    body.data.update()
-    bpy.context.view_layer.update()
-    assert drawn(body, scene).trust == "out of date"

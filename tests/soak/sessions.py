@@ -111,7 +111,7 @@ class Session:
         body = truth.mass_properties
         reach = np.linalg.norm(body.center) + np.linalg.norm(body.radii_of_gyration)
         if is_stored:
-            stored = properties.from_numbers(properties.numbers(obj)).in_world(obj.matrix_world, 1.0)
+            stored = properties.stored(obj).in_world(obj.matrix_world, 1.0)
             same = np.allclose([stored.body.mass, stored.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
             assert same and np.linalg.norm(stored.body.center - body.center) <= RTOL * reach, (
                 place,

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from bpy.types import Object, Scene
+from bpy.types import Object
 
 from ...read.fingerprint import VERSION
-from ...write.properties import StoredProperties
 from .. import live
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
@@ -82,17 +81,6 @@ def current_numbers(obj: Object) -> LiveResult | None:
     """Return the numbers of an object with Live on when it was last measured, None before that."""
     current = followed.get(obj)
     return None if current is None else current.result
-
-
-def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
-    """Return the current numbers of an object with Live on, in its own frame, mapped to its place and stretch.
-
-    None if Live is off, or it could not be measured. The scene's unit scale counts.
-    """
-    current = followed.get(obj)
-    if current is None or current.result is None or current.result.measurement is None:
-        return None
-    return live.live.map_properties(obj, current, current.result.measurement, scene)
 
 
 def stamp_of(obj: Object) -> Stamp | None:

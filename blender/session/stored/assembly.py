@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import sqrt
 
 import bpy
 import numpy as np
@@ -117,14 +118,13 @@ def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64
     for member in root.walk():
         if member.kind == MemberKind.OBJECT and member.is_measured:
             obj = member.data
-            numbers = properties.numbers(obj)
-            if numbers is None:
+            stored = properties.stored(obj)
+            if stored is None:
                 continue
-            stored = properties.from_numbers(numbers).body
             location, rotation, _scale = obj.matrix_world.decompose()
             unit = bpy.context.scene.unit_settings.scale_length
             center = np.array(rotation @ Vector(stored.center) + location * unit, np.float64)
-            bodies[obj] = stored.mass, center, float(np.sqrt(np.trace(stored.inertia) / 2.0 / stored.mass))
+            bodies[obj] = stored.mass, center, sqrt(sum(stored.inertia[:3]) / 2.0 / stored.mass)
     return bodies
 
 

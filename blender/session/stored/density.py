@@ -58,15 +58,15 @@ def follow_density(obj: Object, scene: Scene) -> None:
     stamp = stamps.of_results(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return
-    numbers = properties.numbers(obj)
+    numbers = properties.stored(obj)
     if numbers is None:
         return
-    extent = properties.optional(obj, "body_length") or numbers[2][0]
+    extent = properties.optional(obj, "body_length") or numbers.volume
     if not extent:
         return
     if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
         return  # no mass multiplies it
-    mass = numbers[0][0]
+    mass = numbers.mass
     present = current_settings(obj, scene)
     weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
     if stamp.settings not in [replace(present, **weight).digest for weight in weights]:

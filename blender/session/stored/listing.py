@@ -12,7 +12,7 @@ from bpy.types import Object, Scene, ViewLayer
 from ...write.units import Units
 from ..displayed import Displayed, Trust, drawn
 from ..tracking import handlers
-from ..tracking.cache import SessionCache
+from ..tracking.cache import SessionCache, current_value
 
 Listing = tuple[list[bool], list[int]]  # for each object its visibility in the list, and its line
 RANKS = {verdict: rank for rank, verdict in enumerate(Trust)}
@@ -36,22 +36,20 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
     name: a part of the names, in any case. warnings_first: put out-of-date and doubtful objects before all others.
     """
     key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
-    cached = _listings.get(scene)
-    if cached is None or cached[0] != key:
-        cached = _listings[scene] = (key, _listing(scene, view_layer, name.lower(), sort_by, warnings_first))
-    return cached[1]
+    return current_value(
+        _listings, scene, key, lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first)
+    )
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
     """Return the masses of a view layer's measured objects by session uid, in one unit with as many decimals."""
     units = Units.from_settings(scene.unit_settings)
-    key = handlers.generation(), view_layer.name, units
-    cached = _masses.get(scene)
-    if cached is None or cached[0] != key:
+
+    def list_masses() -> dict[int, str]:
         bodies = {obj.session_uid: body for obj in view_layer.objects if (body := drawn(obj, scene)) is not None}
-        texts = units.texts("mass", [body.world.mass for body in bodies.values()])
-        cached = _masses[scene] = (key, dict(zip(bodies, texts)))
-    return cached[1]
+        return dict(zip(bodies, units.texts("mass", [body.world.mass for body in bodies.values()])))
+
+    return current_value(_masses, scene, (handlers.generation(), view_layer.name, units), list_masses)
 
 
 def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:

@@ -79,10 +79,9 @@ def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | N
 
 def _stored_body(owner: Object | Collection, scene: Scene) -> MassProperties | None:
     """Return the stored body in the world."""
-    numbers = properties.numbers(owner)
-    if numbers is None:
+    stored = properties.stored(owner)
+    if stored is None:
         return None
-    stored = properties.from_numbers(numbers)
     if isinstance(owner, bpy.types.Object):
         stored = stored.in_world(owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length))
     return stored.body

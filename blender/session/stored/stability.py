@@ -73,12 +73,6 @@ def stamp_of(obj: Object) -> Stamp | None:
     return stamps.carried(obj, Kind.HULL)
 
 
-def forget(obj: Object) -> None:
-    """Forget the hull of an object."""
-    _remembered.forget(obj)
-    handlers.count_change()
-
-
 def support(obj: Object, scene: Scene = None) -> Support | None:
     """Return the current support of an original object, in Blender's units and the world.
 

@@ -38,7 +38,7 @@ from ...read.fingerprint import VERSION, digest, has_transform, matrix_hash, sca
 from ...read.tracking import tracking_paused
 from ...write import properties
 from . import handlers, stamps, updates
-from .cache import SessionCache
+from .cache import SessionCache, current_value
 from .stamps import EDITED, Kind, Stale, Stamp
 
 NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
@@ -116,10 +116,7 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
 
     The members' is empty if a member is out of date. None if Blender has evaluated nothing yet.
     """
-    known = _parts.get(root)
-    if known is None or known[0] != handlers.generation():
-        known = _parts[root] = (handlers.generation(), _digest_parts(root, scene))
-    return known[1]
+    return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
 
 
 def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:

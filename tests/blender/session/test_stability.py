@@ -54,9 +54,6 @@ def test_support_follows_place_scene_and_results(scene):
     other = bpy.data.scenes.new("Other")
     for asked, margin in ((other, 2.0), (scene, 1.0), (None, 1.0), (other, 2.0)):
         assert close(stability.support(obj, asked).margin, margin, 1e-5)
-    generation = handlers.generation()
-    stability.forget(obj)
-    assert not stability.is_known(obj) and stability.support(obj) is None and handlers.generation() > generation
 
 
 def test_object_without_results_has_no_support(scene):
