@@ -9,5 +9,5 @@ They draw stored or cached values and compute nothing.
 MODULES = (
     *("menus", "material_menus", "body", "inertia", "density", "statics", "selection", "assembly", "rig", "advanced"),
     *("section", "shape"),  # sub-panels of `advanced`
-    *("overlay.popover", "overlay.draw"),
+    "overlay.draw",
 )
