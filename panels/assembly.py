@@ -90,7 +90,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     findings = properties.findings(root)
     rows.stale_row(layout, context, stale_reason(root, context.scene))
     remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
-    rows.value(layout, units, "Mass", "mass", stored.mass)
+    rows.quantities(layout, units, [("Mass", "mass", stored.mass)])
     _tree(layout, context, settings)
     _numbers(layout, units, stored, isinstance(root, Collection))
     remedies.notes(layout, context, "body_moments_assembly_notes", findings)

@@ -90,7 +90,7 @@ class ReferencePanel:
         units = Units.from_settings(scene.unit_settings)
         if settings.about == "AXIS":
             column = layout.column(align=True)
-            rows.value(column, units, "About Axis", "inertia", result.about_z)
+            rows.quantities(column, units, [("About Axis", "inertia", result.about_z)])
             distances = result.radius_about_z, result.distance_from_z
             rows.values(column, units, ("Radius of Gyration", "Distance of Center"), "length", distances)
         center, reach = result.center, max(map(abs, result.center))

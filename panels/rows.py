@@ -77,11 +77,6 @@ def group(
     return column
 
 
-def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
-    """One value with its unit, and a button that copies it to the last digit."""
-    quantities(layout, units, [(label, quantity, si)])
-
-
 def quantities(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float]]) -> None:
     """Draw a row for each (label, quantity, SI value), each in the unit that suits it."""
     table(
@@ -155,11 +150,6 @@ def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
         cell.alignment = "RIGHT"
         cell.label(text=text, translate=False)
     _copy(row, repr([float(component) for component in vector]), "")
-
-
-def text(layout: UILayout, label: str, shown: str, exact: str, unit: str) -> None:
-    """Label, text to the right, copy button; as a `table` of one row."""
-    table(layout, [(label, shown, exact, unit)])
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:

@@ -77,13 +77,8 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         angle = degrees(section.angle)
-        rows.text(
-            column,
-            "Angle from x to 1",
-            "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle)),
-            repr(section.angle),
-            "rad",
-        )
+        shown = "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle))
+        rows.table(column, [("Angle from x to 1", shown, repr(section.angle), "rad")])
 
 
 def _more_numbers(layout: UILayout, units: Units, section) -> None:
