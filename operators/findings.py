@@ -48,6 +48,7 @@ ROBOT_NOT_WRITTEN = error("robot_not_written", "The file cannot be written: {err
 ROBOT_COPIED = note("robot_copied", "Inertial of {count} link copied.", "Inertials of {count} links copied.")
 PRIMITIVES_ADDED = note("primitives_added", "{count} shape added", "{count} shapes added")
 PRIMITIVE_HAS_PARENT = error("primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it.")
+AUDIT_DONE = note("audit_done", "{links} links: {errors} errors, {warnings} warnings, {notes} notes")
 AUDIT_TEXT = note("audit_text", "See the text “{text}” in the Text Editor")
 
 LIBRARY_OVERRIDE_MASS = error(

@@ -12,7 +12,6 @@ from bpy.types import Context, Menu, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
-from ...command.findings import AUDIT_DONE, AUDIT_NOT_WRITTEN
 from ...core.files.whole_file import whole_file
 from ...core.robots.audit import Audit, Auditor
 from ...core.robots.read.descriptions import SUFFIXES, read_description
@@ -21,7 +20,7 @@ from ...core.robots.repair import repaired_copy
 from ...core.robots.write import audit_report
 from ...core.verdict.finding import FileError, Finding, MeasureError, Severity, finding, system_reason
 from .. import selection
-from ..findings import AUDIT_TEXT, FILE_EXISTS
+from ..findings import AUDIT_DONE, AUDIT_TEXT, FILE_EXISTS, FILE_NOT_WRITTEN
 
 
 class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
@@ -86,7 +85,7 @@ def _write(path: Path, data: bytes) -> None:
         with whole_file(path) as file:
             file.write(data)
     except OSError as error:
-        raise FileError(AUDIT_NOT_WRITTEN, error=system_reason(error)) from error
+        raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
 
 
 def _menu(menu: Menu, _context: Context) -> None:

@@ -18,13 +18,13 @@ from ...blender.bodies.measure_object import THREADS
 from ...blender.read.visibility import measurable
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import reports, spectrum
-from ...command.findings import FOURIER_NOT_WRITTEN
 from ...core.fourier.wave_vectors import FrequencyGrid
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files
 from ..findings import (
     CANCELED_FOURIER,
+    FILE_NOT_WRITTEN,
     FOURIER_FOLDER_MISSING,
     FOURIER_PATH_MISSING,
     FOURIER_WRITTEN,
@@ -192,7 +192,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         try:
             spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError(FOURIER_NOT_WRITTEN, error=system_reason(error)) from error
+            raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = spectrum.picture(name, transform.values, self.count, self._dimension)
         for area in context.screen.areas if context.screen else ():
