@@ -17,7 +17,7 @@ from ..core.robots.read.paths import Roots
 from ..core.robots.repair import repaired_copy
 from ..core.robots.write import audit_report
 from ..core.verdict import internal_error
-from ..core.verdict.finding import FileError, MeasureError, Severity, system_reason
+from ..core.verdict.finding import FileError, MeasureError, system_reason
 from .findings import RESULT_NOT_WRITTEN
 from .options import targets
 from .parser import Parser
@@ -83,27 +83,16 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
 
 def _document(path: Path, options: argparse.Namespace) -> dict[str, Any]:
     roots = Roots.for_file(path, options.root, options.allow_outside)
-    description = read_description(path, roots)
-    audit = Auditor(roots).audit(description)
+    audit = Auditor(roots).audit(read_description(path, roots))
     repaired = _write_copy(path, audit, options)
-    links = [
-        audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links
-    ]
-    document = audit_report.document(str(path), description, links, repaired)
-    print_message(path, summary(document))
+    document = audit_report.document(str(path), audit, repaired)
+    counts = audit_report.count_findings(document)
+    print_message(path, ", ".join(counted(count, name.removesuffix("s")) for name, count in counts.items()))
     return document
 
 
-def summary(document: dict[str, Any]) -> str:
-    """Return a text that counts the links and the findings of a document."""
-    levels = [found["severity"] for link in document["links"] for found in link["findings"]]
-    counts = (counted(levels.count(level), str(level)) for level in reversed(Severity))
-    return "{}: {}".format(counted(len(document["links"]), "link"), ", ".join(counts))
-
-
 def _write_copy(path: Path, audit: Audit, options: argparse.Namespace) -> str | None:
-    repairs = [(found.link, found.repaired) for found in audit.links if found.repaired is not None]
-    folder = options.repair
+    repairs, folder = audit.repairs(), options.repair
     if folder is None or not repairs:
         return None
     target = folder / path.name

@@ -11,7 +11,14 @@ with suppress(ImportError):
 
 
 class Reported(list):
-    """Findings that operators have reported, each followed by those among its values: the causes of refusals."""
+    """Findings that operators have reported, each followed by those among its values: the causes of refusals.
+
+    texts: the other parts of their reports.
+    """
+
+    def __init__(self):
+        super().__init__()
+        self.texts = []
 
     def add(self, finding):
         from body_moments.core.verdict.finding import Finding
@@ -39,10 +46,13 @@ def reported(monkeypatch):
 
     found, report = Reported(), reports.report
 
-    def kept(operator, *findings):
-        for finding in findings:
-            found.add(finding)
-        report(operator, *findings)
+    def kept(operator, *parts, **level):
+        for part in parts:
+            if isinstance(part, str):
+                found.texts.append(part)
+            else:
+                found.add(part)
+        report(operator, *parts, **level)
 
     monkeypatch.setattr(reports, "report", kept)
     return found

@@ -1,3 +1,29 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A reading becomes a body and a measurement: one module a kind."""
+
+from typing import TYPE_CHECKING
+
+from ...core.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from . import rig as rig
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    FlatShape="flat.flat_shape",
+    THREADS="measure_object",
+    assemble="assembly.assembly",
+    comparable_shape_of="flat.flat_shape",
+    distance_from="flat.flat_shape",
+    flat_transform="flat.flat_fourier",
+    measure_assembly="assembly.assembly",
+    measure_body="measure_object",
+    measure_many="stacks.many",
+    measure_members="assembly.assembly",
+    measure_rig="rig",
+    measured_in_turn="stacks.many",
+    object_transform="fourier",
+    register_surfaces="shape.shape",
+    rig="rig",
+)

@@ -4,18 +4,6 @@
 
 from ...core.verdict.finding import error, note, warning
 
-NO_VOLUME = error(
-    "no_volume",
-    "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape.",
-)
-COMPONENTS_NESTED_SLIGHTLY = note(
-    "components_nested_slightly",
-    "{count} outward component lies inside another; the shared space counts twice.",
-    "{count} outward components lie inside others; the shared space counts twice.",
-)
-COMPONENTS_OVERLAP_SLIGHTLY = note(
-    "components_overlap_slightly", "{count} components overlap; the shared space counts twice."
-)
 NON_PLANAR_FACES_OF_DISPLAY_MESH = note(
     "non_planar_faces_of_display_mesh",
     "Non-planar faces of the display mesh: their triangulation can change the volume by up to {share:percent}.",
@@ -24,11 +12,6 @@ DUPLICATE_FACES_OF_SHELL = warning(
     "duplicate_faces_of_shell",
     "{count} duplicate face counts as material. Delete it.",
     "{count} duplicate faces count as material. Delete them.",
-)
-DUPLICATE_FACES_OF_SHELL_SLIGHTLY = note(
-    "duplicate_faces_of_shell_slightly",
-    "{count} duplicate face counts as material.",
-    "{count} duplicate faces count as material.",
 )
 UNION_BY_BOOLEAN = note(
     "union_by_boolean", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits."
@@ -39,9 +22,6 @@ UNION_FAILED = error(
 )
 HOLES_CAPPED_BEFORE_UNION = warning(
     "holes_capped_before_union", "Holes capped before uniting ({share:percent} of the area)."
-)
-HOLES_CAPPED_BEFORE_UNION_SLIGHTLY = note(
-    "holes_capped_before_union_slightly", "Holes capped before uniting ({share:percent} of the area)."
 )
 FACES_REVERSED_BEFORE_UNION = warning(
     "faces_reversed_before_union", "Faces were turned outward before uniting. Use Mesh > Normals > Recalculate Outside."
@@ -75,11 +55,6 @@ FLAT_INSTANCE_SOURCES = warning(
     "{count} of {total} surfaces is flat: its area counts, its volume does not.",
     "{count} of {total} surfaces are flat: their areas count, their volumes do not.",
 )
-FLAT_INSTANCE_SOURCES_SLIGHTLY = note(
-    "flat_instance_sources_slightly",
-    "{count} of {total} surfaces is flat and has no volume.",
-    "{count} of {total} surfaces are flat and have no volume.",
-)
 CURVE_NOT_FILLED = note("curve_not_filled", "The curve is not filled; the flat region that it bounds was measured.")
 CURVE_FILL_MEASURED = warning(
     "curve_fill_measured", "Blender's fill of the curves was measured, overlapping or not: {cause}"
@@ -95,7 +70,6 @@ DISPLAY_MESH_FOR_DENSITY = warning(
     "display_mesh_for_density",
     "The display mesh was measured, as a varying density needs polygons. Raise Resolution Preview for accuracy.",
 )
-NO_THICKNESS = error("no_thickness", "The shell has no thickness. Set Thickness.")
 WALL_UNORIENTED = warning(
     "wall_unoriented",
     "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > Flip to change sides.",
@@ -105,10 +79,6 @@ WALL_FACES_REVERSED = warning(
 )
 WALL_THICKNESS_VARIES = warning(
     "wall_thickness_varies",
-    "At corners of more than three planes the wall is {minimum:.3g} to {maximum:.3g} times as thick.",
-)
-WALL_THICKNESS_VARIES_SLIGHTLY = note(
-    "wall_thickness_varies_slightly",
     "At corners of more than three planes the wall is {minimum:.6g} to {maximum:.6g} times as thick.",
 )
 WALL_FACES_WITHOUT_AREA = warning(
@@ -151,10 +121,6 @@ WALL_NEEDS_ONE_DENSITY = error(
     "wall_needs_one_density",
     "A wall of real thickness needs one density. Set Density From to One Value, or Wall to Thin.",
 )
-WALL_ORDER = error(
-    "wall_order",
-    "Of a wall of real thickness, moments above order {order} and area moments are not known. Set Wall to Thin.",
-)
 WALL_OF_MIXED_SURFACES = error(
     "wall_of_mixed_surfaces", "Walls are not supported for NURBS surfaces and meshes together. Set Wall to Thin."
 )
@@ -162,8 +128,6 @@ WALL_CREASES = warning(
     "wall_creases",
     "At creases of up to {angle:.0f}° the wall overlaps or gapes, as it is not mitered. Use Object > Convert > Mesh.",
 )
-ZERO_DENSITY = error("zero_density", "The density is zero. Set Density.")
-ZERO_MASS = error("zero_mass", "The mass is zero. Set Mass.")
 MASS_OVERFLOW = error("mass_overflow", "The densities are too large. Lower them.")
 DENSITY_VOLUME_UNREADABLE = error("density_volume_unreadable", "The density from “{object}” cannot be read: {cause}")
 DENSITY_ATTRIBUTE_OF_SOLID = error(
@@ -202,19 +166,11 @@ MIXED_MATERIAL_COMPONENTS = warning(
     "{count} of {total} components have several materials and take their means by area. Use Mesh > Separate >"
     " By Material.",
 )
-MIXED_MATERIALS_SLIGHTLY = note(
-    "mixed_materials_slightly",
-    "{count} of {total} components has several materials and takes their mean by area.",
-    "{count} of {total} components have several materials and take their means by area.",
-)
 OVERLAPPING_DENSITIES = warning(
     "overlapping_densities", "Densities add up where components overlap. Cut a cavity for each insert."
 )
 CAVITY_MATERIAL_IGNORED = warning(
     "cavity_material_ignored", "Materials of cavity faces are ignored: a cavity removes the surrounding material."
-)
-CAVITY_MATERIAL_IGNORED_SLIGHTLY = note(
-    "cavity_material_ignored_slightly", "Materials of the faces of small cavities are ignored."
 )
 SHEARED_DENSITY_AXES = warning(
     "sheared_density_axes",
@@ -232,7 +188,6 @@ DENSITY_NEGATIVE = error(
     "The density is negative: {density:.4g} kg/m³ at {point:point} in {frame:word} coordinates. Change Polynomial "
     "or Coordinates.",
 )
-DENSITY_FROM_MEMBERS = note("density_from_members", "members")
 DENSITY_FROM_SAMPLES = note("density_from_samples", "samples")
 DENSITY_FROM_GRID = note("density_from_grid", "grid “{grid}”")
 DENSITY_FROM_GRID_OF = note("density_from_grid_of", "grid “{grid}” of “{object}”")
@@ -280,9 +235,6 @@ DENSITY_GRID_ELSEWHERE = error(
 OUTSIDE_GRID = warning(
     "outside_grid", "{share:percent} of the volume is outside the grid and counts as empty. Enlarge the grid."
 )
-OUTSIDE_GRID_SLIGHTLY = note(
-    "outside_grid_slightly", "{share:percent} of the volume is outside the grid and counts as empty."
-)
 DENSITY_GRID_TOO_FINE = error(
     "density_grid_too_fine",
     "The grid “{grid}” of “{object}” has too many voxels around the object, {samples:size}. Use a coarser grid.",
@@ -324,11 +276,6 @@ ARRAY_NEGATIVE = error(
 )
 SAMPLES_POSITIONED = note("samples_positioned", "The samples stand at the given positions along {axes}.")
 GIVEN_DENSITY_IGNORED = warning("given_density_ignored", "The samples are densities; the given density was not used.")
-AXES_FROM_THIRD_ORDER = warning(
-    "axes_from_third_order",
-    "The principal axes use moments to order 3 only, as the mesh has many faces; Apply to Object and --pose use "
-    "higher orders and may differ.",
-)
 SHAPE_OF_GRID = warning("shape_of_grid", "A grid of densities has no shape for a pose or signature.")
 SHAPE_OF_WIRE_OR_WALL = error(
     "shape_of_wire_or_wall",
@@ -386,9 +333,6 @@ SECTION_FACES_OVERLAP = warning(
 SECTION_OVERLAP_UNCHECKED = warning("section_overlap_unchecked", "Too many edges to check all for overlap.")
 SECTION_PROJECTED = warning(
     "section_projected", "Points up to {share:percent} of the size off the plane were projected. Flatten the faces."
-)
-SECTION_PROJECTED_SLIGHTLY = note(
-    "section_projected_slightly", "Points up to {share:percent} of the size off the plane were projected."
 )
 SECTION_FILL_WRONG = warning(
     "section_fill_wrong",

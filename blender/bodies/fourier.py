@@ -16,6 +16,8 @@ from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
 from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
 from ...core.fourier.spectrum import APPROXIMATE, Spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid
+from ...core.measurement.findings import NO_THICKNESS
+from ...core.measurement.settings import Settings
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
@@ -24,7 +26,8 @@ from ..read.objects import read_object
 from ..read.reading import Reading, to_si
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions, ResolvedOptions
+from ..settings.options import MeasureOptions
+from ..settings.resolve import object_settings
 from .findings import (
     FOURIER_APPROXIMATE,
     FOURIER_NO_EXTENT,
@@ -32,10 +35,8 @@ from .findings import (
     FOURIER_OF_UNIFORM_DENSITY,
     FOURIER_OF_WALL,
     FOURIER_OF_WIRE,
-    NO_THICKNESS,
 )
 from .mesh.mesh import mesh_body
-from .request import with_object_settings
 
 
 @dataclass(frozen=True)
@@ -83,8 +84,8 @@ def object_transform(
     the body's largest extent in m. area: ∫ exp(-i q·x) dA over its faces, in m²; else of its body, in m³: ∫ exp(-i q·x)
     dV of a solid, and thickness times ∫ exp(-i q·x) dA of a shell. Raises MeasureError if there is no transform.
     """
-    unit = options.meters_per_unit(depsgraph.scene)
-    resolved = with_object_settings(options, obj, unit, depsgraph.scene)
+    resolved = object_settings(obj, depsgraph.scene, options)
+    unit = resolved.unit
     reading = read_object(obj, depsgraph)
     shell = resolved.kind == "shell"
     try:
@@ -120,10 +121,10 @@ def object_transform(
     return ObjectTransform(obj.name, transform, factor, tuple(findings))
 
 
-def _require_thin(options: ResolvedOptions) -> None:
-    if options.wall != "thin":
+def _require_thin(settings: Settings) -> None:
+    if settings.wall != "thin":
         raise ReadError(FOURIER_OF_WALL)
-    if not options.thickness > 0.0:
+    if not settings.thickness > 0.0:
         raise ReadError(NO_THICKNESS)
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import bpy
 
 from ...core.inertia.mass_properties import MassProperties
+from ...core.measurement.body import Body
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
@@ -22,7 +23,6 @@ from ..read.grids.volume import VolumeReading
 from ..read.reading import Reading
 from ..settings.options import AS_SET, MeasureOptions
 from .assembly.given import point_measurement, read_point, with_given
-from .body import Body
 from .kinds import KINDS
 from .measurement import measurement_of
 from .request import Request
@@ -73,7 +73,7 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
             if point is not None:
                 measurement, body = point_measurement(point, request)
                 return Measured(measurement, point, body)
-            kinds = (kind for kind in KINDS if request.options.kind in kind.MEASURED_AS)
+            kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
             found = ((kind, kind.read(request)) for kind in kinds)
             kind, reading = next((kind, reading) for kind, reading in found if reading is not None)  # the last refuses
             body = with_given(kind.body(reading, request), reading, request)

@@ -16,6 +16,7 @@ from typing import ClassVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.measurement.body import Body
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
 from ...core.moments.images import sum_of_images
@@ -28,7 +29,7 @@ from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from ..read.reading import Part, Reading, SplineReading, to_si
-from .body import Body, MeshBody, extend_input_error
+from .body import MeshBody, extend_input_error
 from .findings import UNION_OF_DISPLAY_MESH, WALL_CREASES, WALL_ERROR_ESTIMATE_LARGE, WALL_OF_MIXED_SURFACES
 from .mesh.instances import (
     each_once,
@@ -121,15 +122,15 @@ def read(request: Request) -> Reading:
 
 def body(reading: Reading, request: Request) -> Body:
     """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there is none."""
-    options = request.options
+    settings = request.settings
     return nurbs_body(
         reading,
-        request.unit,
-        wall=options.wall if options.kind == "shell" else None,
-        thickness=options.thickness,
-        union=options.overlap == "union",
-        threads=options.threads,
-        compare=options.compare,
+        settings.unit,
+        wall=settings.wall if settings.kind == "shell" else None,
+        thickness=settings.thickness,
+        union=settings.overlap == "union",
+        threads=settings.threads,
+        compare=settings.compare,
     )
 
 

@@ -11,14 +11,17 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
+from ...core.measurement.builder import Extent, add_extents, extent_of, measure_total
+from ...core.measurement.findings import DENSITY_FROM_MEMBERS, NO_VOLUME, ZERO_DENSITY
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities
 from ...core.moments.exponents import KNOWN_ORDER
-from ...core.moments.moments import Measure, Moments, U, sum_moments
+from ...core.moments.moments import Measure, Moments, sum_moments
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import polyhedron_moments
-from ...core.rig import bone_pieces, bones_of_caps, dominant_bones
+from ...core.rig.cuts import bone_pieces, bones_of_caps
+from ...core.rig.dominance import dominant_bones
 from ...core.solid.measure import measure_solid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
@@ -28,23 +31,19 @@ from ..read.objects import locate, read_object
 from ..read.reading import Part, to_si
 from ..read.rig import RestBones, hanging_objects, pose_bone_of, rest_pose, skinned_objects, vertex_weights
 from ..settings.density import is_density_unset, unset_density
-from .assembly.combined import combined_measurement
 from .findings import (
     BONE_MISSING,
     BONE_PART_IMPOSSIBLE,
     BONE_PARTS_IMPOSSIBLE,
-    DENSITY_FROM_MEMBERS,
     MEMBERS_DENSITY_UNSET,
     MEMBERS_LEFT_OUT,
     MEMBERS_NOT_MEASURED,
     NO_DEFORMING_BONES,
-    NO_VOLUME,
     RIG_MEAN_DENSITY,
     RIG_OPEN_MESH,
     RIG_WALL_THIN,
     RIG_WITHOUT_PARTS,
     UNWEIGHTED_VERTICES,
-    ZERO_DENSITY,
 )
 from .measure_object import measure_body
 from .request import Request
@@ -62,8 +61,8 @@ class _Sum:
 
     carriers: list[tuple[Moments, float]] = field(default_factory=list)
     hanging: list[Moments] = field(default_factory=list)
-    extents: list[tuple[float, float, float]] = field(default_factory=list)
-    areas: list[tuple[float, float, float]] = field(default_factory=list)
+    extents: list[Extent] = field(default_factory=list)
+    areas: list[Extent] = field(default_factory=list)
     verdicts: list[Verdict] = field(default_factory=list)
     surfaces: list[tuple[Surface, NDArray[np.float64]]] = field(default_factory=list)
     sources: dict[str, None] = field(default_factory=dict)
@@ -185,10 +184,10 @@ class _Measuring:
         measured = measure_body(obj, self.depsgraph)
         measurement = measured.measurement
         moments, factor = measurement.mass_moments
-        found, bound = self._sum_of(bone, obj), measurement.error_bound
+        found = self._sum_of(bone, obj)
         found.hanging.append(replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor)
-        found.extents.append((measurement.volume, bound["volume"], bound["input"]["volume"]))
-        found.areas.append((measurement.area, bound["area"], bound["input"]["area"]))
+        found.extents.append(extent_of(measurement, "volume"))
+        found.areas.append(extent_of(measurement, "area"))
         found.verdicts.append(measurement.method.verdict)
         for surface in measured.body.surfaces(measurement.kind == "shell"):
             found.surfaces.append((surface, np.eye(4)))
@@ -199,7 +198,7 @@ class _Measuring:
 
     def _skin(self, obj: Object) -> None:
         request = Request.resolve(obj, self.depsgraph)
-        options, reading = request.options, read_object(obj, self.depsgraph)
+        options, reading = request.settings, read_object(obj, self.depsgraph)
         shell = options.kind == "shell"
         if shell and options.wall != "thin":
             self.findings.append(finding(RIG_WALL_THIN).of_sources([obj.name]))
@@ -296,16 +295,14 @@ class _Measuring:
             mass = mass * (shortest_decimal(settings.mass) / mass.total)
         rotation, head = self.bones.frames[name]
         measurement = refusal = None
-        volume, area = _total(found.extents), _total(found.areas)
         try:
-            measurement = combined_measurement(
+            measurement = measure_total(
+                mass,
                 name=name,
                 type="BONE",
                 kind="bone",
-                mass=mass,
-                volume=volume[:2],
-                area=area[:2],
-                inputs=(volume[2], area[2]),
+                volume=add_extents(found.extents),
+                area=add_extents(found.areas),
                 rotation=rotation,
                 location=head * self.unit,
                 fingerprint=fingerprint(mass.raw.tobytes(), "", digest(name.encode())),
@@ -322,16 +319,14 @@ class _Measuring:
             raise ReadError(RIG_WITHOUT_PARTS, subject=self.armature.name)
         at = locate(self.armature, self.depsgraph)
         sums = [self.sums[part.name] for part in parts]
-        volume, area = (_total([_total(getattr(found, name)) for found in sums]) for name in ("extents", "areas"))
         mass = sum_moments([part.mass for part in parts])
-        return combined_measurement(
+        return measure_total(
+            mass,
             name=self.armature.name,
             type="ARMATURE",
             kind="rig",
-            mass=mass,
-            volume=volume[:2],
-            area=area[:2],
-            inputs=(volume[2], area[2]),
+            volume=add_extents([add_extents(found.extents) for found in sums]),
+            area=add_extents([add_extents(found.areas) for found in sums]),
             rotation=at.rotation,
             location=at.location * self.unit,
             fingerprint=fingerprint(
@@ -351,13 +346,3 @@ def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
         area = polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
         return area.transform(metric)
     return polyhedron_moments(sheet.transform(metric[:3, :3], metric[:3, 3]), 0, area_order=order, allow_open=True)[1]
-
-
-def _total(entries: list[tuple[float, float, float]]) -> tuple[float, float, float]:
-    """Return the sums of values and of their bounds."""
-    values, rounding, inputs = np.array(entries, np.float64).reshape(-1, 3).T
-    return (
-        float(values.sum()),
-        float(rounding.sum() + len(values) * U * np.abs(values).sum()),
-        float(inputs.sum()),
-    )

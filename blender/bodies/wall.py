@@ -15,6 +15,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.measurement.body import Body
+from ...core.measurement.findings import NO_THICKNESS
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
 from ...core.moments.exponents import KNOWN_ORDER
@@ -25,13 +27,13 @@ from ...core.solid.measure import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError, finding, unique
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
-from ...core.wall import OffsetSolid, offset_solid, split_thickness, wall_moments
+from ...core.wall import OffsetSolid, offset_solid, wall_moments
 from ...core.wall.findings import WALL_MEASURED
+from ...core.wall.walls import split_thickness
 from ..read.reading import Reading
-from .body import Body, MeshBody
+from .body import MeshBody
 from .findings import (
     INSTANCE_WALLS_UNCHECKED,
-    NO_THICKNESS,
     WALL_FACES_FOLD_BACK,
     WALL_FACES_FOLD_BACK_SOMEWHERE,
     WALL_FACES_REVERSED,
@@ -41,7 +43,6 @@ from .findings import (
     WALL_NEEDS_ONE_DENSITY,
     WALL_OVERLAP_UNCHECKED,
     WALL_THICKNESS_VARIES,
-    WALL_THICKNESS_VARIES_SLIGHTLY,
     WALL_UNORIENTED,
     WALLS_OVERLAP,
 )
@@ -156,8 +157,7 @@ class Walls:
         maximum = float(max(piece.offset.max_ratio for piece in self.pieces))
         if minimum < 1.0 - REPORTED or maximum > 1.0 + REPORTED:
             slight = self._unevenness() < NEGLIGIBLE
-            code = WALL_THICKNESS_VARIES_SLIGHTLY if slight else WALL_THICKNESS_VARIES
-            findings.append(finding(code, minimum=minimum, maximum=maximum))
+            findings.append(finding(WALL_THICKNESS_VARIES, slight=slight, minimum=minimum, maximum=maximum))
         ignored = sum(piece.offset.degenerate_triangles for piece in self.pieces)
         if ignored:
             findings.append(finding(WALL_FACES_WITHOUT_AREA, count=ignored))

@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.measurement.body import Body
 from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, U, monomial_count, monomials
 from ...core.nurbs.curve import Curve
 from ...core.nurbs.curve_moments import length_moments
@@ -18,7 +19,6 @@ from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
 from ..read.objects import read_lines
 from ..read.reading import Reading
-from .body import Body
 from .findings import NO_LENGTH
 from .request import Request
 
@@ -53,7 +53,7 @@ def read(request: Request) -> Reading:
 
 def body(reading: Reading, request: Request) -> Body:
     """Return the curves as a wire, or raise MeasureError if they have no length."""
-    curves, stored = curves_in_world(reading.curves, reading.matrix, request.unit)
+    curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
     length = length_moments(curves)
     if not length.total > 0.0:
         raise ReadError(NO_LENGTH)

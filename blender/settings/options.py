@@ -4,8 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 from bpy.types import Scene
 
@@ -41,24 +40,6 @@ class MeasureOptions:
     def meters_per_unit(self, scene: Scene) -> float:
         """Return the length of a Blender unit in meters: the given one, else the scene's."""
         return self.unit_scale or shortest_decimal(scene.unit_settings.scale_length)
-
-
-@dataclass(frozen=True)
-class ResolvedOptions(MeasureOptions):
-    """Options without gaps: the given ones, completed by the object's settings.
-
-    Of density and mass one at most.
-    """
-
-    kind: str = field(kw_only=True)
-    thickness: float = field(kw_only=True)
-    overlap: str = field(kw_only=True)
-    wall: str = field(kw_only=True)
-
-    @classmethod
-    def resolve(cls, options: MeasureOptions, **settings: Any) -> ResolvedOptions:
-        """Return options with these in place of their own."""
-        return cls(**{**vars(options), **settings})
 
 
 AS_SET = MeasureOptions()  # every object as its own settings say

@@ -92,7 +92,7 @@ class BareFile:
             raise QueryError(STREAM_OPTIONS, options=words(given))
         findings = [*file_findings(self.path, options)]
         if options.density is None and options.mass is None and options.material is None:
-            findings.append(finding(DENSITY_DEFAULTED))
+            findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
         wanted = replace(measure_options, unit_scale=options.unit_scale)
         return measure_mesh_file(self.path, name, wanted, tuple(findings), progress)
 

@@ -23,13 +23,15 @@ from pathlib import Path
 from typing import Any
 
 from ...core.files.whole_file import hidden_path
-from ...core.measurement.documents import FORMATS, ROBOT_FORMATS, failed_document
+from ...core.measurement.documents import failed_document
 from ...core.measurement.plain_text import PROGRAM, print_message
+from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
 from ..files import output, own_results
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
 from ..options import targets
 from ..options.arguments import ONE_FILE, ONE_OBJECT, as_record, fail, files_of_options, of_numbers
+from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
 from ..parser import UsageError
 from ..supervisor import listing, processes

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ...core.measurement.documents import ROBOT_FORMATS
+from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from .measure_parser import DEFAULT_ORDER, measure_parser
 
 TARGETS = ("output", "fourier")  # options whose files are written
@@ -23,7 +23,6 @@ _OF_RUNS = {
     *("command", "files", "format", "output", "force", "jobs", "timeout", "memory_mb", "range", "manifest"),
     *("resume", "no_supervisor", "blender", "errors_exit_0"),
 }
-_BINARY_SUFFIXES = {"gltf": (".glb",), "usd": (".usdc", ".usdz")}  # readers take no text in files of these names
 _PATHS = ("output", "fourier", "q", "manifest")
 _TRIPLES = ("spacing", "origin", "about")
 ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
@@ -48,7 +47,8 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         given = [name for name in of_bodies if getattr(options, name) is not None]
         if options.links == "bone" and given:
             fail("--links bone takes what the bones' settings say, and no --{}".format(given[0]))
-        if options.output is not None and options.output.suffix.lower() in _BINARY_SUFFIXES.get(options.format, ()):
+        binary = ROBOT_FORMATS[options.format].binary_suffixes
+        if options.output is not None and options.output.suffix.lower() in binary:
             fail("argument --output: {} is written as text. Use .gltf, .usd or .usda".format(options.format))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER

@@ -8,8 +8,8 @@ import math
 from argparse import ArgumentTypeError
 from collections.abc import Callable
 
-from ...core.measurement.documents import FORMATS
 from ...core.verdict.number_text import parse_number, parse_whole
+from .formats import FORMATS
 
 COMMANDS = "measure, similar, simplex, audit, manifest, merge, to-csv, summary, compare and report"
 # Equal to the values in the core, which needs numpy: the process that supervises others may have none.

@@ -11,21 +11,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..nurbs.patch import Patch
+from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
-    SURFACE_FLATTENED,
-    SURFACE_OF_UNSUPPORTED,
-    SURFACE_RECURSIVE,
+    SURFACE_DAMAGED,
     SURFACE_TRIMMED,
-    SURFACE_TYPE_UNSUPPORTED,
+    SURFACE_UNSUPPORTED,
     SURFACES_HIDDEN,
-    TOO_MANY_SURFACES,
 )
 from .iges_text import Entry, IgesText, integers, numbers, padded
 from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
@@ -33,6 +32,7 @@ from .trims import Piece, trims_nothing
 
 MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
 MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
+RECURSION = "references to itself, or nested too deeply"
 MAX_PIECES = 10_000  # pieces of the boundary of a surface
 # Surfaces and solids that Blender's surfaces are not, by the names of the specification. What is missing here is no
 # surface: curves, points, annotation, structure.
@@ -50,6 +50,8 @@ NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTA
 REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, 510: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # and points: they bound nothing
 PARAMETER_CURVE = 142
+Value = TypeVar("Value")
+Pair: TypeAlias = tuple[Value, Value]
 
 
 def read_iges(path: Path) -> SurfaceFile:
@@ -105,11 +107,11 @@ class _Reader:
         """Return the patches of an entity in its place. above: (4, 4) by the subfigures that it is in, path."""
         kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
-            self._refusals.add(SURFACE_TYPE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name)
+            self._refusals.add(SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind)
             return []
         self._placed += 1
         if self._placed > MAX_SURFACES:
-            raise FileError(TOO_MANY_SURFACES, limit=MAX_SURFACES)
+            raise FileError(FILE_TOO_LARGE, limit=MAX_SURFACES, content="surfaces")
 
         def make() -> list[Patch]:
             if entry.type == INSTANCE:
@@ -124,7 +126,7 @@ class _Reader:
         x, y, z, scale = numbers(padded(fields[1:], 4))
         definition = self._entry(pointer, DEFINITION)
         if pointer in path or len(path) >= MAX_DEPTH:
-            raise SurfaceRefusedError(SURFACE_RECURSIVE)
+            raise SurfaceRefusedError(SURFACE_DAMAGED, fault=RECURSION)
         local = np.diag([*[scale or 1.0] * 3, 1.0])
         local[:3, 3] = x, y, z
         matrix = above @ self._matrix(entry) @ local @ self._matrix(definition)
@@ -149,7 +151,7 @@ class _Reader:
             pointer = chain[-1].matrix
         known = self._matrices.get(pointer)
         if known is None:
-            raise SurfaceRefusedError(SURFACE_RECURSIVE)
+            raise SurfaceRefusedError(SURFACE_DAMAGED, fault=RECURSION)
         for one in reversed(chain):
             rows = numbers(self._text.fields(one)[:12])
             matrix = np.eye(4)
@@ -157,32 +159,29 @@ class _Reader:
             known = known @ matrix
             self._matrices[one.number] = known
         if not abs(np.linalg.det(known[:3, :3])) > 0.0:
-            raise SurfaceRefusedError(SURFACE_FLATTENED)
+            raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a transformation that flattens")
         return known
 
     def _surface(self, entry: Entry, above: NDArray) -> list[Patch]:
-        spline = _Spline(self._text.fields(entry))
-        return blender_patches(
-            spline.knots, spline.orders, spline.points, spline.weights, spline.domain, above @ self._matrix(entry)
-        )
+        return blender_patches(*_spline(self._text.fields(entry)), above @ self._matrix(entry))
 
     def _trimmed(self, entry: Entry, above: NDArray) -> list[Patch]:
         fields = self._text.fields(entry)
         pointer, has_outer, holes = integers(fields, 3)
         base = self._entries[pointer]
         if base.type != SURFACE:
-            raise SurfaceRefusedError(SURFACE_OF_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
-        spline = _Spline(self._text.fields(base))
-        if holes or has_outer and not self._trims_nothing(fields, pointer, spline):
+            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
+        *_, domain = _spline(self._text.fields(base))
+        if holes or has_outer and not self._trims_nothing(fields, pointer, domain):
             raise SurfaceRefusedError(SURFACE_TRIMMED)
         return self._surface(base, above @ self._matrix(entry))
 
-    def _trims_nothing(self, fields: list[str], surface: int, spline: _Spline) -> bool:
+    def _trims_nothing(self, fields: list[str], surface: int, domain: Pair[Pair[float]]) -> bool:
         """Return whether the outer boundary is that of the surface's own domain."""
         (outer,) = integers(fields[3:], 1)
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
         pieces = self._pieces(curve, 0, iter(range(MAX_PIECES))) if base == surface else None
-        return pieces is not None and trims_nothing(pieces, spline.domain)
+        return pieces is not None and trims_nothing(pieces, domain)
 
     def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
         """Return the curve as lines and splines in order; None if it is something else.
@@ -227,23 +226,19 @@ def _spline_piece(fields: list[str]) -> list[Piece] | None:
     return [Piece(points[:, :2], straight=degree == 1)]
 
 
-class _Spline:
-    """The parameters of a rational B-spline surface; s, the first direction, is the file's first."""
-
-    def __init__(self, fields: list[str]) -> None:
-        last_s, last_t, degree_s, degree_t = integers(fields, 4)
-        counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
-        if min(degrees) < 1:
-            raise ValueError("degrees")
-        knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
-        total = counts[0] * counts[1]
-        values = numbers(fields[9 : 9 + sum(knot_counts) + 4 * total + 4])
-        s_knots, t_knots, weights, points, part = np.split(
-            values, np.cumsum([knot_counts[0], knot_counts[1], total, 3 * total])
-        )
-        self.knots = (s_knots.tolist(), t_knots.tolist())
-        self.orders = (degree_s + 1, degree_t + 1)
-        # The first direction runs fastest.
-        self.weights = weights.reshape(counts[::-1]).T
-        self.points = points.reshape(*counts[::-1], 3).swapaxes(0, 1)
-        self.domain = ((float(part[0]), float(part[1])), (float(part[2]), float(part[3])))
+def _spline(fields: list[str]) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:
+    """Return knots, orders, points, weights and domain of a surface; s is the first direction of the file."""
+    last_s, last_t, degree_s, degree_t = integers(fields, 4)
+    counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
+    if min(degrees) < 1:
+        raise ValueError("degrees")
+    knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
+    total = counts[0] * counts[1]
+    values = numbers(fields[9 : 9 + sum(knot_counts) + 4 * total + 4])
+    s_knots, t_knots, weights, points, part = np.split(
+        values, np.cumsum([knot_counts[0], knot_counts[1], total, 3 * total])
+    )
+    domain = (float(part[0]), float(part[1])), (float(part[2]), float(part[3]))
+    knots, orders = (s_knots.tolist(), t_knots.tolist()), (degree_s + 1, degree_t + 1)
+    # The first direction runs fastest.
+    return knots, orders, points.reshape(*counts[::-1], 3).swapaxes(0, 1), weights.reshape(counts[::-1]).T, domain

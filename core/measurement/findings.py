@@ -2,7 +2,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/measurement`."""
 
-from ..verdict.finding import note
+from ..verdict.finding import error, note, warning
 
 DENSITY_FROM_VALUE = note("density_from_value", "one value")
 DENSITY_FROM_MASS = note("density_from_mass", "given mass")
+NO_VOLUME = error(
+    "no_volume",
+    "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape.",
+)
+NO_THICKNESS = error("no_thickness", "The shell has no thickness. Set Thickness.")
+ZERO_DENSITY = error("zero_density", "The density is zero. Set Density.")
+ZERO_MASS = error("zero_mass", "The mass is zero. Set Mass.")
+WALL_ORDER = error(
+    "wall_order",
+    "Of a wall of real thickness, moments above order {order} and area moments are not known. Set Wall to Thin.",
+)
+AXES_FROM_THIRD_ORDER = warning(
+    "axes_from_third_order",
+    "The principal axes use moments to order 3 only, as the mesh has many faces; Apply to Object and --pose use "
+    "higher orders and may differ.",
+)
+DENSITY_FROM_MEMBERS = note("density_from_members", "members")

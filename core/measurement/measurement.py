@@ -20,7 +20,7 @@ from .findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding(DENSITY_FROM_VALUE), finding(DENSITY_FROM_MASS)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Measurement:
     """One object in SI units and world axes.
 
@@ -47,8 +47,8 @@ class Measurement:
     type: str
     kind: str
     method: Method
-    density: float
-    thickness: float
+    density: float = 0.0
+    thickness: float = 0.0
     volume: float
     area: float
     mass_properties: MassProperties

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of `core/nurbs`."""
 
-from ..verdict.finding import error, note, warning
+from ..verdict.finding import error, warning
 
 NON_FINITE_CONTROL_POINTS = error(
     "non_finite_control_points",
@@ -27,25 +27,19 @@ CURVE_TOO_SMALL = error(
 CURVES_CROSS = error(
     "curves_cross", "The curves cross or touch, so the region is ambiguous. Separate them, or set Kind to Wire."
 )
-NO_PATCHES = error("no_patches", "No NURBS patches. Add a surface with enough points.")
 NO_EXTENT = error("no_extent", "All control points coincide. Move them apart.")
 DISCONTINUOUS_PATCH = error(
     "discontinuous_patch",
     "A patch can be discontinuous at a knot repeated as often as its order. Split the patch there.",
 )
-AREA_ERROR_ESTIMATE_LARGE = warning("area_error_estimate_large", "The estimated error of the area is above the target.")
-VOLUME_ERROR_ESTIMATE_LARGE = warning(
-    "volume_error_estimate_large", "The estimated error of the volume is above rounding, because of extreme weights."
+ERROR_ESTIMATE_LARGE = warning(
+    "error_estimate_large",
+    "The estimated error of the {quantity:word} is above the target; extreme weights or folds are the cause.",
 )
 FLIPPED_PATCHES = warning(
     "flipped_patches",
     "{count} patch faces against the others and was measured as reversed. Use Segments > Switch Direction.",
     "{count} patches face against the others and were measured as reversed. Use Segments > Switch Direction.",
-)
-FLIPPED_PATCHES_SLIGHTLY = note(
-    "flipped_patches_slightly",
-    "{count} patch faces against the others and was measured as reversed.",
-    "{count} patches face against the others and were measured as reversed.",
 )
 AMBIGUOUS_PATCH_SIDES = warning(
     "ambiguous_patch_sides",
@@ -56,29 +50,16 @@ INVERTED_PATCH_COMPONENTS = warning(
     "inverted_patch_components",
     "Inside-out components measured as reversed: {count} of {total}. Use Segments > Switch Direction.",
 )
-INVERTED_PATCH_COMPONENTS_SLIGHTLY = note(
-    "inverted_patch_components_slightly", "Inside-out components measured as reversed: {count} of {total}."
-)
 OPEN_PATCH_SIDES = warning(
     "open_patch_sides",
     "Open patch sides form no loops to cap, or the surface is one-sided. Volume, center of mass and inertia "
     "depend on "
     "the reference point. Close the surface, or set Kind to Shell.",
 )
-FLAT_PATCH_HOLES_CAPPED = warning(
-    "flat_patch_holes_capped", "Flat holes capped exactly: {count} ({share:percent} of the area). Close the surface."
-)
-FLAT_PATCH_HOLES_CAPPED_SLIGHTLY = note(
-    "flat_patch_holes_capped_slightly", "Flat holes capped exactly: {count} ({share:percent} of the area)."
-)
-CURVED_PATCH_HOLES_CAPPED = warning(
-    "curved_patch_holes_capped",
-    "Non-planar holes capped by a cone: {count} ({out_of_plane:percent} of the size out of plane, "
-    "{share:percent} of "
-    "the area). Close the surface.",
-)
-CURVED_PATCH_HOLES_CAPPED_SLIGHTLY = note(
-    "curved_patch_holes_capped_slightly", "Non-planar holes capped by a cone: {count} ({share:percent} of the area)."
+PATCH_HOLES_CAPPED = warning(
+    "patch_holes_capped",
+    "Holes capped: {flat} flat, exactly, and {curved} curved, by a cone ({share:percent} of the area). Close the "
+    "surface.",
 )
 PATCH_BOUNDARY_CROSSES_ITSELF = warning(
     "patch_boundary_crosses_itself",

@@ -14,67 +14,42 @@ NON_FINITE_VERTICES = error(
     "{count} of {total} vertices have no finite coordinates. Delete them, or fix the modifier, driver or import "
     "that made them.",
 )
-OBJECT_TOO_LARGE = error("object_too_large", "Too large to be measured. Scale the object down.")
 VERTICES_WELDED = warning(
     "vertices_welded",
     "Open edges were welded: vertices moved by up to {share:percent} of the size. Use Mesh > Merge > By Distance.",
-)
-VERTICES_WELDED_SLIGHTLY = note(
-    "vertices_welded_slightly", "Open edges were welded: vertices moved by up to {share:percent} of the size."
 )
 DUPLICATE_FACES_IGNORED = warning(
     "duplicate_faces_ignored",
     "Duplicate face left out: {elements}. Delete it.",
     "{count} duplicate faces left out: {elements}. Delete them.",
 )
-DUPLICATE_FACES_IGNORED_SLIGHTLY = note(
-    "duplicate_faces_ignored_slightly",
-    "Duplicate face left out: {elements}.",
-    "{count} duplicate faces left out: {elements}.",
-)
 DUPLICATE_FACES_COUNTED = warning(
     "duplicate_faces_counted",
     "Duplicate face counted twice: {elements}. Delete it.",
     "{count} duplicate faces counted twice: {elements}. Delete them.",
-)
-DUPLICATE_FACES_COUNTED_SLIGHTLY = note(
-    "duplicate_faces_counted_slightly",
-    "Duplicate face counted twice: {elements}.",
-    "{count} duplicate faces counted twice: {elements}.",
 )
 T_JUNCTIONS = note(
     "t_junctions",
     "{count} gap without area (T-junction) was taken as closed.",
     "{count} gaps without area (T-junctions) were taken as closed.",
 )
-FLIPPED_FACES_SLIGHTLY = note(
-    "flipped_faces_slightly",
-    "Flipped face measured as reversed: {elements}.",
-    "{count} flipped faces measured as reversed: {elements}.",
-)
 INVERTED_COMPONENTS = warning(
     "inverted_components",
     "Inside-out components measured as reversed: {count} of {total}. Use Mesh > Normals > Recalculate Outside.",
-)
-INVERTED_COMPONENTS_SLIGHTLY = note(
-    "inverted_components_slightly", "Inside-out components measured as reversed: {count} of {total}."
 )
 HOLES_CAPPED = warning(
     "holes_capped",
     "Holes capped: {count} ({flat} flat, {curved} curved; {share:percent} of the area). Use Mesh > Clean Up > Fill "
     "Holes.",
 )
-HOLES_CAPPED_SLIGHTLY = note("holes_capped_slightly", "Holes capped: {count} ({share:percent} of the area).")
 ONE_SIDED_COMPONENTS = warning(
     "one_sided_components",
-    "One-sided components cannot be closed: {count} of {total}. Volume, center of mass and inertia depend on "
-    "the reference "
-    "point. Set Kind to Shell.",
+    "One-sided components cannot be closed: {count} of {total}. Volume, center of mass and inertia depend on the "
+    "reference point. Set Kind to Shell.",
 )
 NON_MANIFOLD_COMPONENTS = warning(
     "non_manifold_components",
-    "Components cannot be closed where more than two faces meet at an edge: {count} of {total}. Volume, "
-    "center of mass "
+    "Components cannot be closed where more than two faces meet at an edge: {count} of {total}. Volume, center of mass "
     "and inertia depend on the reference point. Delete interior faces and fill holes, or set Kind to Shell.",
 )
 CAVITIES_SUBTRACTED = note(
@@ -89,18 +64,11 @@ CAVITIES_BREAK_THROUGH = warning(
     "{count} cavities break through their walls, by up to {share:percent} of the size; what lies outside counts as "
     "negative. Make the cavities smaller or the walls thicker.",
 )
-CAVITIES_BREAK_THROUGH_SLIGHTLY = note(
-    "cavities_break_through_slightly",
-    "{count} cavity breaks through its wall, by up to {share:percent} of the size.",
-    "{count} cavities break through their walls, by up to {share:percent} of the size.",
-)
 COMPONENTS_NESTED = warning(
     "components_nested",
-    "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set "
-    "Overlaps to "
+    "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set Overlaps to "
     "Count as Union.",
-    "{count} outward components lie inside others; the shared space counts twice. Flip cavities, or set "
-    "Overlaps to "
+    "{count} outward components lie inside others; the shared space counts twice. Flip cavities, or set Overlaps to "
     "Count as Union.",
 )
 COMPONENTS_OVERLAP = warning(
@@ -116,19 +84,10 @@ FLAT_COMPONENTS = warning(
     "{count} of {total} components is flat and has no volume. Delete it, or set Kind to Shell.",
     "{count} of {total} components are flat and have no volume. Delete them, or set Kind to Shell.",
 )
-FLAT_COMPONENTS_SLIGHTLY = note(
-    "flat_components_slightly",
-    "{count} of {total} components is flat and has no volume.",
-    "{count} of {total} components are flat and have no volume.",
-)
 FLAT_SURFACE = warning("flat_surface", "The surface is flat and encloses no volume. Set Kind to Shell.")
 SELF_INTERSECTING = warning(
     "self_intersecting",
     "The surface intersects itself and regions count as negative. Set Overlaps to Count as Union, or repair the mesh.",
-)
-SELF_INTERSECTION_SLIGHTLY = note(
-    "self_intersection_slightly",
-    "The surface intersects itself: about {share:percent} of the volume counts twice or as negative.",
 )
 SELF_INTERSECTION_UNCHECKED = note(
     "self_intersection_unchecked", "Whether the surface intersects itself was not checked."
@@ -137,7 +96,4 @@ NON_PLANAR_FACES = warning(
     "non_planar_faces",
     "Non-planar faces: their triangulation can change the volume by up to {share:percent}. Use Face > Triangulate "
     "Faces.",
-)
-NON_PLANAR_FACES_SLIGHTLY = note(
-    "non_planar_faces_slightly", "Non-planar faces: their triangulation can change the volume by up to {share:percent}."
 )

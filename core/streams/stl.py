@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError
-from .boxes import BoxOfBlocks
-from .findings import STL_CUT_SHORT, STL_SIZE
+from .boxes import Box, box_of_blocks
+from .findings import STL_CUT_SHORT
 from .misread import map_file
-from .stl_text import check_stl_text
+from .stl_text import BY_COUNT, BY_WORD, check_stl_text
 
 HEAD, RECORD = 84, 50  # bytes before the triangles, and of each
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
@@ -37,7 +37,7 @@ NUMBERS = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
 class StlFile:
-    """The triangles of an .stl file."""
+    """The triangles of an .stl file. face_count: for a text an estimate. is_loose: no two triangles share a point."""
 
     is_loose = True
 
@@ -49,32 +49,28 @@ class StlFile:
         count = int.from_bytes(head[80:84], "little")
         self._binary = len(head) == HEAD and size == HEAD + RECORD * count
         if not self._binary and not head.lstrip().lower().startswith(b"solid"):
-            raise FileError(STL_SIZE)
+            raise FileError(STL_CUT_SHORT, end=BY_COUNT)
         if not self._binary:
             check_stl_text(map_file(path))
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
 
-    def sampled_box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def sampled_box(self) -> Box:
         """Return a box of some of the triangles; of a text that of its first ones."""
-        box = BoxOfBlocks("triangle")
         with open(self._path, "rb") as file:
-            if self._binary:
-                samples = []
-                for number in range(0, self.face_count, max(1, self.face_count // SAMPLES)):
-                    file.seek(HEAD + RECORD * number)
-                    samples.append(file.read(RECORD))
-                box.add(np.frombuffer(b"".join(samples), CORNERS)["at"].astype(np.float32))
-            else:
-                for corners in islice(self._text_corners(file), 1):
-                    box.add(corners)
-        return box.box() if box.is_finite else self.box()
+            blocks = [self._samples(file)] if self._binary else list(islice(self._text_corners(file), 1))
+        is_finite = all(np.isfinite(block).all() for block in blocks)
+        return box_of_blocks(blocks, "triangle") if is_finite else self.box()
 
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _samples(self, file: BinaryIO) -> NDArray[np.float32]:
+        samples = []
+        for number in range(0, self.face_count, max(1, self.face_count // SAMPLES)):
+            file.seek(HEAD + RECORD * number)
+            samples.append(file.read(RECORD))
+        return np.frombuffer(b"".join(samples), CORNERS)["at"].astype(np.float32)
+
+    def box(self) -> Box:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
-        box = BoxOfBlocks("triangle")
-        for piece in self.pieces():
-            box.add(piece.points.reshape(-1, 3, 3))
-        return box.box()
+        return box_of_blocks((piece.points.reshape(-1, 3, 3) for piece in self.pieces()), "triangle")
 
     def pieces(self) -> Iterator[Surface]:
         """Yield the triangles, three points each."""
@@ -93,7 +89,7 @@ class StlFile:
             for start in range(0, len(corners), TRIANGLES_PER_BLOCK):
                 yield corners[start : start + TRIANGLES_PER_BLOCK]
         if not re.search(rb"endsolid", waiting, re.IGNORECASE):
-            raise FileError(STL_CUT_SHORT)
+            raise FileError(STL_CUT_SHORT, end=BY_WORD)
 
 
 def _parse(text: bytes) -> NDArray[np.float32]:

@@ -133,9 +133,12 @@ class Finding:
         return sentence(self)
 
 
-def finding(code: str, elements: Elements = (), /, **values: Any) -> Finding:
-    """Make a finding of that code, about these elements, with these values."""
-    return Finding(code, values, elements)
+def finding(code: str, elements: Elements = (), /, *, slight: bool = False, **values: Any) -> Finding:
+    """Make a finding of that code, about these elements, with these values.
+
+    slight: its effect on mass, size and inertia is negligible (`core/verdict/tolerances.py`): a warning is a note then.
+    """
+    return Finding(code, {**values, "slight": True} if slight else values, elements)
 
 
 def unique(findings: Iterable[Finding]) -> tuple[Finding, ...]:
@@ -149,10 +152,7 @@ def system_reason(error: OSError) -> str:
 
 
 def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
-    """Return the first `limit` items of a list and the number of the remaining ones.
-
-    `count` is the number in all if `items` are only the first of them.
-    """
+    """Return the first `limit` items of a list and the number of the remaining ones, of `count` in all."""
     shown = items[:limit]
     return shown, max((count or len(items)) - len(shown), 0)
 
@@ -226,22 +226,8 @@ class EditRefusedError(MeasureError):
 
 
 class FileError(MeasureError):
-    """A file cannot be read or written.
-
-    Examples
-    --------
-    >>> from body_moments.core.verdict import FileError
-    >>> FileError("file_missing", subject="scan.nrrd").subject
-    'scan.nrrd'
-    """
+    """A file cannot be read or written."""
 
 
 class QueryError(MeasureError):
-    """A query without an answer: a name, a point, an order that does not exist.
-
-    Examples
-    --------
-    >>> from body_moments.core.verdict import QueryError
-    >>> QueryError("name_unknown", name="Cube").finding.values
-    {'name': 'Cube'}
-    """
+    """A query without an answer: a name, a point, an order that does not exist."""

@@ -9,33 +9,23 @@ from bpy.types import Context, Operator
 
 from ...blender.session.robots import object_links
 from ...blender.write import reports
-from ...core.robots.write.formats import robot_text
-from ...core.verdict.finding import MeasureError, finding
+from ...core.robots.formats import FORMATS
+from ...core.robots.write.texts import robot_text
+from ...core.verdict.finding import MeasureError
 from .. import selection
-from ..findings import ROBOT_COPIED
 from ..measure.copy import copy_text
 
-FORMATS = (
-    ("urdf", "URDF", "Tensor along the axes of the object"),
-    ("sdf", "SDF", "Diagonal tensor in a rotated inertial frame"),
-    ("mjcf", "MJCF", "Principal moments and a quaternion"),
-    ("usd", "USD", "PhysicsMassAPI and NewtonMassAPI"),
-    ("gltf", "glTF", "KHR_physics_rigid_bodies and OMI_physics_body, with y up"),
-)
+ITEMS = tuple((form.name, form.short, form.copy_tip) for form in FORMATS.values())
 
 
-class OBJECT_OT_body_moments_copy_inertial(Operator):
+class OBJECT_OT_body_moments_copy_inertial(selection.OnSelectionInObjectMode, Operator):
     """Measure the selected objects and copy mass, center and inertia along their own axes as text"""
 
     bl_idname = "object.body_moments_copy_inertial"
     bl_label = "Copy Inertial"
     bl_options = {"REGISTER"}
 
-    format: EnumProperty(name="Format", description="What reads the text", items=FORMATS, default="urdf")
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return selection.poll_selection(cls, context)
+    format: EnumProperty(name="Format", description="What reads the text", items=ITEMS, default="urdf")
 
     def execute(self, context: Context) -> set[str]:
         try:
@@ -44,7 +34,14 @@ class OBJECT_OT_body_moments_copy_inertial(Operator):
             selection.report(self, reports.refusal(error))
             return {"CANCELLED"}
         text, _ = robot_text(made.robot, self.format, made.findings, inertial_only=True)
-        copy_text(self, context, text, finding(ROBOT_COPIED, count=len(made.robot.links)))
+        copy_text(
+            self,
+            context,
+            text,
+            reports.phrase(
+                "Inertial of {count} link copied.", "Inertials of {count} links copied.", count=len(made.robot.links)
+            ),
+        )
         if made.findings:
             selection.report(self, *made.findings)
         return {"FINISHED"}

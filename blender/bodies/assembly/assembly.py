@@ -15,10 +15,12 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
+from ....core.measurement.builder import Extent, add_extents, extent_of, measure_total
+from ....core.measurement.findings import DENSITY_FROM_MEMBERS
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.moments.affine_maps import are_similarities
 from ....core.moments.exponents import KNOWN_ORDER
-from ....core.moments.moments import Measure, Moments, U, sum_moments
+from ....core.moments.moments import Measure, Moments, sum_moments
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
@@ -35,7 +37,6 @@ from ...settings.options import AS_SET, MeasureOptions
 from ..findings import (
     ASSEMBLY_MASS_GIVEN,
     ASSEMBLY_WITHOUT_MEMBERS,
-    DENSITY_FROM_MEMBERS,
     GIVEN_CENTER_MISSING,
     INSTANCE_STRETCHES_SHEETS,
     INSTANCE_WITHOUT_SCALE,
@@ -51,9 +52,9 @@ from ..measure_object import Measured
 from ..mesh.instances import merge_health
 from ..stacks.many import measure_many
 from ..stacks.stack import Stacked
-from .combined import combined_measurement
 from .given import given_moments
 
+NOTHING: Extent = (0.0, 0.0, 0.0)
 POWERS = {"solid": 3, "shell": 2, "wire": 1, "point": 0}
 Results = dict[Object, Measured | Stacked | Finding]
 
@@ -63,20 +64,15 @@ class MemberBody:
     """Moments of a member of an assembly, SI, world axes.
 
     `masses`: kg, to third order, by the power of an instance's scale that they grow with; empty if nothing counts.
-    `volume_error`, `area_error`: bounds of the rounding of the volume, m³, and of the area, m².
-    `volume_input`, `area_input`: bounds of the effect of float32 coordinates on both.
+    `volume`, m³, and `area`, m²: with their bounds.
     `measured`: the measurement of an object; `refusal`: the reason why it could not be measured.
     `parts`: the members of this member. `findings`: about this member alone, without its parts.
     """
 
     member: Member
     masses: Mapping[int, Moments] = field(default_factory=dict)
-    volume: float = 0.0
-    area: float = 0.0
-    volume_error: float = 0.0
-    area_error: float = 0.0
-    volume_input: float = 0.0
-    area_input: float = 0.0
+    volume: Extent = NOTHING
+    area: Extent = NOTHING
     measured: Measured | Stacked | None = None
     measurement: Measurement | None = None
     refusal: Finding | None = None
@@ -156,14 +152,13 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
     measured = [part.measurement for part in whole.walk() if part.measurement is not None]
     given = settings_of(data).mass_from == "MASS"
-    return combined_measurement(
+    return measure_total(
+        mass,
         name=data.name,
         type="COLLECTION" if isinstance(data, bpy.types.Collection) else data.type,
         kind="assembly",
-        mass=mass,
-        volume=(whole.volume, whole.volume_error),
-        area=(whole.area, whole.area_error),
-        inputs=(whole.volume_input, whole.area_input),
+        volume=whole.volume,
+        area=whole.area,
         rotation=rotation,
         location=location,
         fingerprint=fingerprint(
@@ -253,16 +248,11 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
     moments, factor = measurement.mass_moments
     power = 0 if member.data.body_moments.mass_from == "MASS" else POWERS[measurement.kind]
     mass = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS) * factor
-    bound = measurement.error_bound
     return MemberBody(
         member,
         {power: mass},
-        measurement.volume,
-        measurement.area,
-        bound["volume"],
-        bound["area"],
-        bound["input"]["volume"],
-        bound["input"]["area"],
+        extent_of(measurement, "volume"),
+        extent_of(measurement, "area"),
         measured=result,
         measurement=measurement,
     )
@@ -275,16 +265,11 @@ def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody
     for body in bodies:
         for power, moments in body.masses.items():
             masses.setdefault(power, []).append(moments)
-    volumes, areas = [body.volume for body in bodies], [body.area for body in bodies]
     return replace(
         like,
         masses={power: sum_moments(several) for power, several in masses.items()},
-        volume=float(np.sum(volumes)),
-        area=float(np.sum(areas)),
-        volume_error=sum(body.volume_error for body in bodies) + len(bodies) * U * float(np.abs(volumes).sum()),
-        area_error=sum(body.area_error for body in bodies) + len(bodies) * U * float(np.abs(areas).sum()),
-        volume_input=sum(body.volume_input for body in bodies),
-        area_input=sum(body.area_input for body in bodies),
+        volume=add_extents([body.volume for body in bodies]),
+        area=add_extents([body.area for body in bodies]),
         parts=parts,
     )
 
@@ -322,30 +307,25 @@ def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBo
     matrix = to_si(member.matrix[None], unit)[0]
     matrix[:3, :3] /= unit  # the members are in SI units already
     scale = abs(np.linalg.det(matrix[:3, :3]))
+    nothing = replace(whole, masses={}, volume=NOTHING, area=NOTHING)
     if not scale > 0.0:
-        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding(INSTANCE_WITHOUT_SCALE))
+        return replace(nothing, refusal=finding(INSTANCE_WITHOUT_SCALE))
     sheared = _is_sheared(member)
     if sheared and not {0, 3}.issuperset(whole.masses):
-        return replace(whole, masses={}, volume=0.0, area=0.0, refusal=finding(INSTANCE_STRETCHES_SHEETS))
+        return replace(nothing, refusal=finding(INSTANCE_STRETCHES_SHEETS))
     masses = {
         power: moments.transform(matrix) * (scale ** (power / 3.0) if power else 1.0)
         for power, moments in whole.masses.items()
     }
-    of_areas = scale ** (2.0 / 3.0)
-    area, area_error, area_input = whole.area * of_areas, whole.area_error * of_areas, whole.area_input * of_areas
+    area = _scale_extent(whole.area, scale ** (2.0 / 3.0))
     if sheared:
         shown = results[member.data]
         if isinstance(shown, Finding):
-            return replace(whole, masses={}, volume=0.0, area=0.0, refusal=shown)
-        bound = shown.measurement.error_bound
-        area, area_error, area_input = shown.measurement.area, bound["area"], bound["input"]["area"]
-    return replace(
-        whole,
-        masses=masses,
-        volume=whole.volume * scale,
-        area=area,
-        volume_error=whole.volume_error * scale,
-        area_error=area_error,
-        volume_input=whole.volume_input * scale,
-        area_input=area_input,
-    )
+            return replace(nothing, refusal=shown)
+        area = extent_of(shown.measurement, "area")
+    return replace(whole, masses=masses, volume=_scale_extent(whole.volume, scale), area=area)
+
+
+def _scale_extent(extent: Extent, factor: float) -> Extent:
+    value, rounding, inputs = extent
+    return value * factor, rounding * factor, inputs * factor

@@ -13,28 +13,24 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.inertia.findings import AXES_ALL_FREE
-from ....core.inertia.mass_properties import MassProperties
-from ....core.inertia.principal_frames import PrincipalFrame
+from ....core.measurement.body import Body
+from ....core.measurement.builder import find_extent, measure_total
+from ....core.measurement.findings import ZERO_MASS
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, ReadError, finding
-from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import effective_hash, fingerprint, matrix_hash
+from ...read.fingerprint import fingerprint, matrix_hash
 from ...read.objects import locate
 from ...read.reading import Reading, to_si
 from ...settings.given import GivenPart, is_point_mass
-from ..body import Body
-from ..findings import CENTER_GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA_GIVEN, ZERO_MASS
-from ..measurement import extent
+from ..findings import CENTER_GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA_GIVEN
 from ..request import Request
 
 COUNT = monomial_count(KNOWN_ORDER)
 GIVEN_RTOL = 1e-6  # by how much, relatively, a tensor typed with few digits may miss what is possible
-NO_AXES_FIXED = "isotropic"
 
 
 def given_moments(
@@ -81,25 +77,18 @@ def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
 
 def with_given(body: Body, reading: Reading, request: Request) -> Body:
     """Return the body with the center and inertia that its settings give, or raise ReadError if they are impossible."""
-    if request.options.mass is None or request.obj.body_moments.mass_from != "MASS":
+    if request.settings.mass is None or request.obj.body_moments.mass_from != "MASS":
         return body
-    given = GivenPart.from_settings(request.obj.body_moments, request.unit)
+    given = GivenPart.from_settings(request.obj.body_moments, request.settings.unit)
     if not given:
         return body
-    geometry = body.mass or _carrier(body, request)
-    location = np.asarray(reading.location, np.float64) * request.unit
-    mass, findings = given_moments(request.options.mass, given, reading.rotation, location, geometry)
-    if given.center is not None and _is_outside(mass.about, reading, request.unit):
+    geometry = body.mass or find_extent(body, request.settings)  # refused where there is none
+    location = np.asarray(reading.location, np.float64) * request.settings.unit
+    mass, findings = given_moments(request.settings.mass, given, reading.rotation, location, geometry)
+    if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
         findings.append(finding(GIVEN_CENTER_OUTSIDE))
     key = body.density_key + GivenPart.from_settings(request.obj.body_moments, 1.0).key
     return replace(body, mass=mass, density_key=key, findings=(*body.findings, *findings))
-
-
-def _carrier(body: Body, request: Request) -> Moments:
-    """Return the moments of the volume, area or length over which the mass is spread."""
-    thin = request.options.kind == "shell" and body.wall is None
-    measured = extent(body, request.options)  # refused where there is none
-    return body.area if thin else measured
 
 
 def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
@@ -123,71 +112,26 @@ def read_point(request: Request) -> Reading | None:
 
 def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, Body]:
     """Return the results of a part without geometry, and its body, or raise ReadError if it has no mass."""
-    settings, options = request.obj.body_moments, request.options
-    given = GivenPart.from_settings(settings, request.unit)
-    location = np.asarray(reading.location, np.float64) * request.unit
+    properties, settings = request.obj.body_moments, request.settings
+    given = GivenPart.from_settings(properties, settings.unit)
+    location = np.asarray(reading.location, np.float64) * settings.unit
     rotation = np.asarray(reading.rotation, np.float64)
-    own = shortest_decimal(settings.mass) if options.mass is None else options.mass  # no density gives it one
+    own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass  # no density gives it one
     mass, findings = given_moments(own, given, rotation, location, None)
-    volume, area = (Moments(np.zeros(COUNT), mass.about, measure) for measure in (Measure.VOLUME, Measure.AREA))
-    body = Body(volume, area, MeshHealth(closed=False, components=0), Method(Verdict.GIVEN), tuple(findings), mass=mass)
-    properties = properties_of(mass, rotation)
-    bounds = {"volume": 0.0, "area": 0.0}
-    rounding, moved = properties.rounding_error, properties.input_error
-    settings_digest = effective_hash(
-        settings.kind,
-        None,
-        own,
-        options.thickness,
-        options.overlap.upper(),
-        request.unit,
-        options.wall.upper(),
-        GivenPart.from_settings(settings, 1.0).key,
-    )
-    measurement = Measurement(
+    varying = GivenPart.from_settings(properties, 1.0).key
+    settings = replace(settings, kind=properties.kind.lower(), density=None, mass=own, varying=varying)
+    measurement = measure_total(
+        mass,
         name=reading.name,
         type=reading.type,
         kind="point",
-        method=body.method,
-        density=0.0,
-        thickness=0.0,
-        volume=0.0,
-        area=0.0,
-        mass_properties=properties,
-        volume_moments=volume,
-        area_moments=area,
-        mass_moments=(mass, 1.0),
-        health=body.health,
+        method=Method(Verdict.GIVEN),
         findings=(*reading.findings, *findings),
         rotation=rotation,
         location=location,
-        error_bound={
-            **bounds,
-            "center_of_mass": rounding["center"],
-            "inertia": rounding["inertia"],
-            "input": {**bounds, "center_of_mass": moved["center"], "inertia": moved["inertia"]},
-        },
-        fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(request.obj), settings_digest),
+        fingerprint=fingerprint(mass.raw.tobytes(), matrix_hash(request.obj), settings.digest),
         density_from=DENSITY_FROM_MASS,
     )
-    return measurement, body
-
-
-def properties_of(mass: Moments, preferred_axes: NDArray) -> MassProperties:
-    """Return mass properties of moments in kg, without unique axes for a point."""
-    if not mass.total > 0.0:  # a bone of flat faces alone: refused there
-        return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
-    central = mass.truncate(2).about_center()
-    if np.abs(central.raw[4:]).max() > 4.0 * central.rounding_error[4:].max():
-        return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
-    bounds = {"mass": float(mass.rounding_error[0]), "center": 4.0 * U * float(np.abs(central.about).sum())}
-    return MassProperties(
-        mass=mass.total,
-        center=central.about,
-        inertia=np.zeros((3, 3)),
-        principal=PrincipalFrame(
-            np.zeros(3), np.asarray(preferred_axes, np.float64), NO_AXES_FIXED, False, finding(AXES_ALL_FREE)
-        ),
-        rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
-        input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
-    )
+    volume, area = measurement.volume_moments, measurement.area_moments
+    assert volume is not None
+    return measurement, Body(volume, area, measurement.health, measurement.method, tuple(findings), mass=mass)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ....core.density.part_densities import PartDensities, part_densities
 from ....core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
+from ....core.measurement.builder import find_extent
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, distinct_linear_parts
 from ....core.moments.exponents import KNOWN_ORDER
@@ -28,15 +29,13 @@ from ....core.verdict.finding import Finding, ReadError, finding, truncate_findi
 from ....core.verdict.method import Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.reading import Reading, attribute_to_source, to_si
-from ...settings.density import DensityField, material_density
-from ...settings.digest import density_key
+from ...settings.density import DensityField, density_key, material_density
 from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
 from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
     ATTRIBUTE_NEGATIVE,
     ATTRIBUTE_NON_FINITE,
     CAVITY_MATERIAL_IGNORED,
-    CAVITY_MATERIAL_IGNORED_SLIGHTLY,
     DENSITY_ATTRIBUTE_OF_SOLID,
     DENSITY_FROM_ATTRIBUTE,
     DENSITY_FROM_MATERIALS,
@@ -49,10 +48,8 @@ from ..findings import (
     MATERIALS_OF_UNION,
     MIXED_MATERIAL_COMPONENT,
     MIXED_MATERIAL_COMPONENTS,
-    MIXED_MATERIALS_SLIGHTLY,
     OVERLAPPING_DENSITIES,
 )
-from ..measurement import extent
 from ..mesh.instances import area_of_instances, findings_by_part
 from ..request import Request
 from .polynomial_mass import polynomial_mass_result
@@ -80,10 +77,10 @@ def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
 
     Raise MeasureError if the density is missing or negative anywhere.
     """
-    extent(body, request.options)  # refused before it is weighed
-    order = request.options.order
+    find_extent(body, request.settings)  # refused before it is weighed
+    order = request.settings.order
     if _field(request).kind == "volume":
-        if request.options.kind == "shell":
+        if request.settings.kind == "shell":
             raise ReadError(DENSITY_VOLUME_OF_SHELL)
         filled = filled_by_volume(body, request, KNOWN_ORDER)
         higher = filled_by_volume(body, request, order).mass if order is not None and order > KNOWN_ORDER else None
@@ -118,13 +115,13 @@ def _field(request: Request) -> DensityField:
 
 def _thickness(request: Request) -> float:
     """Return the factor of area moments, the thickness; 1 for solids."""
-    return request.options.thickness if request.options.kind == "shell" else 1.0
+    return request.settings.thickness if request.settings.kind == "shell" else 1.0
 
 
 def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
-    density, shell = _field(request), request.options.kind == "shell"
+    density, shell = _field(request), request.settings.kind == "shell"
     parts, findings = polynomial_mass_result(
-        reading, body, density, unit=request.unit, shell=shell, threads=request.options.threads, order=order
+        reading, body, density, unit=request.settings.unit, shell=shell, threads=request.settings.threads, order=order
     )
     mass = sum_moments(parts) * _thickness(request)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
@@ -134,7 +131,7 @@ def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: in
 
 def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
     attribute = _field(request).attribute or ""
-    if request.options.kind != "shell":
+    if request.settings.kind != "shell":
         raise ReadError(DENSITY_ATTRIBUTE_OF_SOLID)
     parts = [
         _sheet_moments(reading, i, _vertex_density(reading, i, attribute), request, order, by_vertex=True)
@@ -146,10 +143,10 @@ def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
 
 
 def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
-    shell = request.options.kind == "shell"
+    shell = request.settings.kind == "shell"
     if body.method.verdict == Verdict.UNION:
         raise ReadError(MATERIALS_OF_UNION)
-    face_densities = _FaceDensities(reading, request.options.density or 0.0)
+    face_densities = _FaceDensities(reading, request.settings.density or 0.0)
     parts: list[Moments] = []
     by_part: list[tuple[str, list[Finding]]] = []
     mixed = False
@@ -164,7 +161,7 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
                     solid.repaired_surface,
                     order,
                     about=volume.about,
-                    threads=request.options.threads,
+                    threads=request.settings.threads,
                     allow_open=True,
                 )[0]
             weighed, findings, by_area = _solid_moments(solid, volume, matrices, values, names)
@@ -270,7 +267,7 @@ def _solid_moments(
         has_foreign_material = bool(foreign.any())
         is_slight = bool(part_density.most_by_area[foreign].sum() < negligible)
     if has_foreign_material:
-        findings.append(finding(CAVITY_MATERIAL_IGNORED_SLIGHTLY if is_slight else CAVITY_MATERIAL_IGNORED))
+        findings.append(finding(CAVITY_MATERIAL_IGNORED, slight=is_slight))
     return moments, findings, mixed
 
 
@@ -295,10 +292,9 @@ def _mixed_parts_notes(
     if not len(which):
         return []
     first = np.sort(part_density.first_face[which])
-    if part_density.range_by_area[which].sum() < negligible:
-        return [finding(MIXED_MATERIALS_SLIGHTLY, first, count=len(which), total=parts.number)]
-    if len(which) > 1:
-        return [finding(MIXED_MATERIAL_COMPONENTS, first, count=len(which), total=parts.number)]
+    slight = bool(part_density.range_by_area[which].sum() < negligible)
+    if slight or len(which) > 1:
+        return [finding(MIXED_MATERIAL_COMPONENTS, first, slight=slight, count=len(which), total=parts.number)]
     component = int(which[0])
     faces = np.unique(parts.face[(parts.part == component) & (parts.face >= 0)])
     materials, density = sorted(set(names[faces].tolist())), float(part_density.density[component])
@@ -329,7 +325,9 @@ def _sheet_moments(
     def measured(surface: Surface) -> Moments:
         triangles, faces = surface.all_triangles()
         density = values[triangles] if by_vertex else values[faces]
-        area = polyhedron_moments(surface, area_order=order, threads=request.options.threads, allow_open=True)[1]
+        area = polyhedron_moments(surface, area_order=order, threads=request.settings.threads, allow_open=True)[1]
         return sheet_mass_moments(surface.points, triangles, density, area, stored=by_vertex)
 
-    return area_of_instances(part.surface, measured(part.surface), to_si(part.matrices, request.unit), measured)
+    return area_of_instances(
+        part.surface, measured(part.surface), to_si(part.matrices, request.settings.unit), measured
+    )

@@ -19,6 +19,7 @@ from ...read.grids.volume import VolumeReading, volume_reading
 from ...read.reading import attribute_to_source, to_si
 from ...read.tracking import tracking_paused
 from ...settings.grid import GridOptions
+from ...settings.grid_values import density_function, empty_background_note
 from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
     DENSITY_FROM_GRID_OF,
@@ -32,7 +33,6 @@ from ..findings import (
     OBJECT_WITHOUT_GRID,
     OPEN_SURFACE_OF_GRID,
     OUTSIDE_GRID,
-    OUTSIDE_GRID_SLIGHTLY,
 )
 from ..request import Request
 
@@ -50,7 +50,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
         with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:
                 raise ReadError(OBJECT_WITHOUT_GRID)
-            filled = voxel_filled_body(body, volume, grid, request.unit, name, order)
+            filled = voxel_filled_body(body, volume, grid, request.settings.unit, name, order)
             origin = finding(DENSITY_FROM_GRID_OF, grid=volume.grid, object=source.name)
             return replace(filled, density_from=origin)
     except MeasureError as error:
@@ -99,11 +99,11 @@ def voxel_filled_body(
     meaning = replace(options, spline_order=1).meaning()
     findings = [
         finding(GRID_DENSITY_OF, **names, cause=meaning.as_record()),
-        *options.empty_background_note(reading.background),
+        *empty_background_note(options, reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)
     if outside > MAX_OUTSIDE_SHARE:
-        findings.append(finding(OUTSIDE_GRID_SLIGHTLY if outside < NEGLIGIBLE else OUTSIDE_GRID, share=outside))
+        findings.append(finding(OUTSIDE_GRID, slight=outside < NEGLIGIBLE, share=outside))
     return replace(
         body,
         mass=mass,
@@ -125,7 +125,7 @@ def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
 
 def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
     """Return the densities of the voxels from `low` to `high`."""
-    to_densities = options.to_densities(reading.background)
+    to_densities = density_function(options, reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():
         start = np.array(start)

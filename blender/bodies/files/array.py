@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.measurement.body import Body
 from ....core.measurement.measurement import Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.scans import Scan, read_scan, sample_matrix
@@ -18,8 +19,8 @@ from ....core.scans.limits import DEFAULT_LIMITS, Limits
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...settings.grid import GridOptions
-from ...settings.options import MeasureOptions, ResolvedOptions
-from ..body import Body
+from ...settings.options import MeasureOptions
+from ...settings.resolve import with_options
 from ..findings import (
     ARRAY_DENSITY,
     ARRAY_NEGATIVE,
@@ -80,10 +81,7 @@ def measure_array(
         made = measure(name, scan, matrix, positions, array, options, (*scan.findings, *findings), progress)
         reading = bare_reading(name, "ARRAY")
         density = None if made.mass is not None else options.density
-        used = ResolvedOptions.resolve(
-            options, kind="solid", density=density, thickness=0.0, overlap="signed", wall="thin"
-        )
-        return measurement_of(reading, made, Request(used, 1.0))
+        return measurement_of(reading, made, Request(with_options(options, density=density, mass=options.mass)))
 
 
 def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:

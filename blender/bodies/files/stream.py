@@ -10,18 +10,20 @@ from typing import ClassVar
 
 import numpy as np
 
+from ....core.measurement.body import Body
+from ....core.measurement.findings import NO_VOLUME
 from ....core.measurement.measurement import Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Moments
-from ....core.streams import StreamIntegrals, measure_stream, open_mesh_file
-from ....core.streams.mesh_file import MeshFile
+from ....core.streams.measure import StreamIntegrals, measure_stream
+from ....core.streams.mesh_file import MeshFile, open_mesh_file
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import SELF_INTERSECTION
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...settings.options import MeasureOptions, ResolvedOptions
-from ..body import Body
-from ..findings import MESH_STREAMED, NO_VOLUME, STREAMED_INSIDE_OUT, STREAMED_OPEN
+from ...settings.options import MeasureOptions
+from ...settings.resolve import with_options
+from ..findings import MESH_STREAMED, STREAMED_INSIDE_OUT, STREAMED_OPEN
 from ..measurement import measurement_of
 from ..request import Request
 from .bare_file import about_file, bare_reading
@@ -70,13 +72,12 @@ def measure_mesh_file(
     MeasureError.
     """
     kind = options.kind or "solid"
-    used = ResolvedOptions.resolve(
+    used = with_options(
         options,
         kind=kind,
         density=DEFAULT_DENSITY if options.density is None and options.mass is None else options.density,
+        mass=options.mass,
         thickness=options.thickness or 0.0,
-        overlap="signed",
-        wall="thin",
     )
     order = max(options.order or KNOWN_ORDER, KNOWN_ORDER)
     area_order = order if kind == "shell" or options.surface else 0
@@ -99,7 +100,7 @@ def measure_mesh_file(
         if kind == "solid" and not volume.total > volume.rounding_error[0]:
             raise ReadError(NO_VOLUME)
         reading = bare_reading(name, "MESH")
-        return measurement_of(reading, body, Request(used, 1.0))
+        return measurement_of(reading, body, Request(used))
 
 
 def _verdict(found: StreamIntegrals) -> Verdict:

@@ -20,6 +20,7 @@ from ....core.flat.polygon import find_defects, orient_loops
 from ....core.flat.regions import plane_positions, region_moments
 from ....core.flat.section import Plane, fit_plane, projection_rounding, region
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
+from ....core.measurement.findings import NO_VOLUME
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
@@ -39,7 +40,6 @@ from ...read.findings import (
 )
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ..findings import (
-    NO_VOLUME,
     OUTLINES_CROSS,
     OUTLINES_CROSS_AT,
     SECTION_FACE_CROSSES_ITSELF,
@@ -48,7 +48,6 @@ from ..findings import (
     SECTION_FILL_WRONG,
     SECTION_OVERLAP_UNCHECKED,
     SECTION_PROJECTED,
-    SECTION_PROJECTED_SLIGHTLY,
     SHAPE_OF_OPEN_SURFACE,
 )
 from ..wire import curves_in_world
@@ -199,7 +198,7 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:
         share = float(off / np.sqrt(area))
-        findings.append(finding(SECTION_PROJECTED_SLIGHTLY if share < NEGLIGIBLE else SECTION_PROJECTED, share=share))
+        findings.append(finding(SECTION_PROJECTED, slight=share < NEGLIGIBLE, share=share))
     if found.drawn_area is not None and abs(found.drawn_area - area) > FILL_AREA_RTOL * area:
         findings.append(finding(SECTION_FILL_WRONG, share=float(found.drawn_area / area)))
     return findings

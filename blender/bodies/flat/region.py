@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.measurement.body import Body
 from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.nurbs.curve import Curve
 from ....core.nurbs.curve_moments import length_moments, plane_moments
@@ -20,7 +21,7 @@ from ....core.verdict.method import Method, Source, Verdict
 from ...read.objects import read_lines
 from ...read.reading import Reading
 from ...read.visibility import shows_flat_region
-from ..body import Body, extend_input_error
+from ..body import extend_input_error
 from ..findings import CURVE_FILL_MEASURED, CURVE_NOT_FILLED
 from ..request import Request
 from ..wire import DEGREE, curves_in_world
@@ -62,7 +63,7 @@ def read(request: Request) -> RegionReading | None:
 
     Return None if its curves bound no region, but Blender fills them. Raises MeasureError if nothing is filled.
     """
-    obj, options = request.obj, request.options
+    obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None
     if request.density is not None or not shows_flat_region(obj):
@@ -72,7 +73,7 @@ def read(request: Request) -> RegionReading | None:
     if not is_filled:
         reading.findings.append(finding(CURVE_NOT_FILLED))
     try:
-        curves, stored = curves_in_world(reading.curves, reading.matrix, request.unit)
+        curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
         boundary, normal = planar_region(curves, stored)
     except MeasureError as error:
         if not is_filled:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.density.spline_grid import Blocks, grid_moments
+from ....core.measurement.body import Body
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments
 from ....core.scans.positions import AXES, EVEN, Positions
@@ -22,9 +23,10 @@ from ....core.verdict.method import Method, Source, Verdict
 from ...read.grids.volume import VolumeReading, volume_reading
 from ...read.reading import Part, Reading, to_si
 from ...read.tracking import tracking_paused
-from ...settings.digest import density_key, grid_key
+from ...settings.density import density_key, grid_key
 from ...settings.grid import GridOptions
-from ..body import MAX_MASS_MOMENT, Body, MeshBody
+from ...settings.grid_values import density_function, empty_background_note, sample_positions
+from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
     DENSITY_FROM_GRID,
     GRID_AS_SHELL,
@@ -76,7 +78,7 @@ class _Weights:
     """Densities of blocks of samples, kg/m³."""
 
     def __init__(self, options: GridOptions, background: float | None, slope: float, intercept: float):
-        self._weigh = options.to_densities(background)
+        self._weigh = density_function(options, background)
         self._slope, self._intercept = slope, intercept
 
     def densities(self, block: NDArray) -> NDArray[np.float64]:
@@ -108,7 +110,7 @@ def read(request: Request) -> VolumeReading | None:
         reading = opened.enter_context(volume_reading(obj, request.depsgraph, obj.body_moments.grid))
         if reading is None:
             return None
-        if request.options.kind != "solid":
+        if request.settings.kind != "solid":
             raise ReadError(GRID_AS_SHELL)
         request.opened.push(opened.pop_all())
     return reading
@@ -116,10 +118,10 @@ def read(request: Request) -> VolumeReading | None:
 
 def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
-    obj, density, options = request.obj, request.given.density, request.options
+    obj, density, options = request.obj, request.given.density, request.settings
     order = KNOWN_ORDER if options.order is None else options.order
     made = grid_body(
-        reading, GridOptions.from_settings(obj.body_moments, density), request.unit, options.threads, order
+        reading, GridOptions.from_settings(obj.body_moments, density), request.settings.unit, options.threads, order
     )
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
@@ -140,7 +142,7 @@ def grid_body(
         return _solid(reading, unit, threads)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
-    positions = options.positions(reading.grid, reading.low, reading.shape)
+    positions = sample_positions(options, reading.grid, reading.low, reading.shape)
     first = np.eye(4)
     first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
@@ -209,7 +211,7 @@ def density_body(
     if not mass.total > 0.0:
         raise ReadError(GRID_EMPTY)
     volume = _occupied(samples, shape, matrix, weigh, 3, positions)
-    findings += (*options.empty_background_note(background), finding(GRID_WITHOUT_SURFACE))
+    findings += (*empty_background_note(options, background), finding(GRID_WITHOUT_SURFACE))
     return GridBody(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),

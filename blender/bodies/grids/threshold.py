@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ....core.density.smooth_threshold import smooth_threshold_body
 from ....core.density.threshold import ThresholdBody, threshold_body
+from ....core.measurement.body import Body
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Moments
 from ....core.verdict.finding import Finding, ReadError, finding
@@ -21,7 +22,7 @@ from ....core.verdict.method import Method, Source, Verdict
 from ...read.grids.volume import VolumeReading
 from ...read.reading import to_si
 from ...settings.grid import GridOptions
-from ..body import MAX_MASS_MOMENT, Body
+from ..body import MAX_MASS_MOMENT
 from ..findings import (
     DENSITY_FROM_GRID,
     GRID_EMPTY,

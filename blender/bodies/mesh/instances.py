@@ -25,8 +25,6 @@ from ....core.verdict.health import DefectiveElements, Intersection, MeshHealth
 from ...read.reading import Reading
 from ..findings import (
     ALL_INSTANCES_ZERO_SCALE,
-    COMPONENTS_NESTED_SLIGHTLY,
-    COMPONENTS_OVERLAP_SLIGHTLY,
     INSTANCE_OVERLAP_UNCHECKED,
     INSTANCES_ZERO_SCALE,
     ZERO_SCALE,
@@ -77,16 +75,17 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
     """Return findings about places that overlap or contain each other: faces as [face, source], each once."""
     findings = []
-    nested = COMPONENTS_NESTED_SLIGHTLY if comparison.nested_slightly else COMPONENTS_NESTED
-    overlap = COMPONENTS_OVERLAP_SLIGHTLY if comparison.overlapping_slightly else COMPONENTS_OVERLAP
-    for code, components in ((nested, comparison.nested), (overlap, comparison.overlapping)):
+    for code, components, slight in (
+        (COMPONENTS_NESTED, comparison.nested, comparison.nested_slightly),
+        (COMPONENTS_OVERLAP, comparison.overlapping, comparison.overlapping_slightly),
+    ):
         if len(components):
             elements = []
             for which in np.unique(components[:, 0]):
                 parts, name = solids[which].parts(), reading.parts[which].source_object_name or reading.name
                 of_these = np.isin(parts.part, components[components[:, 0] == which, 1]) & (parts.face >= 0)
                 elements += [[face, name] for face in np.unique(parts.face[of_these]).tolist()]
-            findings.append(finding(code, elements, count=len(components)))
+            findings.append(finding(code, elements, slight=slight, count=len(components)))
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=comparison.undecided_pairs))
     return findings

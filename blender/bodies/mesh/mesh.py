@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.measurement.body import Body
 from ....core.mesh.surface import Surface, join_surfaces, normals
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
@@ -25,18 +26,15 @@ from ...read.findings import CURVES_DRAWN_AS_POLYGONS, SURFACE_DRAWN_AS_POLYGONS
 from ...read.reading import Part, Reading, to_si
 from ...read.union import union_surface
 from ...read.visibility import shows_flat_region
-from ..body import Body, MeshBody, triangle_count
+from ..body import MeshBody, triangle_count
 from ..density.varying_density import weigh
 from ..findings import (
     CURVE_FILL_FOR_DENSITY,
     DISPLAY_MESH_FOR_DENSITY,
     DUPLICATE_FACES_OF_SHELL,
-    DUPLICATE_FACES_OF_SHELL_SLIGHTLY,
     FACES_REVERSED_BEFORE_UNION,
     FLAT_INSTANCE_SOURCES,
-    FLAT_INSTANCE_SOURCES_SLIGHTLY,
     HOLES_CAPPED_BEFORE_UNION,
-    HOLES_CAPPED_BEFORE_UNION_SLIGHTLY,
     NON_PLANAR_FACES_OF_DISPLAY_MESH,
     OPEN_COMPONENTS_UNITED,
     UNION_BY_BOOLEAN,
@@ -73,7 +71,7 @@ def read(request: Request) -> Reading | None:
         if density is None:
             return None
         reading.findings.append(finding(DISPLAY_MESH_FOR_DENSITY))
-    elif density is not None and request.options.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
+    elif density is not None and request.settings.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
         reading.findings.append(finding(CURVE_FILL_FOR_DENSITY))
     return reading
 
@@ -83,13 +81,13 @@ def body(reading: Reading, request: Request) -> Body:
 
     Raises MeasureError if there is nothing to measure.
     """
-    options = request.options
-    shell = options.kind == "shell"
-    made = mesh_body(reading, request.unit, shell=shell, union=options.overlap == "union", threads=options.threads)
+    settings = request.settings
+    shell = settings.kind == "shell"
+    made = mesh_body(reading, settings.unit, shell=shell, union=settings.overlap == "union", threads=settings.threads)
     if request.density is not None:
         made = weigh(reading, made, request)
-    if shell and options.wall != "thin":
-        return find_walls(reading, made, options.wall).body(options.thickness)
+    if shell and settings.wall != "thin":
+        return find_walls(reading, made, settings.wall).body(settings.thickness)
     return made
 
 
@@ -144,8 +142,7 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
     if of_solids and len(of_solids) < len(verdicts):
         flat_area = sum([area for (_, _, area), verdict in zip(healths, verdicts) if verdict is None])
         slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(sum_moments(volumes).total)
-        code = FLAT_INSTANCE_SOURCES_SLIGHTLY if slight else FLAT_INSTANCE_SOURCES
-        findings.append(finding(code, count=verdicts.count(None), total=len(verdicts)))
+        findings.append(finding(FLAT_INSTANCE_SOURCES, slight=slight, count=verdicts.count(None), total=len(verdicts)))
     return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),
@@ -173,8 +170,7 @@ def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
     triangles, faces = surface.all_triangles()
     area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
     slight = area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum()
-    code = DUPLICATE_FACES_OF_SHELL_SLIGHTLY if slight else DUPLICATE_FACES_OF_SHELL
-    return finding(code, copies, count=len(copies))
+    return finding(DUPLICATE_FACES_OF_SHELL, copies, slight=slight, count=len(copies))
 
 
 def _area(threads: int) -> Callable[[Surface], Moments]:
@@ -243,9 +239,8 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
     findings = [finding(UNION_BY_BOOLEAN)]
     verdict = before.method.verdict
     if verdict == Verdict.CAPPED:
-        slight = all(result.code != HOLES_CAPPED for result in before.findings)
-        code = HOLES_CAPPED_BEFORE_UNION_SLIGHTLY if slight else HOLES_CAPPED_BEFORE_UNION
-        findings.append(finding(code, share=before.health.cap_area_share))
+        slight = all(result.values.get("slight") for result in before.findings if result.code == HOLES_CAPPED)
+        findings.append(finding(HOLES_CAPPED_BEFORE_UNION, slight=slight, share=before.health.cap_area_share))
     elif verdict != Verdict.EXACT:
         reoriented = verdict == Verdict.REORIENTED
         findings.append(finding(FACES_REVERSED_BEFORE_UNION if reoriented else OPEN_COMPONENTS_UNITED))

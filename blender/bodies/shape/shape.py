@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ....core.inertia.axial_harmonics import axial_harmonics, axis_last, turn_by_harmonics
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
+from ....core.measurement.body import Body
 from ....core.measurement.measurement import Measurement
 from ....core.mesh.point_triangle import triangle_distances
 from ....core.mesh.surface import Surface, join_surfaces
@@ -31,11 +32,11 @@ from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
 from ....core.shape.symmetries import Symmetry, confirm, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
-from ....core.solid.findings import OBJECT_TOO_LARGE
 from ....core.verdict.finding import ReadError
+from ....core.verdict.findings import OBJECT_TOO_LARGE
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
-from ..body import Body, with_input_error
+from ..body import with_input_error
 from ..findings import (
     SHAPE_FAR_FROM_ORIGIN,
     SHAPE_OF_GRID,

@@ -15,14 +15,13 @@ from collections.abc import Callable, Iterator, Sequence
 import bpy
 import numpy as np
 
-from ....core.numerics.float32 import shortest_decimal
+from ....core.measurement.builder import MAX_FACES_HIGH_ORDER
+from ....core.measurement.settings import Settings
 from ....core.verdict import internal_error
-from ...read.fingerprint import effective_hash
 from ...read.mesh import mesh_surface, plain_mesh
-from ...settings.density import object_density
 from ...settings.options import AS_SET, MeasureOptions
+from ...settings.resolve import object_settings
 from ..measure_object import Measured, measure_body
-from ..measurement import MAX_FACES_HIGH_ORDER
 from .stack import MeshShape, Stacked, StackMember, measure_members
 
 MAX_OBJECTS_PER_STACK = 512
@@ -105,7 +104,7 @@ class _Collector:
         self.faces = 0
         self._by_mesh: dict[bpy.types.Mesh, MeshShape | None] = {}
         self._by_content: dict[tuple[bytes, ...], MeshShape] = {}
-        self._settings: dict[tuple[float | None, float | None], str] = {}
+        self._digests: dict[Settings, str] = {}
 
     def add(self, obj: bpy.types.Object) -> StackMember | None:
         """Return the object as one of the stack; None if it cannot be, or reading fails: by itself it fails again."""
@@ -115,9 +114,9 @@ class _Collector:
             return None
 
     def _member(self, obj: bpy.types.Object) -> StackMember | None:
-        weight = self._weight(obj)
-        mesh = None if weight is None else plain_mesh(obj, self.depsgraph)
-        if weight is None or mesh is None:
+        settings = self._settings_of(obj)
+        mesh = None if settings is None else plain_mesh(obj, self.depsgraph)
+        if settings is None or mesh is None:
             return None
         try:
             shape = self._by_mesh[mesh]
@@ -125,16 +124,14 @@ class _Collector:
             shape = self._by_mesh[mesh] = self._read(mesh)
         if shape is None:
             return None
-        density, mass, settings = weight
         matrix = obj.evaluated_get(self.depsgraph).matrix_world
         location, turn, _scale = matrix.decompose()
         member = StackMember(
             len(self.members),
             obj,
             shape,
-            density,
-            mass,
             settings,
+            self._digest(settings),
             np.array(matrix),
             location.to_tuple(),
             (turn.w, turn.x, turn.y, turn.z),
@@ -142,26 +139,24 @@ class _Collector:
         self.members.append(member)
         return member
 
-    def _weight(self, obj: bpy.types.Object) -> tuple[float, float, str] | None:
-        """Return the density or the mass of a solid that has one, and the digest of the settings; None of others."""
-        options, settings = self.options, obj.body_moments
-        kind, overlap = options.kind or settings.kind.lower(), options.overlap or settings.overlap.lower()
-        density, mass = options.density, options.mass
-        if kind != "solid" or overlap != "signed" or options.order is not None:
+    def _settings_of(self, obj: bpy.types.Object) -> Settings | None:
+        """Return the settings of a solid of one density or mass; None of others."""
+        options, properties = self.options, obj.body_moments
+        if options.order is not None:
             return None
-        if density is None and settings.mass_from == "MASS":
-            if settings.use_center or settings.use_inertia:
-                return None
-            mass = shortest_decimal(settings.mass) if mass is None else mass
-        elif density is None and mass is None:
-            if settings.density_from != "VALUE":
-                return None
-            density = object_density(settings, self.scene)
-        if (density, mass) not in self._settings:
-            self._settings[density, mass] = effective_hash("SOLID", density, mass, 0.0, "SIGNED", self.unit)
-        nothing = float("nan")
-        digest = self._settings[density, mass]
-        return nothing if density is None else density, nothing if mass is None else mass, digest
+        if options.density is None and (
+            properties.use_center or properties.use_inertia
+            if properties.mass_from == "MASS"
+            else options.mass is None and properties.density_from != "VALUE"
+        ):
+            return None
+        settings = object_settings(obj, self.scene, options, self.unit)
+        return settings if settings.kind == "solid" and settings.overlap == "signed" else None
+
+    def _digest(self, settings: Settings) -> str:
+        if settings not in self._digests:
+            self._digests[settings] = settings.digest
+        return self._digests[settings]
 
     def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
         """Return the shape of a mesh; None if it has to be measured by itself."""
@@ -182,7 +177,7 @@ class _Collector:
     def measure(self) -> dict[int, Stacked]:
         """Return the stacked measurements by number; none if the stack fails: each object is then measured alone."""
         try:
-            stack = measure_members(self.members, self.shapes, self.unit, self.options.axes) if self.members else None
+            stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:
             internal_error.finding_of(error)
             stack = None

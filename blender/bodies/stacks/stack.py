@@ -19,18 +19,22 @@ from ....core.inertia.canonical_frame import MAX_ORDER
 from ....core.inertia.mass_properties import MassProperties
 from ....core.inertia.principal_frames import OwnMoments
 from ....core.inertia.third_moment_frames import third_moment_frames
+from ....core.measurement.builder import build_measurement
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, stack_moments
 from ....core.numerics.rotations import rotation_matrix
-from ....core.polyhedron import area_of_images, polyhedron_moments
+from ....core.polyhedron import polyhedron_moments
+from ....core.polyhedron.sheared_areas import area_of_images
 from ....core.solid.measure import SolidIntegrals, measure_solid
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import fingerprint, surface_digest, transform_keys
+from ...read.fingerprint import fingerprint
+from ...read.shapes import surface_digest, transform_keys
 from ...settings.accepted import accepted_codes, with_acceptance
 from ..body import own_moments, with_known
 
@@ -116,8 +120,7 @@ def _join_moments(stacks: list[Moments]) -> Moments:
 class StackMember:
     """An object that may join a stack.
 
-    `number`: index among the collected objects. `settings`: their digest.
-    `density`, kg/m³, or `mass`, kg: the other of the two is NaN.
+    `number`: index among the collected objects. `digest`: of the settings.
     `matrix`: (4, 4), world from the mesh's coordinates, Blender units.
     `location`, `quaternion`: the object frame.
     """
@@ -125,9 +128,8 @@ class StackMember:
     number: int
     obj: bpy.types.Object
     shape: MeshShape
-    density: float
-    mass: float
-    settings: str
+    settings: Settings
+    digest: str
     matrix: NDArray[np.float64]
     location: tuple[float, ...]
     quaternion: tuple[float, ...]
@@ -187,26 +189,20 @@ class MeasuredStack:
     def measurement(self, i: int) -> Measurement:
         """Return the measurement of one member."""
         obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]
-        names = "volume", "area", "center_of_mass", "inertia"
-        rounding, inputs = (dict(zip(names, row)) for row in self.error_bounds[i].tolist())
-        return Measurement(
+        return build_measurement(
             name=obj.name,
             type=obj.type,
             kind="solid",
             method=shape.method,
             density=float(density),
-            thickness=0.0,
-            volume=volume.total,
-            area=float(self.area.raw[i, 0]),
+            volume=volume,
+            area=self.area.at(i),
             mass_properties=self.mass_properties.at(i),
-            volume_moments=volume,
-            area_moments=self.area.at(i),
             mass_moments=(volume, float(density)),
             health=replace(shape.health, volume_spread=shape.health.volume_spread * float(self.stretch[i])),
             findings=self.findings[i],
             rotation=self.rotation[i],
             location=self.location[i],
-            error_bound={**rounding, "input": inputs},
             fingerprint=self.fingerprints[i],
             density_from=DENSITY_FROM_MASS if self.from_mass[i] else DENSITY_FROM_VALUE,
         )
@@ -246,13 +242,12 @@ class Stacked:
         return self.stack.members[self.index].shape.digest
 
 
-def measure_members(
-    members: list[StackMember], shapes: list[MeshShape], unit: float, axes: bool = True
-) -> MeasuredStack | None:
-    """Measure objects together if their shapes can be measured and their numbers are certain.
+def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
+    """Measure objects of one unit together if their shapes can be measured and their numbers are certain.
 
-    Return None if there are no such objects. unit: meters per Blender unit. axes: as in `MeasureOptions`.
+    Return None if there are no such objects.
     """
+    unit, axes = members[0].settings.unit, members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
     matrices = np.array([member.matrix for member in members], np.float64)
@@ -266,8 +261,7 @@ def measure_members(
     matrices[:, :3] *= unit
     volume = _placed(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
-    density = np.array([member.density for member in members])
-    mass = np.array([member.mass for member in members])
+    density, mass = np.array([(member.settings.density, member.settings.mass) for member in members], np.float64).T
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
@@ -318,7 +312,7 @@ def measure_members(
         volume.raw[:, 0] / own.raw[which, 0],
         rotation,
         np.array([member.location for member in members]) * unit,
-        [fingerprint(numbers, key, member.settings) for numbers, key, member in zip(geometry, keys, members)],
+        [fingerprint(numbers, key, member.digest) for numbers, key, member in zip(geometry, keys, members)],
         [_findings(member) for member in members],
     )
 

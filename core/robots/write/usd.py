@@ -21,12 +21,17 @@ from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Pose, Robot, Shape
+from ..stated import Description, StatedInertial, StatedLink
 from .marker import MARKER
 from .text import number, unique_names
 
 ROOT = "Robot"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
 LEAST = float(np.finfo(np.float32).tiny)  # Least number that float32 holds with all its digits.
+_MASS_ATTRIBUTE = re.compile(
+    r"[ \t]*(?:custom )?(?:uniform )?[\w:\[\]]+ (?:physics:(?:mass|centerOfMass|diagonalInertia|principalAxes)|"
+    r"newton:inertia) = (?:\([^)]*\)|\[[^\]]*\]|[^\s(\[]+)[ \t]*;?\n?"
+)
 _NO_IDENTIFIER = re.compile(r"\W")
 _INDENT = "    "
 
@@ -43,25 +48,18 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """Return a robot as a layer of its own, in meters, with a prim for each link; parameters as of `urdf.write`."""
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
-    lines = header(robot.name, remarks, 1.0, ROOT)
-    lines += ['def Xform "{}"'.format(ROOT), "{"]
+    lines: list[str] = []
     for link in robot.ordered():
         inertial = link.inertial
-        lines += _indented(_prim("def Xform", names[link.name], () if inertial is None else APIS))
-        lines += _indented(["{"])
-        if inertial is not None:
-            lines += _indented(mass_attributes(inertial), 2)
+        inner = [] if inertial is None else mass_attributes(inertial)
         if not inertial_only:
-            lines += _indented(_transform(link.pose), 2)
+            inner += _transform(link.pose)
             for count, shape in enumerate(link.shapes, start=1):
-                if shape.kind != "mesh":
-                    lines += _indented(_shape(shape, "shape_{}".format(count)), 2)
-                elif shape.surface is not None:
-                    lines += _indented(_mesh(shape.surface, shape.pose, "shape_{}".format(count)), 2)
-        lines += _indented(["}"])
+                inner += _shape(shape, "shape_{}".format(count))
+        lines += _prim("def Xform", names[link.name], inner, () if inertial is None else APIS)
     for joint in () if inertial_only else robot.joints:
-        lines += _indented(_joint(robot, joint, joints[joint.name], names))
-    return "\n".join([*lines, "}", ""])
+        lines += _joint(robot, joint, joints[joint.name], names)
+    return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *_prim("def Xform", ROOT, lines), ""])
 
 
 def write_over(
@@ -99,7 +97,7 @@ def _overs(tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tup
         path = (*above, name)
         body = bodies.get(path, [])
         inner = [*body, *_overs(branch, path, bodies)]
-        lines += [*_prim("over", name, APIS if body else ()), "{", *_indented(inner), "}"]
+        lines += _prim("over", name, inner, APIS if body else ())
     return lines
 
 
@@ -117,10 +115,7 @@ def header(
 
 
 def identifier(name: str) -> str:
-    """Return the name of a prim, as Blender's exporter makes it of an object's name.
-
-    An underscore stands for each other character than letters and digits, and before a digit.
-    """
+    """Return the name that Blender's exporter gives the prim of an object: letters, digits and underscores."""
     name = _NO_IDENTIFIER.sub("_", name)
     return name if name.isidentifier() else "_" + name
 
@@ -147,11 +142,23 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
     ]
 
 
-def round_down(moments: NDArray) -> NDArray[np.float32]:
-    """Return (3,) ascending principal moments in single precision, the largest one not above the sum of the others.
+def inertial_text(inertial: StatedInertial, old: str, link: StatedLink, description: Description) -> str:
+    """Return the text of a prim with the attributes of a repaired inertial, before anything below."""
+    unit, mass = description.scales["length"], description.scales["mass"]
+    local = np.eye(4) if link.local is None else link.local
+    principal = inertial.principal()
+    center = np.asarray(np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3]) * unit, np.float64)
+    placed = Inertial(principal.mass / mass, center, principal.inertia / mass, principal.moments / mass, principal.axes)
+    below = re.search(r"\n[ \t]*(?:def|over|class)\b", old)
+    split = below.start() if below else len(old)
+    match = re.search(r"\n([ \t]+)\S", old)
+    indent = match[1] if match else _INDENT
+    lines = "".join("\n" + indent + line for line in mass_attributes(placed, unit))
+    return lines + _MASS_ATTRIBUTE.sub("", old[:split]) + old[split:]
 
-    moments: (3,) ascending, in float64.
-    """
+
+def round_down(moments: NDArray) -> NDArray[np.float32]:
+    """Return (3,) ascending moments in single precision, the largest one not above the sum of the others."""
     rounded = np.asarray(moments, np.float64).astype(np.float32)
     while float(rounded[2]) > float(rounded[0]) + float(rounded[1]):
         rounded[2] = np.nextafter(rounded[2], np.float32(0.0))
@@ -174,15 +181,12 @@ def _doubles(values: Iterable[float]) -> str:
     return "({})".format(", ".join(map(number, values)))
 
 
-def _indented(lines: Iterable[str], depth: int = 1) -> list[str]:
-    return [_INDENT * depth + line for line in lines]
-
-
-def _prim(kind: str, name: str, apis: Sequence[str] = ()) -> list[str]:
-    start = "{} {}".format(kind, quoted(name))
-    if not apis:
-        return [start]
-    return [start + " (", "    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis))), ")"]
+def _prim(kind: str, name: str, inner: Iterable[str], apis: Sequence[str] = ()) -> list[str]:
+    """Return the lines of a prim with attributes and prims in it."""
+    head = ["{} {}".format(kind, quoted(name))]
+    if apis:
+        head = [head[0] + " (", "    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis))), ")"]
+    return [*head, "{", *(_INDENT + line for line in inner), "}"]
 
 
 def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
@@ -198,9 +202,10 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 def _shape(shape: Shape, name: str) -> list[str]:
-    """Return a primitive to collide as."""
+    """Return a shape to collide as; nothing for a mesh without a surface."""
+    if shape.kind == "mesh":
+        return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name)
     kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
-    lines = [*_prim("def " + kinds[shape.kind], name, ("PhysicsCollisionAPI",)), "{"]
     scale = None
     if shape.kind == "box":
         attributes, scale = ["double size = 1"], shape.size
@@ -211,14 +216,12 @@ def _shape(shape: Shape, name: str) -> list[str]:
     else:
         attributes = ["double radius = {}".format(number(shape.size[0])), 'uniform token axis = "Z"']
         attributes.append("double height = {}".format(number(shape.size[1])))
-    return [*lines, *_indented([*attributes, *_transform(shape.pose, scale)]), "}"]
+    inner = [*attributes, *_transform(shape.pose, scale)]
+    return _prim("def " + kinds[shape.kind], name, inner, ("PhysicsCollisionAPI",))
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """Return a mesh that collides as its convex hull.
-
-    USD knows no files of other formats, so it stands in the layer.
-    """
+    """Return a mesh that collides as its convex hull. It stands in the layer: USD knows no files of other formats."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)
@@ -230,8 +233,7 @@ def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
         'uniform token physics:approximation = "convexHull"',
         *_transform(pose),
     ]
-    head = _prim("def Mesh", name, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
-    return [*head, "{", *_indented(attributes), "}"]
+    return _prim("def Mesh", name, attributes, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
@@ -260,7 +262,7 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
         "point3f physics:localPos1 = (0, 0, 0)",
         "quatf physics:localRot1 = {}".format(singles(quaternion(turn))),
     ]
-    return [*_prim("def " + kind, name, apis), "{", *_indented([*lines, *more]), "}"]
+    return _prim("def " + kind, name, [*lines, *more], apis)
 
 
 def _in_degrees(kind: str, value: float) -> float:

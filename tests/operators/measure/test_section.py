@@ -8,6 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.read.section import read_section
+from body_moments.blender.session.tracking import staleness, stamps
+from body_moments.blender.session.tracking.stamps import Stale
 
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
@@ -57,10 +59,10 @@ def text_of(body):
 
 
 def section_of(obj):
-    from body_moments.operators.measure import section
+    from body_moments.blender.session.stored import sections
 
     bpy.context.view_layer.update()
-    return section.section_of(obj, bpy.context.evaluated_depsgraph_get())
+    return sections.section_of(obj, bpy.context.evaluated_depsgraph_get())
 
 
 def refused(obj, code, **values):
@@ -76,9 +78,8 @@ def stored(obj):
 
 
 def outdated(obj):
-    from body_moments.operators.measure import section
 
-    return section.stale_reason(obj, bpy.context.scene, stored(obj))
+    return staleness.stale_reason(obj, bpy.context.scene, stamps.of_section)
 
 
 @pytest.mark.parametrize("data", [lambda: flat_mesh(I_BEAM), lambda: curve_of(I_BEAM), lambda: curve_of(I_BEAM[::-1])])
@@ -271,7 +272,7 @@ def test_body_is_no_section_and_nearly_flat_face_is():
     mesh = flat_mesh(square(0, 0, 2))
     mesh.vertices[0].co.z = 1e-5
     section, _, findings = section_of(add(mesh))
-    assert section.area == pytest.approx(4, rel=1e-9) and "section_projected_slightly" in said(findings)
+    assert section.area == pytest.approx(4, rel=1e-9) and said(findings)["section_projected"]["slight"]
 
 
 def test_hidden_objects_and_infinite_points_are_refused():
@@ -319,17 +320,17 @@ def test_section_is_stale_after_shape_place_or_unit_change():
     assert outdated(obj) is None
     obj.location.x = 2.0
     update()
-    assert outdated(obj) == "stale_transform"
+    assert outdated(obj) == Stale.TRANSFORM
     obj.location.x = 0.0
     update()
     assert outdated(obj) is None
     bpy.context.scene.unit_settings.scale_length = 0.5
-    assert outdated(obj) == "stale_unit_scale"
+    assert outdated(obj) == Stale.UNIT_SCALE
     bpy.context.scene.unit_settings.scale_length = 1.0
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
     update()
-    assert outdated(obj) == "stale_geometry"
+    assert outdated(obj) == Stale.GEOMETRY
     bpy.ops.object.body_moments_measure_section()
     update()
     assert outdated(obj) is None
@@ -349,7 +350,7 @@ def test_a_section_survives_the_file_and_clear_takes_it_away(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.context.object
-    assert outdated(obj) == "stale_geometry"
+    assert outdated(obj) == Stale.GEOMETRY
     bpy.ops.object.body_moments_clear()
     assert stored(obj) is None and "body_section" not in obj
 

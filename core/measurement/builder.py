@@ -1,0 +1,264 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies become measurements: mass properties, frame, bounds. Every `Measurement` is built here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..inertia.canonical_frame import MAX_ORDER
+from ..inertia.findings import AXES_FREE, MOMENTS_OVERFLOW
+from ..inertia.mass_properties import MassProperties
+from ..inertia.principal_frames import OwnMoments, PrincipalFrame
+from ..moments.exponents import KNOWN_ORDER
+from ..moments.moments import Measure, Moments, U, monomial_count
+from ..verdict.finding import Finding, ReadError, finding
+from ..verdict.findings import OBJECT_TOO_LARGE
+from ..verdict.health import MeshHealth
+from ..verdict.method import Method, Verdict
+from ..wall.findings import NO_FACE_AREA
+from .body import Body
+from .findings import (
+    AXES_FROM_THIRD_ORDER,
+    DENSITY_FROM_MEMBERS,
+    NO_THICKNESS,
+    NO_VOLUME,
+    WALL_ORDER,
+    ZERO_DENSITY,
+    ZERO_MASS,
+)
+from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from .settings import Settings
+
+# faces up to which moments of higher order, for a frame that needs them, take no time to speak of
+MAX_FACES_HIGH_ORDER = 20_000
+NO_AXES_FIXED = "isotropic"
+Extent = tuple[float, float, float]  # a volume or area, and the bounds of rounding and of float32 coordinates
+
+
+def build_measurement(
+    *,
+    volume: Moments,
+    area: Moments,
+    mass_properties: MassProperties,
+    estimated: bool = False,
+    **fields: Any,
+) -> Measurement:
+    """Return a measurement: its extents and bounds by these moments and properties, the other fields as given.
+
+    estimated: the bounds of rounding are estimates.
+    """
+    rounding, moved = mass_properties.rounding_error, mass_properties.input_error
+    known = {"volume_moments": volume, "area_moments": area}
+    return Measurement(
+        volume=float(volume.raw[0]),
+        area=float(area.raw[0]),
+        mass_properties=mass_properties,
+        error_bound={
+            **_bounds(volume.rounding_error, area.rounding_error, rounding),
+            "input": _bounds(volume.input_error, area.input_error, moved),
+            **({"estimated": True} if estimated else {}),
+        },
+        **(known | fields),
+    )
+
+
+def measure_body(body: Body, settings: Settings, *, findings: tuple[Finding, ...] = (), **fields: Any) -> Measurement:
+    """Return the results of measuring a body, with its moments to the requested order.
+
+    findings: about the reading. fields: name, type, frame and fingerprint of the measurement. Raise MeasureError if the
+    body has no mass, or no moments of that order.
+    """
+    shell, wire, thin = settings.kind == "shell", settings.kind == "wire", _is_thin(body, settings)
+    solid = body.wall or body.volume
+    measured = find_extent(body, settings)
+    moments, factor, density = _weigh(body, measured, settings)
+    higher = _higher(body, shell)
+    uses_high_order = settings.axes and (settings.pose or body.face_count <= MAX_FACES_HIGH_ORDER)
+    properties = MassProperties.from_moments(
+        moments,
+        factor,
+        preferred_axes=fields["rotation"],
+        refine=None if shell or body.mass is not None else body.third_order,
+        higher=higher if uses_high_order else None,
+    )
+    left_open = settings.axes and not uses_high_order and higher is not None and not properties.principal.is_unique
+    volume_moments, area_moments = None if thin else solid, body.area
+    if settings.order is not None:
+        volume_moments, area_moments = _to_order(body, settings, settings.order) or (volume_moments, area_moments)
+    given = DENSITY_FROM_VALUE if settings.mass is None else DENSITY_FROM_MASS
+    return build_measurement(
+        kind=settings.kind,
+        method=Method(Verdict.SHELL, body.method.source) if shell else body.method,
+        density=0.0 if wire else density,
+        thickness=settings.thickness if shell else 0.0,
+        volume=body.volume if wire else measured,
+        area=body.area,
+        mass_properties=properties,
+        volume_moments=volume_moments,
+        area_moments=area_moments,
+        mass_moments=(moments, factor),
+        higher_mass=None if body.higher_mass is None else body.higher_mass * factor,
+        health=body.health,
+        findings=(*findings, *body.findings, *((finding(AXES_FROM_THIRD_ORDER),) if left_open else ())),
+        length=float(measured.raw[0]) if wire else None,
+        display_volume=body.display_volume,
+        estimated=body.estimated,
+        density_from=body.density_from or given,
+        materials=body.materials,
+        **fields,
+    )
+
+
+def measure_total(
+    mass: Moments,
+    *,
+    rotation: NDArray[np.float64],
+    volume: Extent = (0.0, 0.0, 0.0),
+    area: Extent = (0.0, 0.0, 0.0),
+    health: MeshHealth | None = None,
+    **fields: Any,
+) -> Measurement:
+    """Return the results of bodies whose mass moments have been added: `mass`, kg to third order, SI, world axes.
+
+    `volume`, m³, and `area`, m², come with their bounds. `rotation` (3, 3), axes as columns, belongs to the frame in
+    which the results are stored. Raise MeasureError if no mass is certain, or if the second moments are impossible for
+    a body.
+    """
+    return build_measurement(
+        density=mass.total / volume[0] if volume[0] > 0.0 else 0.0,
+        volume=_total_moments(volume, mass.about, Measure.VOLUME),
+        area=_total_moments(area, mass.about, Measure.AREA),
+        mass_properties=find_properties(mass, rotation),
+        mass_moments=(mass, 1.0),
+        health=health or MeshHealth(closed=False, components=0),
+        rotation=rotation,
+        **({"method": Method(Verdict.ASSEMBLY), "density_from": finding(DENSITY_FROM_MEMBERS)} | fields),
+    )
+
+
+def _total_moments(extent: Extent, about: NDArray[np.float64], measure: Measure) -> Moments:
+    """Return moments of which the total alone is known."""
+    raw, rounding, inputs = np.zeros((3, monomial_count(KNOWN_ORDER)))
+    raw[0], rounding[0], inputs[0] = extent
+    return Moments(raw, about, measure, rounding, inputs)
+
+
+def extent_of(measurement: Measurement, name: str) -> Extent:
+    """Return the "volume" or "area" of a measurement, with its bounds."""
+    bound = measurement.error_bound
+    return getattr(measurement, name), bound[name], bound["input"][name]
+
+
+def add_extents(extents: list[Extent]) -> Extent:
+    """Return the sum of volumes or areas, with its bounds."""
+    values, rounding, inputs = np.array(extents, np.float64).reshape(-1, 3).T
+    return (
+        float(values.sum()),
+        float(rounding.sum() + len(values) * U * np.abs(values).sum()),
+        float(inputs.sum()),
+    )
+
+
+def find_extent(body: Body, settings: Settings) -> Moments:
+    """Return the moments that the density multiplies: of the volume, a shell's sheet or wall, or a wire's length.
+
+    Raise ReadError if that volume is not positive.
+    """
+    if body.length is not None:
+        return body.length
+    volume = body.area * settings.thickness if _is_thin(body, settings) else body.wall or body.volume
+    if not volume.raw[0] > 0.0:
+        if body.face_count and not body.area.total > 0.0:
+            raise ReadError(NO_FACE_AREA)
+        raise ReadError(NO_THICKNESS if settings.kind == "shell" and body.area.total > 0.0 else NO_VOLUME)
+    return volume
+
+
+def _is_thin(body: Body, settings: Settings) -> bool:
+    return settings.kind == "shell" and body.wall is None
+
+
+def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, float, float]:
+    """Return the moments that carry the mass, the mass in kg per unit of them, and the density."""
+    if body.mass is not None:
+        moments, factor = body.mass, 1.0 if settings.mass is None else settings.mass / body.mass.total
+        density = body.mass.total * factor / measured.total
+    else:
+        density = settings.density or 0.0 if settings.mass is None else settings.mass / measured.total
+        thin = _is_thin(body, settings)
+        moments, factor = (body.area, density * settings.thickness) if thin else (measured, density)
+    if not density > 0.0:
+        raise ReadError(ZERO_DENSITY if settings.mass is None else ZERO_MASS)
+    return moments, factor, density
+
+
+def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
+    """Return a function for the higher moments of the principal frame, None if they are not known."""
+    if not body.any_order or body.mass is not None or body.length is not None or body.wall is not None:
+        return None  # walls have none either, because their axes follow a slider
+    return partial(_frame_moments, body, shell)
+
+
+def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = body.moments_for_axes(MAX_ORDER, shell)
+    moments = found.moments if isinstance(found, OwnMoments) else found
+    if not (np.isfinite(moments.raw).all() and np.isfinite(moments.rounding_error).all()):
+        raise ReadError(OBJECT_TOO_LARGE)
+    return found
+
+
+def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | None, Moments] | None:
+    """Return the moments of volume and area to the requested order; None if a body has them anyway."""
+    shell = settings.kind == "shell"
+    if order < KNOWN_ORDER and (shell or not settings.surface):
+        return None
+    if not body.any_order:
+        if order > KNOWN_ORDER or (settings.surface and not shell):
+            raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
+        return None
+    with np.errstate(over="ignore", invalid="ignore"):
+        volume, area = body.moments(order, shell or settings.surface)
+    for moments in (volume, area):
+        if moments is not None and not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
+            raise ReadError(MOMENTS_OVERFLOW, order=order)
+    return None if _is_thin(body, settings) else volume, area or body.area
+
+
+def _bounds(volume: NDArray, area: NDArray, of_mass: dict[str, float]) -> dict[str, float]:
+    return {
+        "volume": float(volume[0]),
+        "area": float(area[0]),
+        "center_of_mass": of_mass["center"],
+        "inertia": of_mass["inertia"],
+    }
+
+
+def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
+    """Return mass properties of moments in kg, without unique axes for a point."""
+    if not mass.total > 0.0:  # a bone of flat faces alone: refused there
+        return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
+    central = mass.truncate(2).about_center()
+    if np.abs(central.raw[4:]).max() > 4.0 * central.rounding_error[4:].max():
+        return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
+    bounds = {"mass": float(mass.rounding_error[0]), "center": 4.0 * U * float(np.abs(central.about).sum())}
+    return MassProperties(
+        mass=mass.total,
+        center=central.about,
+        inertia=np.zeros((3, 3)),
+        principal=PrincipalFrame(
+            np.zeros(3),
+            np.asarray(preferred_axes, np.float64),
+            NO_AXES_FIXED,
+            False,
+            finding(AXES_FREE, axes=[1, 2, 3]),
+        ),
+        rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
+        input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
+    )

@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of one measurement as values: everything that influences its numbers, without gaps."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+from ..numerics.float32 import shortest_decimal
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings of one object's measurement, in SI units; of density and mass one at most.
+
+    kind: "solid", "shell" or "wire". density: kg/m³, of a wire kg/m; mass: kg. thickness: of a shell, m. overlap:
+    "signed" or "union". wall: of a shell, "thin", "inward", "outward" or "centered". unit: meters per Blender unit.
+    varying: text of the settings that decide a varying density or a given center or inertia. order: of the moments;
+    None for the order that mass properties need. surface: moments of the area, too. pose: the principal frame follows
+    the shape to sixth order, for any number of faces. compare: bodies that need no display mesh are compared with it.
+    axes: moments above third order choose the principal axes if these leave a choice; without, any of the remaining
+    axes may result.
+    """
+
+    kind: str = "solid"
+    density: float | None = None
+    mass: float | None = None
+    thickness: float = 0.0
+    overlap: str = "signed"
+    wall: str = "thin"
+    unit: float = 1.0
+    varying: str = ""
+    order: int | None = None
+    surface: bool = False
+    pose: bool = False
+    compare: bool = True
+    axes: bool = True
+    threads: int = 1
+
+    @property
+    def is_thin(self) -> bool:
+        """True for a shell without walls of real thickness."""
+        return self.kind == "shell" and self.wall == "thin"
+
+    @property
+    def digest(self) -> str:
+        """Digest of the settings behind stored results; settings without use for the kind do not count."""
+        is_shell = self.kind == "shell"
+        density = None if self.varying else self.density
+        # properties hold such decimals
+        density, mass = [None if value is None else shortest_decimal(value) for value in (density, self.mass)]
+        used = [
+            self.kind.upper(),
+            density,
+            mass,
+            float("{:.6g}".format(self.thickness)) if is_shell else None,
+            self.overlap.upper() if self.kind == "solid" else None,
+            round(self.unit, 12),
+            *([self.varying] if self.varying else []),
+            *([self.wall.upper()] if is_shell and self.wall != "thin" else []),
+        ]
+        return hashlib.blake2s(repr(used).encode(), digest_size=6).hexdigest()

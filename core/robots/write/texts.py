@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A robot as the text of a format, with the findings about it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from ...mesh.surface import Surface
+from ...verdict.finding import Finding
+from ...verdict.sentences import sentence
+from ..findings import MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL
+from ..formats import FORMATS
+from ..model import Robot
+from .shapes import with_meshes
+from .stl import write_meshes
+
+OF_INERTIALS = {MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL}  # all else is said of geometry and joints
+
+
+def with_geometry(
+    robot: Robot,
+    format_name: str,
+    surface_of: Callable[[str], Surface | None],
+    output: Path,
+    read: Path | None = None,
+    force: bool = False,
+) -> tuple[Robot, list[Finding]]:
+    """Return a robot with its meshes, as files if the format names such, and a finding about links without any.
+
+    surface_of: as of `with_meshes`. output, read, force: as of `write_meshes`. Raises OSError.
+    """
+    robot, findings = with_meshes(robot, surface_of)
+    return robot if FORMATS[format_name].holds_meshes else write_meshes(robot, output, read, force), findings
+
+
+def robot_text(
+    robot: Robot, format_name: str, findings: Iterable[Finding] = (), *, inertial_only: bool = False
+) -> tuple[str, list[Finding]]:
+    """Return a robot in one of the formats, and findings about it, which stand in the text as well.
+
+    findings: about the robot, whatever the format. inertial_only: without geometry and joints.
+    """
+    writer = FORMATS[format_name].writer_module
+    said = [one for one in writer.check(robot) if one.code in OF_INERTIALS or not inertial_only]
+    findings = [*findings, *said]
+    return writer.write(robot, list(map(sentence, findings)), inertial_only=inertial_only), findings
