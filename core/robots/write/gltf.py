@@ -32,8 +32,7 @@ _GLB, JSON, BINARY = 0x46546C67, 0x4E4F534A, 0x004E4942  # a binary file, and ki
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
     """Return the entry `motion` of both extensions, in the axes of the file.
 
-    inertial: along the axes of Blender's object. scale: meters per unit of the node's own space along Blender's axes,
-    for the center.
+    scale: meters per unit of the node's own space along Blender's axes, for the center.
     """
     values: dict[str, Any] = {
         "mass": inertial.mass,
@@ -47,10 +46,9 @@ def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
 
 
 def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
-    """Give the nodes of a glTF document their motions, and the document its unit, in place.
+    """Give the nodes of a glTF document their motions, and the document its unit, in place; return findings.
 
-    document: the JSON of a file. robot: with links named like nodes. meters_per_unit: of the Blender scene. Returns
-    findings about links without a node of their own, and scales that readers may take in different ways.
+    robot: with links named like nodes. meters_per_unit: of the Blender scene.
     """
     nodes, bones = document.get("nodes", []), {joint for skin in document.get("skins", []) for joint in skin["joints"]}
     by_name: dict[str, list[dict]] = {}
