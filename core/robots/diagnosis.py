@@ -92,7 +92,7 @@ def diagnose(
 ) -> Diagnosis | None:
     """Return the one change that corrects an inertial, or a note about the place of the mass; None if it agrees.
 
-    references: candidates for the geometry, such as visual and collision shapes. otherwise: ones with a corrected shape.
+    references: candidates for the geometry, such as visual and collision shapes. otherwise: with a shape corrected.
     """
     if not references:
         return None

@@ -116,7 +116,7 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Unpack samples packed by gzip from byte `start` on, x fastest, behind `skip` bytes, to the checksum at the end."""
+    """Unpack samples packed by gzip from byte `start` on, x fastest, behind `skip` bytes; check them to the end."""
     byte_count = dtype.itemsize * math.prod(shape)
     total, room = skip + byte_count, MAX_GZIP_RATIO * path.stat().st_size
     if total > room:

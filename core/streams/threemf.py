@@ -36,14 +36,8 @@ _KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _BLOCK = 1 << 16
 _DAMAGE = (
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    RuntimeError,
-    expat.ExpatError,
-    LookupError,
-    ValueError,
-    OverflowError,
+    *(zipfile.BadZipFile, zlib.error, EOFError, expat.ExpatError),
+    *(RuntimeError, LookupError, ValueError, OverflowError),
 )
 
 

@@ -45,6 +45,12 @@ def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
     return values
 
 
+def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
+    """Return both extensions of a node that is a rigid body; parameters as of `motion`."""
+    values = motion(inertial, scale)
+    return {KHR: {"motion": values}, OMI: {"motion": {"type": "dynamic", **values}}}
+
+
 def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
     """Give the nodes of a glTF document their motions, and the document its unit, in place; return findings.
 
@@ -65,10 +71,7 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
             scaled.append(link.name)
-        values = motion(inertial, meters_per_unit * link.scale)
-        extensions = found[0].setdefault("extensions", {})
-        extensions[KHR] = {"motion": values}
-        extensions[OMI] = {"motion": {"type": "dynamic", **values}}
+        found[0].setdefault("extensions", {}).update(body_extensions(inertial, meters_per_unit * link.scale))
         written += 1
     if written:
         document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), KHR, OMI})
