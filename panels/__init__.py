@@ -10,5 +10,5 @@ MODULES = (
     *("manual", "menus", "material_menus", "measure.body", "measure.inertia", "density", "statics"),
     *("measure.selection", "assembly", "rig", "measure.advanced"),
     *("measure.section", "shape"),  # sub-panels of `measure.advanced`
-    *("overlay.popover", "overlay.draw"),
+    "overlay.draw",
 )

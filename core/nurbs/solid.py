@@ -44,9 +44,15 @@ from .findings import (
     PATCH_BOUNDARY_CROSSES_ITSELF,
     PATCH_HOLES_CAPPED,
 )
-from .input_error import with_area_error, with_swept_error
 from .patch import Patch, patches_center, patches_size
-from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments
+from .patch_moments import (
+    area_moments,
+    area_slope,
+    sheet_moments,
+    volume_moments,
+    with_area_error,
+    with_swept_error,
+)
 from .patch_topology import PatchTopology, find_topology
 
 SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # samples of a span, for comparing parts, and where those cross

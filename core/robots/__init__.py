@@ -8,14 +8,14 @@ from ..lazy import lazy_names
 
 if TYPE_CHECKING:
     from . import audit as audit
-    from . import from_records as from_records
+    from . import links as links
     from . import model as model
     from . import repair as repair
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     audit="audit",
-    from_records="from_records",
+    links="links",
     model="model",
     repair="repair",
 )
