@@ -39,7 +39,6 @@ from .findings import (
     MEMBERS_NOT_MEASURED,
     NO_DEFORMING_BONES,
     RIG_MEAN_DENSITY,
-    RIG_OPEN_MESH,
     RIG_WALL_THIN,
     RIG_WITHOUT_PARTS,
     UNWEIGHTED_VERTICES,
@@ -247,8 +246,6 @@ class _Measuring:
                 finding(UNWEIGHTED_VERTICES, bare, count=len(bare), total=count).of_sources([obj.name])
             )
         solid = None if shell else measure_solid(surface)
-        if solid is not None and solid.method == Verdict.OPEN:
-            self.findings.append(finding(RIG_OPEN_MESH).of_sources([obj.name]))
         if solid is not None:
             self.findings += [found.of_sources([obj.name]) for found in solid.findings]
         for matrix in part.matrices:

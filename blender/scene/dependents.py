@@ -17,7 +17,7 @@ from ...core.verdict.finding import EditRefusedError, Finding, ReadError, findin
 from ..read.objects import read_object
 from ..read.visibility import measurable
 from .changes import LINKING_TYPES, users_of
-from .findings import CHILD_LINKED, CHILD_NOT_HELD, DEPENDENT_CURVE_CHANGES, DEPENDENT_SHAPE_CHANGES, FOLLOWER_MOVED
+from .findings import CHILD_NOT_HELD, DEPENDENT_SHAPE_CHANGES, FOLLOWER_MOVED
 from .transforms import FLOAT32, Matrix4, world
 
 # Relative to the size: more than the rounding in a chain of modifiers, and far less than anyone can see.
@@ -134,7 +134,7 @@ class DependentsGuard:
             dependent for dependent in dependents if dependent.library is not None and dependent.parent in self.changed
         ]
         if linked:
-            raise EditRefusedError(CHILD_LINKED, object=linked[0].name)
+            raise EditRefusedError(CHILD_NOT_HELD, object=linked[0].name)
         self.children = {
             dependent: np.array(dependent.matrix_parent_inverse, np.float64)
             for dependent in dependents
@@ -176,8 +176,7 @@ class DependentsGuard:
             if self._moved(self.places[dependent], world(dependent), size):
                 continue
             if not same_shape(before, shape(dependent, depsgraph), size):
-                code = DEPENDENT_SHAPE_CHANGES if dependent.modifiers else DEPENDENT_CURVE_CHANGES
-                raise EditRefusedError(code, object=dependent.name)
+                raise EditRefusedError(DEPENDENT_SHAPE_CHANGES, object=dependent.name)
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
         changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]

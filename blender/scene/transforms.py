@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
-from .findings import CHANNEL_ANIMATED, CHANNEL_LOCKED, LINKED_OBJECT, PARENT_OR_DELTA_SCALE_ZERO, PARENT_SHEARS
+from ..read.findings import SCALE_ZERO_AXIS
+from .findings import CHANNEL_LOCKED, LINKED_OBJECT, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
 MAX_SHEAR = 2e-6  # found in float32 products of a rotation and a scale
@@ -151,7 +152,7 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError if it is sheared."""
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
-        raise EditRefusedError(PARENT_OR_DELTA_SCALE_ZERO)
+        raise EditRefusedError(SCALE_ZERO_AXIS)
     turn, scale, is_even = rotation_and_scale(linear, np.array(obj.scale, np.float64) * delta_scale)
     if not is_even:
         raise EditRefusedError(PARENT_SHEARS)
@@ -177,10 +178,8 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
 def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], tolerance: float = 1e-6) -> None:
     before = np.array(getattr(obj, channel), np.float64)
     moved = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())
-    if np.any(moved & np.array(locks, bool)):
+    if np.any(moved & np.array(locks, bool)) or (np.any(moved) and channel in driven_channels(obj)):
         raise EditRefusedError(CHANNEL_LOCKED, channel=channel.split("_")[0])
-    if np.any(moved) and channel in driven_channels(obj):
-        raise EditRefusedError(CHANNEL_ANIMATED, channel=channel.split("_")[0])
     setattr(obj, channel, value)
 
 

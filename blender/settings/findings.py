@@ -42,7 +42,8 @@ VALUES_NON_FINITE_FOR_TABLE = error(
 )
 VALUES_NEGATIVE = error(
     "values_negative",
-    "Negative densities, down to {density:.6g} kg/m³. Set Values to Table, or Measure As to Solid for a level set.",
+    "Negative densities, down to {density:.6g} kg/m³. Convert the samples, set Values to Table, or Measure As to Solid "
+    "for a level set.",
 )
 POSITIONS_OF_OTHER_SAMPLES = error(
     "positions_of_other_samples",

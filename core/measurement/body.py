@@ -10,12 +10,11 @@ from typing import ClassVar
 
 from ..inertia.principal_frames import OwnMoments
 from ..mesh.surface import Surface
-from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Moments
 from ..verdict.finding import Finding, ReadError
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method
-from .findings import WALL_ORDER
+from .findings import WALL_UNSUPPORTED
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +54,7 @@ class Body:
 
         Raise ReadError if they are not known.
         """
-        raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
+        raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
 
     def third_order(self) -> Moments:
         """Return the moments behind the principal frame of a solid or a wire, with exact third order."""

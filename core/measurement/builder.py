@@ -28,7 +28,7 @@ from .findings import (
     DENSITY_FROM_MEMBERS,
     NO_THICKNESS,
     NO_VOLUME,
-    WALL_ORDER,
+    WALL_UNSUPPORTED,
     ZERO_DENSITY,
     ZERO_MASS,
 )
@@ -221,7 +221,7 @@ def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | Non
         return None
     if not body.any_order:
         if order > KNOWN_ORDER or (settings.surface and not shell):
-            raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
+            raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
         return None
     with np.errstate(over="ignore", invalid="ignore"):
         volume, area = body.moments(order, shell or settings.surface)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ...blender.bodies.assembly.assembly import Assembly
 from ...blender.read.assembly import Root
 from ...blender.read.tracking import tracking_paused
-from ...blender.scene.findings import LINKED_OBJECT, LOCATION_CONSTRAINED
+from ...blender.scene.findings import LINKED_OBJECT, TRANSFORM_CONSTRAINED
 from ...blender.scene.transforms import TransformChannels, require_editable, world
 from ...blender.session.stored import assembly as stored_assembly
 from ...blender.write import properties, reports
@@ -152,7 +152,7 @@ def _move_parent(context: Context, empty: Object, center: NDArray) -> None:
             context.view_layer.update()
             moved = [child for child, place in places.items() if not _is_at(child, place, tolerance)]
             if np.abs(world(empty)[:3, 3] - center).max() > tolerance:
-                raise EditRefusedError(LOCATION_CONSTRAINED, subject=empty.name)
+                raise EditRefusedError(TRANSFORM_CONSTRAINED, subject=empty.name, channel="location")
             if moved:
                 raise EditRefusedError(CHILDREN_WOULD_MOVE, subject=empty.name, names=[child.name for child in moved])
         except BaseException:

@@ -13,7 +13,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender.bodies.measure_object import measure_object
-from ...blender.scene.findings import LINKED_OBJECT_DATA
+from ...blender.scene.findings import LINKED_OBJECT
 from ...blender.session.stored import density
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
@@ -131,7 +131,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 def require_editable_mesh(obj: Object) -> None:
     """Raise EditRefusedError if the measured mesh is not the editable one."""
     if not obj.data.is_editable:  # nor is it then of a linked object
-        raise EditRefusedError(LINKED_OBJECT_DATA)
+        raise EditRefusedError(LINKED_OBJECT)
     changing = [
         modifier.name
         for modifier in obj.modifiers

@@ -18,18 +18,17 @@ from ....core.scans.findings import SCAN_WITHOUT_SPACING
 from ....core.scans.limits import DEFAULT_LIMITS, Limits
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.verdict.finding import Finding, ReadError, finding
+from ...read.findings import GRID_TOO_LARGE
 from ...settings.grid import GridOptions
 from ...settings.options import MeasureOptions
 from ...settings.resolve import with_options
 from ..findings import (
-    ARRAY_DENSITY,
-    ARRAY_NEGATIVE,
     DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,
+    GRID_DENSITY,
     SAMPLES_POSITIONED,
     THRESHOLD_POSITIONS,
-    THRESHOLD_TOO_LARGE,
 )
 from ..grids.grid import density_body
 from ..grids.threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
@@ -101,9 +100,9 @@ def _density_body(
     progress: Callable[[int], None],
 ) -> Body:
     """Return the body of all samples, as densities."""
-    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, negative=ARRAY_NEGATIVE)
+    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
     shape = scan.samples.shape
-    findings += (finding(ARRAY_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
+    findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
     if options.density is not None:
         findings += (finding(GIVEN_DENSITY_IGNORED),)
     scale = scan.slope, scan.intercept
@@ -132,7 +131,7 @@ def _threshold_body(
         threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
     )
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
-        raise ReadError(THRESHOLD_TOO_LARGE, grid=name, samples=scan.samples.size)
+        raise ReadError(GRID_TOO_LARGE, grid=name, samples=scan.samples.size)
     slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
     turned = np.eye(4)
     turned[:3, :3] = np.eye(3)[:, slowest]

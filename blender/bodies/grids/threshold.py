@@ -19,6 +19,7 @@ from ....core.moments.moments import Moments
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict
+from ...read.findings import GRID_TOO_LARGE
 from ...read.grids.volume import VolumeReading
 from ...read.reading import to_si
 from ...settings.grid import GridOptions
@@ -32,7 +33,6 @@ from ..findings import (
     THRESHOLD_MEASURED,
     THRESHOLD_NEEDS_FACTOR,
     THRESHOLD_NOT_REACHED,
-    THRESHOLD_TOO_LARGE,
 )
 
 MAX_SAMPLES = 1 << 29  # in the box that holds the grid
@@ -107,7 +107,7 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     samples = int(np.prod(reading.shape, dtype=np.float64))
     if samples > MAX_SAMPLES:
-        raise ReadError(THRESHOLD_TOO_LARGE, grid=reading.grid, samples=samples)
+        raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=samples)
     values = np.full(reading.shape, reading.background, np.float32)
     for (i, j, k), block in reading.blocks():
         if block.dtype.itemsize > 4:

@@ -23,6 +23,7 @@ from ....core.inertia.axial_harmonics import axial_harmonics, axis_last, turn_by
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
 from ....core.measurement.body import Body
+from ....core.measurement.findings import WALL_UNSUPPORTED
 from ....core.measurement.measurement import Measurement
 from ....core.mesh.point_triangle import triangle_distances
 from ....core.mesh.surface import Surface, join_surfaces
@@ -33,7 +34,7 @@ from ....core.shape.signatures import Signature, signature
 from ....core.shape.symmetries import Symmetry, confirm, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.solid.findings import OBJECT_TOO_LARGE
-from ....core.verdict.finding import ReadError
+from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
 from ..body import with_input_error
@@ -41,8 +42,8 @@ from ..findings import (
     SHAPE_FAR_FROM_ORIGIN,
     SHAPE_OF_GRID,
     SHAPE_OF_OPEN_SURFACE,
-    SHAPE_OF_WIRE_OR_WALL,
     SIGNATURE_NEEDS_POLYGONS,
+    WIRE_UNSUPPORTED,
 )
 from ..measure_object import THREADS, Measured, measure_body
 
@@ -207,8 +208,8 @@ def is_display_mesh(measurement: Measurement) -> bool:
 class NoShapeError(ReadError):
     """Refusal of an object that can be measured, but has no shape of its own."""
 
-    def __init__(self, code: str, measurement: Measurement):
-        super().__init__(code, subject=measurement.name)
+    def __init__(self, reason: str | Finding, measurement: Measurement):
+        super().__init__(reason, subject=measurement.name)
         self.measurement = measurement
 
 
@@ -237,7 +238,8 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
     if body.mass is not None and not body.has_surface:
         raise NoShapeError(SHAPE_OF_GRID, measurement)
     if body.wall is not None or body.length is not None:
-        raise NoShapeError(SHAPE_OF_WIRE_OR_WALL, measurement)
+        code = WALL_UNSUPPORTED if body.length is None else WIRE_UNSUPPORTED
+        raise NoShapeError(finding(code, quantity="A pose or signature"), measurement)
     if measurement.method.verdict == Verdict.OPEN:
         raise NoShapeError(SHAPE_OF_OPEN_SURFACE, measurement)
     shape = Shape(measurement, body, threads)

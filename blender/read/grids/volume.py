@@ -35,7 +35,6 @@ from ..findings import (
     NO_SCALAR_GRID,
     NON_FINITE_TRANSFORM,
     TEMPORARY_FOLDER_FULL,
-    VOLUME_FILE_MISSING,
     VOLUME_FILE_UNREADABLE,
     VOLUME_WITHOUT_GRIDS,
 )
@@ -142,9 +141,8 @@ def _volume(obj, depsgraph):
     # A saved file turns an empty path into that of a folder.
     folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
     if not volume.grids.load() and not folder:
-        error = volume.grids.error_message.rstrip(".")
-        reason = finding(VOLUME_FILE_UNREADABLE, error=error) if error else finding(VOLUME_FILE_MISSING)
-        raise ReadError(reason, subject=obj.name)
+        error = volume.grids.error_message.rstrip(".") or bpy.path.basename(volume.filepath)
+        raise ReadError(VOLUME_FILE_UNREADABLE, subject=obj.name, error=error)
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None
