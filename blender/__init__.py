@@ -2,20 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender in, Blender out: settings, reading, bodies, changes of the scene, the session and stored results."""
 
+# The modules with the settings of objects, materials, scenes, assemblies and bones.
+SETTINGS = ("settings.properties", "settings.scene", "settings.assembly")
 # The modules that are registered, in this order.
 MODULES = (
     "write.translations",
-    "settings.properties",
-    "settings.assembly",
-    "settings.reference",
-    "settings.bone",
+    *SETTINGS,
     "session.tracking.handlers",
-    "session.tracking.updates",
-    "session.stored.density",
-    "session.stored.walls",
-    "session.stored.threshold",
-    "session.live.live",
-    "session.stored.assembly",
-    "session.stored.rig",
-    "session.stored.outcome",
 )

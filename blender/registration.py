@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Registration of a wing's modules, each with `register` and `unregister`, or with a tuple CLASSES alone."""
+"""Registration of a wing's modules.
+
+A module has `register` and `unregister`, or tables: CLASSES in their order, and POINTERS, the groups of settings by
+Blender's type and the name of their property.
+"""
 
 from collections.abc import Iterable
 from contextlib import ExitStack
@@ -8,6 +12,7 @@ from importlib import import_module
 from types import ModuleType
 
 import bpy
+from bpy.props import PointerProperty
 
 
 def register_modules(package: str, names: Iterable[str]) -> None:
@@ -34,6 +39,8 @@ def _register(module: ModuleType) -> None:
         for cls in module.CLASSES:
             bpy.utils.register_class(cls)
             undo.callback(bpy.utils.unregister_class, cls)
+        for (owner, name), group in getattr(module, "POINTERS", {}).items():
+            setattr(owner, name, PointerProperty(name=name.replace("_", " ").title(), type=group))
         undo.pop_all()
 
 
@@ -41,5 +48,7 @@ def _unregister(module: ModuleType) -> None:
     if hasattr(module, "unregister"):
         module.unregister()
         return
+    for owner, name in getattr(module, "POINTERS", {}):
+        delattr(owner, name)
     for cls in reversed(module.CLASSES):
         bpy.utils.unregister_class(cls)

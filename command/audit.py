@@ -17,7 +17,7 @@ from ..core.robots.read.paths import Roots
 from ..core.robots.repair import repaired_copy
 from ..core.robots.write import audit_report
 from ..core.verdict import internal_error
-from ..core.verdict.finding import FileError, MeasureError, Severity, finding, system_reason
+from ..core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .findings import (
     AUDIT_COPIES_ALIKE,
     AUDIT_COPY_EXISTS,
@@ -90,27 +90,15 @@ def answer(options: argparse.Namespace) -> tuple[str, int, int]:
 
 def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict[str, Any]:
     roots = Roots.for_file(path, options.root, options.allow_outside)
-    description = read_description(path, roots)
-    audit = Auditor(roots).audit(description)
+    audit = Auditor(roots).audit(read_description(path, roots))
     repaired = _write_copy(path, audit, options, copies)
-    links = [
-        audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links
-    ]
-    document = audit_report.document(str(path), description, links, repaired)
-    print_message(path, visible(str(summary(document))))
+    document = audit_report.document(str(path), audit, repaired)
+    print_message(path, visible(str(finding(AUDIT_DONE, **audit_report.count_findings(document)))))
     return document
 
 
-def summary(document: dict[str, Any]) -> Any:
-    """Return a finding that counts the findings of a document."""
-    levels = [found["severity"] for link in document["links"] for found in link["findings"]]
-    counts = {str(level) + "s": levels.count(level) for level in Severity}
-    return finding(AUDIT_DONE, links=len(document["links"]), **counts)
-
-
 def _write_copy(path: Path, audit: Audit, options: argparse.Namespace, copies: set[str]) -> str | None:
-    repairs = [(found.link, found.repaired) for found in audit.links if found.repaired is not None]
-    folder = options.repair
+    repairs, folder = audit.repairs(), options.repair
     if folder is None or not repairs:
         return None
     if path.name in copies:

@@ -27,13 +27,13 @@ The packages, each with its own public names in its `__init__` (none imports one
     scans        NRRD, NIfTI, numpy's and raw files
     robots       links, joints and inertials; what geometry allows an inertial to be
     solid        whether a surface bounds a solid; holes capped, faces flipped, shells nested; its moments
-    plane        polygons with holes, section properties
+    flat         polygons with holes, section properties
     fourier      Fourier transforms in closed form, and on large grids to a tolerance (Barnett et al. 2019)
-    rigs         the bone that each face goes with; skinned bodies cut into closed pieces
+    rig          the bone that each face goes with; skinned bodies cut into closed pieces
     streams      meshes in .stl and .ply files, read in blocks
     density      materials, polynomials, piecewise densities, grids and trivariate splines (Soldea et al., 4 and 5)
     nurbs        B-spline curves and patches (Soldea, Elber and Rivlin, sections 2, 3), Blender's knots
-    offset       walls of real thickness
+    wall         walls of real thickness
     statics      support polygons, resting poses; derivatives by every vertex, the least change that moves the center
     cad          B-spline surfaces of IGES and .obj files, with Blender's knots
     measurement  `Measurement`, all results of one measured object

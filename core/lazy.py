@@ -5,6 +5,7 @@
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from types import ModuleType
 from typing import Any
 
 
@@ -24,3 +25,8 @@ def lazy_names(package: str, **modules: str) -> tuple[Callable[[str], Any], Call
         return value
 
     return load, lambda: names, names
+
+
+def loaded_module(package: ModuleType, name: str) -> Any:
+    """Return a package's module if something has imported it, else None: it remembers nothing of this session yet."""
+    return sys.modules.get("{}.{}".format(package.__name__, name))

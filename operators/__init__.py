@@ -16,5 +16,5 @@ MODULES = (
     *("rig." + name for name in ("measure", "physics", "center")),
     *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",
-    ".blender.session.tracking.staleness",  # is removed first: its last notes need the properties of all others
+    ".blender.session.subscriptions",  # is removed first: its last notes need the properties of all others
 )

@@ -86,8 +86,8 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     from ..command.files import output, own_results
     from ..command.measure.run import Run
     from ..command.options import checks
+    from ..command.options.formats import FORMATS
     from ..command.supervisor import processes
-    from ..core.measurement.documents import FORMATS
 
     checks.check(options)
     run = Run(options, memory=processes.memory_share())
@@ -182,11 +182,11 @@ def _load_settings() -> None:
     """Register the settings of objects, collections and bones if the add-on is not registered."""
     import bpy
 
-    from ..blender.settings import assembly, bone, properties, reference
+    from .. import blender
+    from ..blender.registration import register_modules
 
     if not hasattr(bpy.types.Object, PACKAGE):
-        for part in (properties, assembly, reference, bone):
-            part.register()
+        register_modules(blender.__name__, blender.SETTINGS)
 
 
 def register() -> None:

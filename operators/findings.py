@@ -72,12 +72,6 @@ RESULTS_REMOVED = note(
     "results_removed", "Removed the results of {count} object", "Removed the results of {count} objects"
 )
 NO_RESULTS_TO_REMOVE = note("no_results_to_remove", "The selected objects have no results")
-CANCELED_MEASURING = note("canceled_measuring", "Measuring canceled; nothing was changed")
-PROGRESS_MEASURING = note("progress_measuring", "Measuring: {share:.0%}. Esc to cancel")
-POLL_OBJECT_MODE = note("poll_object_mode", "Switch to Object Mode")
-POLL_SELECT_OBJECTS = note("poll_select_objects", "Select objects")
-POLL_ACTIVE_MEASURABLE = note("poll_active_measurable", "Make a measurable object active")
-POLL_ACTIVE_MESH = note("poll_active_mesh", "Make a mesh object active")
 
 # imports
 
@@ -117,7 +111,6 @@ REFERENCE_STORED = note(
     "Stored the inertia of {count} object about the reference",
     "Stored the inertia of {count} objects about the reference",
 )
-STALE_UNIT_SCALE = warning("stale_unit_scale", "Unit scale changed")
 MEASURED_ONE = note("measured_one", "Measured {object}")
 MEASURED_ONE_WITH_WARNINGS = warning("measured_one_with_warnings", "Measured {object}, with warnings")
 MEASURED_SEVERAL = note("measured_several", "Measured {count} of {total} objects")
@@ -153,9 +146,6 @@ WIRE_WITHOUT_MOMENTS = warning(
 FOURIER_WRITTEN = note(
     "fourier_written", "Wrote {count} frequencies to {file}; the image {image} shows slices of their magnitude"
 )
-CANCELED_FOURIER = note("canceled_fourier", "Fourier transform canceled; nothing was written")
-PROGRESS_LIBRARY = note("progress_library", "Measuring the library: {share:.0%}. Esc to stop")
-CANCELED_LIBRARY = warning("canceled_library", "Stopped. The files measured so far stand in the journal")
 LIBRARY_NOT_STARTED = error("library_not_started", "No process can be started: {error}.")
 LIBRARY_FAILED = error(
     "library_failed", "Measuring the library failed with exit code {code}. Use the command line to see why."
@@ -168,13 +158,6 @@ LIBRARY_MEASURED_WITH_FAILURES = warning(
     "{count} file measured, {failed} without a result; report: {file}",
     "{count} files measured, {failed} of them not or not fully; report: {file}",
 )
-PROGRESS_FOURIER = note("progress_fourier", "Fourier transform: {share:.0%}. Esc to cancel")
-POLL_SELECT_MESHES = note("poll_select_meshes", "Select mesh objects")
-POLL_MEASURE_SELECTED = note("poll_measure_selected", "Measure the selected objects first")
-POLL_MEASURE_SECTION = note("poll_measure_section", "Measure a section first")
-POLL_COMPUTE_MOMENTS = note("poll_compute_moments", "Compute the moments first")
-POLL_ACTIVE_SURFACE = note("poll_active_surface", "Make an object with a surface active")
-POLL_SECTION = note("poll_section", "Select faces in Edit Mode, or a flat mesh, 2D curve or text")
 PANEL_FOURIER_DEFAULT = note("panel_fourier_default", "0 rad/m: from the object's size")
 
 # rig
@@ -215,7 +198,6 @@ SETTINGS_COPIED = note(
     "settings_copied", "Copied the settings to {count} object", "Copied the settings to {count} objects"
 )
 SETTINGS_EQUAL = note("settings_equal", "the settings are equal")
-POLL_SELECT_OTHERS = note("poll_select_others", "Select other objects besides the active one")
 
 # shape
 
@@ -239,19 +221,6 @@ POSE_NOT_A_COPY = warning(
     "pose_not_a_copy",
     "{object}: surfaces at most {maximum:length} apart, {mean:length} on average; not a copy, or cut off",
 )
-SHAPES_COMPARED = note("shapes_compared", "Compared {count} shape", "Compared {count} shapes")
-SHAPE_COUNTS = note("shape_counts", "{counts}")
-SHAPES_COPY = note("shapes_copy", "{count} copy", "{count} copies")
-SHAPES_SCALED_COPY = note("shapes_scaled_copy", "{count} scaled copy", "{count} scaled copies")
-SHAPES_MIRROR = note("shapes_mirror", "{count} mirror image", "{count} mirror images")
-SHAPES_SCALED_MIRROR = note("shapes_scaled_mirror", "{count} scaled mirror image", "{count} scaled mirror images")
-SHAPES_COPY_OR_MIRROR = note("shapes_copy_or_mirror", "{count} copy or mirror image", "{count} copies or mirror images")
-SHAPES_SCALED_COPY_OR_MIRROR = note(
-    "shapes_scaled_copy_or_mirror", "{count} scaled copy or mirror image", "{count} scaled copies or mirror images"
-)
-SHAPES_SIMILAR = note("shapes_similar", "{count} similar")
-NONE_SIMILAR = note("none_similar", "none is similar")
-NEAREST_SHAPE = note("nearest_shape", "nearest is {object}, at {distance:.2e}")
 OBJECT_NOT_IN_VIEW_LAYER = error("object_not_in_view_layer", "No object {object} in the view layer")
 RECORDS_LEFT_OUT = warning("records_left_out", "Left out: {causes}")
 LIBRARY_FILE_UNREADABLE = error("library_file_unreadable", "{file} cannot be read: {error}")
@@ -269,12 +238,6 @@ SYMMETRY_AXES = note(
 SYMMETRY_PLANES = note("symmetry_planes", "{count} mirror plane", "{count} mirror planes")
 SYMMETRY_INVERSION = note("symmetry_inversion", "center of inversion")
 SYMMETRY_NONE = note("symmetry_none", "no symmetry")
-CANCELED_SEARCH = note("canceled_search", "Search canceled; nothing was changed")
-CANCELED_MATCH_POSE = note("canceled_match_pose", "Match Pose canceled; nothing was moved")
-PROGRESS_COMPARING = note("progress_comparing", "Comparing: {share:.0%}. Esc to cancel")
-PROGRESS_SYMMETRY = note("progress_symmetry", "Finding symmetry: {share:.0%}. Esc to cancel")
-POLL_ACTIVE_WANTED = note("poll_active_wanted", "Make an object active to compare with")
-POLL_MATCH_SELECTION = note("poll_match_selection", "Select the objects to move, then the object to match")
 
 # snap
 
@@ -357,11 +320,6 @@ BALANCED = note(
     "Moved {count} vertex by at most {distance:length}; the center of mass went from {start:point} to {end:point}",
     "Moved {count} vertices by at most {distance:length}; the center of mass went from {start:point} to {end:point}",
 )
-POLL_ACTIVE_SELECTED = note("poll_active_selected", "Make an object active and select it")
-POLL_EDIT_VERTICES = note("poll_edit_vertices", "Switch to Edit Mode and select the vertices that may move")
-POLL_VERTICES_OR_GROUP = note(
-    "poll_vertices_or_group", "Select the vertices that may move in Edit Mode, or add a vertex group"
-)
 
 # statics
 
@@ -373,9 +331,6 @@ STABILITY_COMPUTED = note("stability_computed", "{count} of {total} object stand
 OBJECTS_TIP = warning("objects_tip", "{names} tips over", "{names} tip over")
 LAID_ON_GROUND = note("laid_on_ground", "Laid {count} object on the ground", "Laid {count} objects on the ground")
 ALREADY_ON_GROUND = note("already_on_ground", "already on the ground")
-POLL_OBJECT_OR_POSE_MODE = note("poll_object_or_pose_mode", "Switch to Object Mode or Pose Mode")
-PROGRESS_BALANCE = note("progress_balance", "Following the center of mass: {share:percent}. Esc to cancel")
-CANCELED_BALANCE = note("canceled_balance", "Balance Group canceled; nothing was changed")
 NO_SUCH_COLLECTION = error("no_such_collection", "There is no collection “{collection}”. Choose another one.")
 BALANCE_GROUP_WITHOUT_CONTACTS = error(
     "balance_group_without_contacts", "“{collection}” has no object with a surface. Choose another collection."

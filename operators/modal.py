@@ -6,14 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from time import perf_counter
 
 import bpy
 from bpy.types import Context, Event
 
 from ..blender.write import reports
-from ..core.verdict.finding import Finding
 
 # Seconds of work between two of the window's events: the time that the window itself takes, within these limits,
 # to spend half of the time on work if a scene is slow to draw.
@@ -55,8 +53,8 @@ class ModalSteps:
     PROGRESS: for the status bar; it gets the value `share`, the completed share. CANCELED: the report after Esc.
     """
 
-    PROGRESS: Finding
-    CANCELED: Finding
+    PROGRESS: str
+    CANCELED: str
     _steps: Generator[float, None, None]
     _finish: Callable[[Context], set[str]]
     _returned_at = 0.0  # time at which the last step returned control to the window
@@ -82,7 +80,7 @@ class ModalSteps:
     def modal(self, context: Context, event: Event) -> set[str]:
         if event.type == "ESC":
             self._stop_modal(context)
-            reports.report(self, self.CANCELED)
+            reports.report(self, reports.phrase(self.CANCELED))
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
@@ -103,7 +101,7 @@ class ModalSteps:
     def _show_progress(self, context: Context, done: float) -> None:
         context.window_manager.progress_update(done)
         share = done / self._count if self._count else 1.0
-        context.workspace.status_text_set(reports.text(replace(self.PROGRESS, values={"share": share})))
+        context.workspace.status_text_set(reports.phrase(self.PROGRESS, share=share))
 
     def _stop_modal(self, context: Context) -> None:
         self._steps.close()

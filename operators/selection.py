@@ -14,7 +14,7 @@ from ..blender.session.stored import outcome
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
 from ..core.verdict.finding import Finding, finding
-from .findings import LEFT_UNCHANGED, NOTHING_MEASURABLE, NOTHING_TO_DO, POLL_OBJECT_MODE, POLL_SELECT_OBJECTS
+from .findings import LEFT_UNCHANGED, NOTHING_MEASURABLE, NOTHING_TO_DO
 from .modal import progress
 
 
@@ -31,9 +31,9 @@ def selected_measurable(context: Context) -> list[Object]:
 def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
     """Return whether something is selected, in Object Mode unless any mode will do; report why not."""
     if not any_mode and context.mode != "OBJECT":
-        return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+        return reports.unavailable(cls, "Switch to Object Mode")
     if not context.view_layer.objects.selected:
-        return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
+        return reports.unavailable(cls, "Select objects")
     return True
 
 

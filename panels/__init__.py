@@ -7,9 +7,8 @@ They draw stored or cached values and compute nothing.
 
 # The modules that are registered, in this order. A sub-panel comes after its panel; `places.ORDER` sorts them.
 MODULES = (
-    *("manual", "menus", "density.material_menus", "measure.body"),
-    *("measure.inertia", "measure.reference", "density.density", "density.given", "measure.apply", "statics"),
+    *("manual", "menus", "material_menus", "measure.body", "measure.inertia", "density", "statics"),
     *("measure.selection", "assembly", "rig", "measure.advanced"),
-    *("measure.moments", "measure.section", "shape"),  # sub-panels of `measure.advanced`
+    *("measure.section", "shape"),  # sub-panels of `measure.advanced`
     *("overlay.popover", "overlay.draw"),
 )

@@ -10,18 +10,16 @@ from __future__ import annotations
 
 from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
-from ..blender.read.assembly import Root, is_assembly, settings_of
-from ..blender.session.stored import assembly as stored_assembly
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.settings.assembly import Root, is_assembly, settings_of
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.verdict.sentences import severity
 from . import rows
-from .density.given import given_rows
+from .density import given_rows
 from .measure import remedies
-from .measure.numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
-from .settings import setting
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -79,21 +77,21 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     layout.use_property_decorate = False
     settings, target = settings_of(root), "COLLECTION" if isinstance(root, Collection) else "OBJECT"
     column = layout.column()
-    setting(column, settings, "mass_from", expand=True)
+    rows.setting(column, settings, "mass_from", expand=True)
     if settings.mass_from == "MASS":
-        setting(column, settings, "mass", text="Mass (kg)")
+        rows.setting(column, settings, "mass", text="Mass (kg)")
         given_rows(layout, settings)
     button = layout.row()
     button.scale_y = 1.4
     button.operator("object.body_moments_measure_assembly", icon="PHYSICS").target = target
-    numbers = properties.numbers(root)
-    if numbers is None or properties.method_text(root) != "assembly":
+    stored = properties.stored(root)
+    if stored is None or properties.method_text(root) != "assembly":
         return
-    stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
+    units = Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
-    rows.stale_row(layout, context, stored_assembly.stale_reason(root))
+    rows.stale_row(layout, context, stale_reason(root, context.scene))
     remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
-    rows.value(layout, units, "Mass", "mass", stored.body.mass)
+    rows.value(layout, units, "Mass", "mass", stored.mass)
     _tree(layout, context, settings)
     _numbers(layout, units, stored, isinstance(root, Collection))
     remedies.notes(layout, context, "body_moments_assembly_notes", findings)
@@ -131,14 +129,9 @@ def _numbers(layout: UILayout, units: Units, stored: properties.StoredProperties
     column = layout.column(align=True)
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
     rows.quantities(column, units, [entry for entry in entries if entry[-1]])
-    column = layout.column(align=True)
     heading = "Center of Mass (World)" if in_world else "Center of Mass (Object)"
-    rows.heading(column, heading, "length", stored.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
-    column = layout.column(align=True)
-    moments = stored.body.principal.moments
-    rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+    rows.center(layout, units, heading, stored)
+    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
 
 
 class AssemblyPanel:

@@ -6,13 +6,11 @@ from __future__ import annotations
 
 from bpy.types import Context, Panel, PoseBone, UILayout
 
-from ..blender.session.stored import rig as stored_rig
+from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
 from ..blender.write.units import Units
 from . import rows
-from .measure.numbers import AXIS_LABELS, PRINCIPAL_LABELS
 from .places import in_both_places
-from .settings import setting
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -33,12 +31,12 @@ class BonesPanel:
         button = layout.row()
         button.scale_y = 1.4
         button.operator("object.body_moments_measure_bones", icon="BONE_DATA")
-        if not properties.is_stored(armature):
+        if properties.stored(armature) is None:
             return
-        rows.stale_row(layout, context, stored_rig.stale_reason(armature, context.scene))
+        rows.stale_row(layout, context, stale_reason(armature, context.scene))
         units = Units.from_settings(context.scene.unit_settings)
-        stored = [(bone, properties.numbers(bone)) for bone in armature.pose.bones]
-        measured = [(bone, numbers[0][0]) for bone, numbers in stored if numbers is not None]
+        stored = [(bone, properties.stored(bone)) for bone in armature.pose.bones]
+        measured = [(bone, numbers.mass) for bone, numbers in stored if numbers is not None]
         total = sum(mass for _, mass in measured)
         column = layout.column(align=True)
         for bone, mass in measured[:LISTED]:
@@ -75,13 +73,13 @@ class BONE_PT_body_moments(Panel):
         layout.use_property_decorate = False
         settings = bone.body_moments
         column = layout.column()
-        setting(column, settings, "mass_from")
+        rows.setting(column, settings, "mass_from")
         if settings.mass_from == "DENSITY":
-            setting(column, settings, "density", text="Density (kg/m³)")
+            rows.setting(column, settings, "density", text="Density (kg/m³)")
         elif settings.mass_from == "MASS":
-            setting(column, settings, "mass", text="Mass (kg)")
+            rows.setting(column, settings, "mass", text="Mass (kg)")
         rows.button(layout, context, "object.body_moments_measure_bones", "BONE_DATA")
-        rows.stale_row(layout, context, stored_rig.stale_reason(bone.id_data, context.scene))
+        rows.stale_row(layout, context, stale_reason(bone.id_data, context.scene))
         _numbers(layout, context, bone)
 
 
@@ -93,23 +91,14 @@ def _pose_bone(context: Context) -> PoseBone | None:
 
 
 def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
-    numbers = properties.numbers(bone)
-    if numbers is None:
+    stored, units = properties.stored(bone), Units.from_settings(context.scene.unit_settings)
+    if stored is None:
         return
-    stored, units = properties.from_numbers(numbers), Units.from_settings(context.scene.unit_settings)
     column = layout.column(align=True)
-    rows.quantities(column, units, [("Mass", "mass", stored.body.mass), ("Volume", "volume", stored.volume)])
-    column = layout.column(align=True)
-    rows.heading(column, "Center of Mass (Rest Frame)", "length", stored.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", stored.body.center, stored.body.radii_of_gyration.max())
-    column = layout.column(align=True)
-    moments = stored.body.principal.moments
-    rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
-    column = layout.column(align=True)
-    entries = properties.tensor_entries(stored.body.inertia)
-    rows.heading(column, "Inertia, Ixy = −∫xy dm", "inertia", entries)
-    rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+    rows.quantities(column, units, [("Mass", "mass", stored.mass), ("Volume", "volume", stored.volume)])
+    rows.center(layout, units, "Center of Mass (Rest Frame)", stored)
+    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", stored.moments)
+    rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
 
 
 VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones = in_both_places(BonesPanel, "bones")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rows of a narrow panel: values that can be copied, and sentences that wrap.
+"""Rows of a narrow panel: settings, values that can be copied, and sentences that wrap.
 
 Blender translates labels as it draws them: constant labels are passed as in the source, filled ones are translated
 before that (`filled`, `message`). Names, numbers and filled texts are drawn without translation.
@@ -9,18 +9,18 @@ before that (`filled`, `message`). Names, numbers and filled texts are drawn wit
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import blf
 import bpy
-import numpy as np
-from bpy.types import Context, UILayout
+from bpy.types import Context, PropertyGroup, UILayout
 
+from ..blender.write.properties import ENTRIES, StoredProperties
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
-from ..core.verdict.finding import Finding, Severity, finding
-from ..core.verdict.sentences import severity
-from ..operators.measure.copy import OBJECT_OT_body_moments_copy_value
+from ..core.measurement.documents import plain
+from ..core.verdict.finding import Finding, Severity
+from ..core.verdict.sentences import fill, severity
 
 # share of a row that its label takes, one of few letters, and of one
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
@@ -35,7 +35,46 @@ NARROW = 220  # regions below this width have buttons without icons, and heading
 ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
 
 
+AXIS_LABELS, PRINCIPAL_LABELS = ("X", "Y", "Z"), ("1", "2", "3")
+TENSOR_LABELS = tuple("I" + name for name in ENTRIES)
+VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
+BUTTON_MARGIN = "m"  # a letter as wide as what a button has around its text
 Cell = tuple[str, str, str, str]  # label, text, what is copied, its unit
+
+
+def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False) -> None:
+    """Draw a setting with its label, by default its own, in a column: beside it, or above it in a narrow region.
+
+    `expand` puts choices side by side if there is room for their names.
+    """
+    definition = data.bl_rna.properties[name]
+    options = {"text": text} if text else {}
+    narrow = is_narrow(bpy.context)
+    if narrow and definition.type != "BOOLEAN":
+        title(layout, text or definition.name)
+        options = {"text": ""}
+    row = layout.row()
+    row.use_property_split = not narrow
+    if expand:
+        names = [localized(item.name) for item in definition.enum_items]
+        expand = fits(1.0 if narrow else VALUE_SHARE, *(one + BUTTON_MARGIN for one in names))
+    row.prop(data, name, expand=expand, **options)
+
+
+def group(
+    layout: UILayout,
+    units: Units,
+    label: str,
+    labels: Sequence[str],
+    quantity: str,
+    si: Sequence[float],
+    size: float = 0.0,
+) -> UILayout:
+    """Draw a heading, and a row for each value below it; return their column."""
+    column = layout.column(align=True)
+    heading(column, label, quantity, si)
+    values(column, units, labels, quantity, si, size)
+    return column
 
 
 def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
@@ -67,11 +106,27 @@ def values(
     )
 
 
+def center(layout: UILayout, units: Units, label: str, numbers: StoredProperties) -> None:
+    """Draw the center of mass; what is left of a coordinate by rounding, beside the body's size, is 0."""
+    group(layout, units, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
+
+
+def bounds(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float, float]]) -> None:
+    """Draw a row for each (label, quantity, SI error bound, value beside it)."""
+    table(
+        layout,
+        [
+            (label, units.bound(quantity, bound, beside), repr(bound), SI_UNITS[quantity])
+            for label, quantity, bound, beside in entries
+        ],
+    )
+
+
 def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:
     """Draw a heading with a button that copies all values below it."""
     row = layout.row(align=True)
     _title(row, localized(label))
-    _copy(row, repr(np.asarray(si, float).tolist()), SI_UNITS.get(quantity, ""))
+    _copy(row, repr(plain(si)), SI_UNITS.get(quantity, ""))
 
 
 def title(layout: UILayout, label: str) -> None:
@@ -166,7 +221,7 @@ def _right(layout: UILayout, text: str) -> None:
 
 
 def _copy(row: UILayout, exact: str, unit: str) -> None:
-    button = row.operator(OBJECT_OT_body_moments_copy_value.bl_idname, text="", icon="COPYDOWN", emboss=False)
+    button = row.operator("object.body_moments_copy_value", text="", icon="COPYDOWN", emboss=False)
     button.value = exact
     button.unit = unit
 
@@ -208,13 +263,27 @@ def message(layout: UILayout, context: Context, shown: Finding, icon: str = "", 
     sentence(layout, context, text, icon or ICONS[severity(shown)], boxed)
 
 
-def stale_row(layout: UILayout, context: Context, code: str | None) -> None:
+def remark(
+    layout: UILayout,
+    context: Context,
+    text: str,
+    plural: str | None = None,
+    /,
+    icon: str = "INFO",
+    boxed: bool = False,
+    **values: object,
+) -> None:
+    """Draw an interface text, translated, filled and wrapped. plural: the text for a `count` other than 1."""
+    lengths = partial(Units.from_settings(context.scene.unit_settings).text, "length")
+    sentence(layout, context, fill(text, plural, values, localized, lengths), icon, boxed)
+
+
+def stale_row(layout: UILayout, context: Context, reason: str | None) -> None:
     """Draw the reason why numbers are out of date, if any."""
-    if code is not None:
+    if reason is not None:
         row = layout.row()
         row.alert = True
-        reason = localized_sentence(finding(code), context.scene.unit_settings)
-        sentence(row, context, localized("Out of date: {:s}").format(reason), icon="FILE_REFRESH")
+        sentence(row, context, localized("Out of date: {:s}").format(localized(reason)), icon="FILE_REFRESH")
 
 
 def fits(share: float, *cells: str) -> bool:

@@ -6,18 +6,12 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session.tracking import staleness
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import of_symmetry
 from ..blender.write.translations import localized
-from ..core.verdict.finding import finding, truncate
-from ..core.verdict.findings import AND_MORE
+from ..core.verdict.finding import truncate
 from ..core.verdict.sentences import SIMILARITY
 from . import rows
-from .findings import (
-    PANEL_NOTHING_TO_COMPARE,
-    PANEL_SYMMETRY_OF_MOMENTS,
-    PANEL_SYMMETRY_TOLERANCE,
-    PANEL_SYMMETRY_TOLERANCE_OF_DISPLAY_MESH,
-)
 from .places import in_both_places
 
 MAX_SHOWN = 12  # elements of a symmetry, and similar shapes
@@ -59,11 +53,14 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     stored = obj.body_moments_symmetry
     column = layout.column(align=True)
     rows.filled(column, "Symmetry {:s}", stored.group, icon="CHECKMARK")
-    rows.stale_row(column, context, staleness.symmetry_stale_reason(obj))
+    rows.stale_row(column, context, stale_reason(obj, context.scene, of_symmetry))
     if stored.compatible != stored.group:
-        rows.message(column, context, finding(PANEL_SYMMETRY_OF_MOMENTS, group=stored.compatible), icon="BLANK1")
-    code = PANEL_SYMMETRY_TOLERANCE_OF_DISPLAY_MESH if stored.of_display_mesh else PANEL_SYMMETRY_TOLERANCE
-    rows.message(column, context, finding(code, share=stored.tolerance), icon="BLANK1")
+        text = "Moments to order 6 alone allow {group}"
+        rows.remark(column, context, text, icon="BLANK1", group=stored.compatible)
+    text = "The surface matches its images within {share:.2g} of the radius of gyration"
+    if stored.of_display_mesh:
+        text = "The display mesh matches its images within {share:.2g} of the radius of gyration"
+    rows.remark(column, context, text, icon="BLANK1", share=stored.tolerance)
     if not stored.elements:
         return
     header, body = layout.panel("body_moments_symmetry", default_closed=True)
@@ -77,7 +74,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
         rows.filled(column, KINDS[element.kind], element.order)
         rows.direction(column, "", element.direction)
     if more:
-        rows.message(column, context, finding(AND_MORE, count=more), icon="BLANK1")
+        rows.filled(column, "And {:d} more", more)
 
 
 def _similar(layout: UILayout, context: Context) -> None:
@@ -92,7 +89,7 @@ def _similar(layout: UILayout, context: Context) -> None:
     if search.looked_at:
         column.label(text=search.looked_at, icon="FILE", translate=False)
     if not search.found:
-        rows.message(column, context, finding(PANEL_NOTHING_TO_COMPARE))
+        rows.remark(column, context, "Nothing to compare with")
     else:
         row = column.row()
         row.alignment = "RIGHT"

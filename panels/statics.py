@@ -4,18 +4,22 @@
 
 from __future__ import annotations
 
-import numpy as np
+from math import atan2, degrees
+from typing import TYPE_CHECKING
+
 from bpy.types import Context, Object, UILayout
 
-from ..blender.session.stored import stability
+from ..blender.session import stored
+from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write.units import Units
+from ..core.lazy import loaded_module
 from ..core.numerics.float32 import shortest_decimal
-from ..core.statics.resting import RestingPoses
-from ..core.statics.support import Support
-from ..core.verdict.finding import Finding, finding
+from ..core.verdict.finding import Finding
 from . import rows
-from .findings import PANEL_STABILITY_STALE, PANEL_STABILITY_UNKNOWN
 from .places import in_both_places
+
+if TYPE_CHECKING:
+    from ..core.statics.support import Support
 
 MAX_POSES = 6  # limit of the list: round bodies have thousands
 
@@ -29,12 +33,13 @@ class StabilityPanel:
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
         layout.use_property_decorate = False
-        if not stability.is_known(obj):
-            rows.message(layout, context, finding(PANEL_STABILITY_UNKNOWN))
-        elif stability.is_stale(obj):
-            rows.message(layout, context, finding(PANEL_STABILITY_STALE), icon="FILE_REFRESH")
+        stability = loaded_module(stored, "stability")
+        if stability is None or not stability.is_known(obj):
+            rows.remark(layout, context, "Stability has not been computed.")
+        elif stale_reason(obj, context.scene, stability.stamp_of):
+            rows.remark(layout, context, "The geometry has changed. Check again.", icon="FILE_REFRESH")
         rows.button(layout, context, "object.body_moments_stability", "CON_FLOOR", short="Check")
-        support = stability.support(obj, context.scene)
+        support = None if stability is None else stability.support(obj, context.scene)
         if support is not None:
             _support(layout, context, support)
             _poses(layout, context, obj)
@@ -56,8 +61,8 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
     else:
         column.label(text="Tips Over", icon="ERROR")
     margin = support.margin * unit
-    angle = float(np.degrees(support.tipping_angle))
-    toward = float(np.degrees(np.arctan2(support.direction[1], support.direction[0])))
+    angle = degrees(support.tipping_angle)
+    toward = degrees(atan2(support.direction[1], support.direction[0]))
     rows.table(
         column,
         [
@@ -73,11 +78,11 @@ def _degrees(angle: float) -> str:
 
 
 def _poses(layout: UILayout, context: Context, obj: Object) -> None:
-    poses = stability.poses(obj, context.scene)
+    poses = stored.stability.poses(obj, context.scene)
     layout.label(text="Resting Poses")
     if isinstance(poses, Finding):
         rows.message(layout, context, poses)
-    if not isinstance(poses, RestingPoses):
+    if poses is None or isinstance(poses, Finding):
         return
     narrow = rows.is_narrow(context)
     column = layout.column(align=True)
@@ -88,17 +93,17 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
     cell.label(text="Tips at")
     if not narrow:
         cell.label(icon="BLANK1")
-    angles = np.degrees(poses.tipping_angles)
-    for place, (share, angle) in enumerate(zip(poses.shares[:MAX_POSES], angles)):
+    for place, (share, angle) in enumerate(zip(poses.shares[:MAX_POSES], poses.tipping_angles)):
         row = column.row(align=True)
         number = "" if narrow else "{:d}: ".format(place + 1)
         row.label(text="{:s}{:.1f}%".format(number, 100.0 * share), translate=False)
         cell = row.row(align=True)
         cell.alignment = "RIGHT"
-        cell.label(text="{:.1f}°".format(angle), translate=False)
+        cell.label(text="{:.1f}°".format(degrees(angle)), translate=False)
         row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = place + 1
-    if len(angles) > MAX_POSES:
-        rows.filled(column, "{:d} more", len(angles) - MAX_POSES)
+    more = len(poses.tipping_angles) - MAX_POSES
+    if more > 0:
+        rows.filled(column, "{:d} more", more)
     rows.button(layout, context, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
 
 

@@ -39,10 +39,11 @@ def reported(monkeypatch):
 
     found, report = Reported(), reports.report
 
-    def kept(operator, *findings):
-        for finding in findings:
-            found.add(finding)
-        report(operator, *findings)
+    def kept(operator, *parts, **level):
+        for part in parts:
+            if not isinstance(part, str):
+                found.add(part)
+        report(operator, *parts, **level)
 
     monkeypatch.setattr(reports, "report", kept)
     return found

@@ -18,14 +18,13 @@ from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.verdict.finding import Finding, finding
+from ..settings.assembly import Root, is_assembly, settings_of
 from ..settings.given import is_point_mass, shows_collection
 from .findings import BOOLEAN_OPERAND, DISABLED_IN_VIEWPORTS, MEMBER_COUNTED_BEFORE, NOT_RENDERED
 from .instances import MAX_DEPTH
 from .reading import float64_matrix
 from .total_caveats import left_out_reasons, operands_of
 from .visibility import hidden_reason, instanced_by_parent, measurable
-
-Root = Object | bpy.types.Collection
 
 
 class MemberKind(StrEnum):
@@ -71,13 +70,6 @@ class Member:
             yield from member.walk()
 
 
-def is_assembly(data: Root) -> bool:
-    """Return whether it is a collection, or an empty that stands for its children."""
-    return isinstance(data, bpy.types.Collection) or (
-        data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
-    )
-
-
 def members_of(root: Root, depsgraph: Depsgraph) -> Member:
     """Return an assembly, a collection or an empty with children, with all its members, as the scene has them.
 
@@ -86,11 +78,6 @@ def members_of(root: Root, depsgraph: Depsgraph) -> Member:
     if isinstance(root, bpy.types.Collection):
         return _Walk(root.all_objects, depsgraph).collection(root)
     return _Walk((), depsgraph).empty(root)
-
-
-def settings_of(data: Root):
-    """Return the settings of an assembly."""
-    return data.body_moments if isinstance(data, bpy.types.Collection) else data.body_moments_assembly
 
 
 class _Walk:

@@ -14,7 +14,7 @@ from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.numerics.rotations import rotation_matrix
-from ...core.rig import VertexWeights
+from ...core.rig.dominance import VertexWeights
 from ...core.verdict.finding import ReadError
 from .findings import ARMATURE_IN_EDIT_MODE, NO_ACTIVE_ARMATURE
 from .reading import Part, float64_matrix

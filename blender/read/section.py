@@ -41,8 +41,8 @@ from .mesh import from_edit_mesh, mesh_surface
 from .nurbs.curves import read_curves, text_curves
 from .objects import locate, read_object
 from .reading import Reading
+from .visibility import SECTION_TYPES
 
-SECTION_TYPES = {"MESH", "CURVE", "FONT"}
 ZERO_SCALE = 1e-17  # a scale that `decompose()` takes for zero
 
 

@@ -39,6 +39,7 @@ GEOMETRY_TYPES = {
     "VOLUME",
     "GREASEPENCIL",
 }
+SECTION_TYPES = {"MESH", "CURVE", "FONT"}  # objects with faces or curves that may be flat
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
 
 

@@ -4,38 +4,19 @@
 
 from ...core.verdict.finding import error, note, warning
 
-MOMENTS_OVERFLOW_AT_ORIGIN = error(
-    "moments_overflow_at_origin",
-    "About this origin, moments of order {order} exceed the range of numbers. Set About to Center.",
-)
 MASS_MOMENTS_UNKNOWN = error(
     "mass_moments_unknown",
     "Moments of the mass are not available to order {order} for this object. Set Order to 3, or Domain to Volume.",
 )
-MOMENTS_OF_FLAT = error("moments_of_flat", "A flat shape has no volume. Set Domain to Area.")
-INVARIANTS_OF_FLAT = error("invariants_of_flat", "Invariants are those of flat shapes. Set Domain to Area.")
+MOMENTS_OF_AREA_ONLY = error(
+    "moments_of_area_only", "These numbers exist for the area of flat shapes alone. Set Domain to Area."
+)
 INVARIANTS_ORDER = error("invariants_order", "Invariants need order {order}. Set Order, and compute the moments.")
-DENSITY_DEFAULTED = warning("density_defaulted", "No density is set: 1000 kg/m³ was used. Set Density or a material.")
-DENSITY_DEFAULT_KEPT = note(
-    "density_default_kept", "No density is set: 1000 kg/m³ was used. Set Density or a material."
-)
-LINEAR_DENSITY_DEFAULTED = warning(
-    "linear_density_defaulted", "No linear density is set: 1 kg/m was used. Set Linear Density."
-)
-LINEAR_DENSITY_DEFAULT_KEPT = note(
-    "linear_density_default_kept", "No linear density is set: 1 kg/m was used. Set Linear Density."
-)
+DENSITY_DEFAULTED = warning("density_defaulted", "No density is set: {density} was used. Set Density or a material.")
+DENSITY_DEFAULT_KEPT = note("density_default_kept", "No density is set: {density} was used. Set Density or a material.")
 OPEN_OBJECT = error(
     "open_object",
     "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
 )
-STALE_RIG = warning("stale_rig", "Bones, settings or objects changed")
-STALE_MEMBER = warning("stale_member", "A member changed, or was measured anew")
-STALE_MEMBERS = warning("stale_members", "Members were added, removed or moved, or given masses changed")
-STALE_FINGERPRINT = warning("stale_fingerprint", "Fingerprint damaged")
-STALE_SETTINGS = warning("stale_settings", "Settings changed")
-STALE_GEOMETRY = warning("stale_geometry", "Geometry changed")
-STALE_TRANSFORM = warning("stale_transform", "Transform changed")
-STALE_SCALE = warning("stale_scale", "Scale changed")
 ROBOT_WITHOUT_BONES = error("robot_without_bones", "There is no link. Select an armature with what it moves.")
 LEFT_OUT_OF_ROBOT = warning("left_out_of_robot", "{count} of {total} objects are no links: {causes}")

@@ -1,3 +1,28 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Property groups, the options that override them, and their digests."""
+"""Property groups, the options that override them, and their digests.
+
+Its modules are imported at their first use.
+"""
+
+from typing import TYPE_CHECKING
+
+from ...core.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from . import density as density
+    from . import given as given
+    from . import grid as grid
+    from . import grid_values as grid_values
+    from . import limits as limits
+    from . import options as options
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    density="density",
+    given="given",
+    grid="grid",
+    grid_values="grid_values",
+    limits="limits",
+    options="options",
+)

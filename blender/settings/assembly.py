@@ -1,13 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of an assembly, a collection or an empty with its children, and the rows of its tree."""
+"""The settings of masses that are more or less than an object: of assemblies and of pose bones.
 
-import bpy
+An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its settings.
+"""
+
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import PropertyGroup
+from bpy.types import Collection, Object, PoseBone, PropertyGroup
 
-from .given_properties import GivenPartProperties
+from .given import GivenPartProperties, shows_collection
 from .hooks import part_changed
+
+Root = Object | Collection
 
 
 class BodyMomentsAssemblyRow(PropertyGroup):
@@ -61,20 +65,54 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
     active_row: IntProperty(name="Active Member", description="Member that is highlighted in the tree")
 
 
-CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings)
+def is_assembly(data: Root) -> bool:
+    """Return whether it is a collection, or an empty that stands for its children."""
+    return isinstance(data, Collection) or data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
 
 
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.Collection.body_moments = bpy.props.PointerProperty(name="Body Moments", type=BodyMomentsAssemblySettings)
-    bpy.types.Object.body_moments_assembly = bpy.props.PointerProperty(
-        name="Body Moments Assembly", type=BodyMomentsAssemblySettings
+def settings_of(data: Root) -> PropertyGroup:
+    """Return the settings of an assembly."""
+    return data.body_moments if isinstance(data, Collection) else data.body_moments_assembly
+
+
+class BodyMomentsBoneSettings(PropertyGroup):
+    """Settings of the material of a bone's part."""
+
+    mass_from: EnumProperty(
+        name="Specify",
+        description="Where the mass of the bone's part comes from",
+        items=(
+            ("MESH", "Mesh", "The density of each mesh that the part is of"),
+            ("DENSITY", "Density", "A density for what is skinned to the bone; objects parented to it keep theirs"),
+            ("MASS", "Mass", "The mass of the bone's whole part"),
+        ),
+        default="MESH",
+        update=part_changed,
+    )
+    density: FloatProperty(
+        name="Density",
+        description="Density in kg/m³ of what is skinned to the bone, independent of the scene units",
+        default=1000.0,
+        min=0.0,
+        soft_max=25000.0,
+        step=1000,
+        precision=3,
+        update=part_changed,
+    )
+    mass: FloatProperty(
+        name="Mass",
+        description="Mass of the bone's part in kilograms, independent of the scene units",
+        default=1.0,
+        min=0.0,
+        step=10,
+        precision=6,
+        update=part_changed,
     )
 
 
-def unregister() -> None:
-    del bpy.types.Object.body_moments_assembly
-    del bpy.types.Collection.body_moments
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings, BodyMomentsBoneSettings)
+POINTERS = {
+    (Collection, "body_moments"): BodyMomentsAssemblySettings,
+    (Object, "body_moments_assembly"): BodyMomentsAssemblySettings,
+    (PoseBone, "body_moments"): BodyMomentsBoneSettings,
+}

@@ -1,27 +1,32 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The source of an object's density in the settings, if it is not one number."""
+"""The source of an object's density in the settings, if it is not one number, and its digest for the fingerprint."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import bpy
 
-from ...core.density.polynomial import Polynomial, parse_polynomial
+from ...core import density as density_engine
 from ...core.measurement.findings import DENSITY_FROM_VALUE
-from ...core.measurement.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
-    DENSITY_ATTRIBUTE_MISSING,
-    DENSITY_FROM_COEFFICIENTS,
     DENSITY_FROM_POLYNOMIAL,
-    DENSITY_VOLUME_MISSING,
+    DENSITY_SOURCE_MISSING,
     OBJECT_DENSITY_USED,
     OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
+from .given import GivenPart
+from .grid import GridOptions
 from .preferences import default_density
+
+if TYPE_CHECKING:
+    from ...core.density.polynomial import Polynomial
+    from ...core.measurement.measurement import Measurement
 
 # Sources of density from the one value of an object, for all or some of its faces.
 _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
@@ -51,8 +56,8 @@ class DensityField:
 
         A decimal comma shows here as the coefficients it was taken for.
         """
-        code = DENSITY_FROM_COEFFICIENTS if "," in self.text else DENSITY_FROM_POLYNOMIAL
-        return finding(code, polynomial=self.text, frame=self.frame)
+        text = "({}) · (1, x, y, z, …)".format(self.text) if "," in self.text else self.text
+        return finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
@@ -66,13 +71,15 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
         return DensityField("materials")
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
-        return DensityField("polynomial", parse_polynomial(text), settings.density_frame == "WORLD", text)
+        return DensityField(
+            "polynomial", density_engine.parse_polynomial(text), settings.density_frame == "WORLD", text
+        )
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:
-            raise ReadError(DENSITY_VOLUME_MISSING)
+            raise ReadError(DENSITY_SOURCE_MISSING, source="Volume Object")
         return DensityField("volume")
     if not settings.density_attribute:
-        raise ReadError(DENSITY_ATTRIBUTE_MISSING)
+        raise ReadError(DENSITY_SOURCE_MISSING, source="Vertex Attribute")
     return DensityField("attribute", attribute=settings.density_attribute)
 
 
@@ -117,3 +124,42 @@ def density_anchor(obj: bpy.types.Object) -> str:
     if settings.mass_from != "DENSITY" or settings.density_from != "POLYNOMIAL":
         return ""
     return "world" if settings.density_frame == "WORLD" else "own"
+
+
+def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
+    """Return a key of the density of a Volume object.
+
+    density: as for `GridOptions.from_settings`.
+    """
+    grid = GridOptions.from_settings(obj.body_moments, density)
+    return "" if grid.solid else repr(grid.key)
+
+
+def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Scene) -> str:
+    """Return the settings and materials behind the density, as a text; "" for one value, a given mass or a wire.
+
+    used: the full names of the materials that the last measurement met, beside the ones in the object's slots.
+    scene: its default density counts if the object has none.
+    """
+    settings = obj.body_moments
+    given = GivenPart.from_settings(settings, 1.0).key if settings.mass_from == "MASS" else ""
+    if obj.type == "VOLUME":
+        return grid_key(obj) + given
+    if settings.mass_from == "MASS":
+        return given
+    if settings.kind == "WIRE" or settings.density_from == "VALUE":
+        return ""
+    if settings.density_from == "VOLUME":
+        source = settings.density_volume
+        place = None if source is None else [tuple(row) for row in source.matrix_world]
+        return "" if source is None else repr((GridOptions.from_settings(source.body_moments).key, place))
+    if settings.density_from == "POLYNOMIAL":
+        return repr((settings.density_frame, settings.density_polynomial.strip()))
+    if settings.density_from == "ATTRIBUTE":
+        return repr(settings.density_attribute)
+    slots = [slot.material for slot in obj.material_slots]
+    names = {*used, *(material.name_full for material in slots if material)}
+    densities = {
+        material.name_full: material_density(material) for material in bpy.data.materials if material.name_full in names
+    }
+    return repr((object_density(settings, scene), sorted(names), sorted(densities.items())))

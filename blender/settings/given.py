@@ -5,42 +5,83 @@
 Objects and assemblies have these settings alike; they count if the mass is given.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
-import numpy as np
+from bpy.props import BoolProperty, FloatVectorProperty
 from bpy.types import Object, PropertyGroup
-from numpy.typing import NDArray
 
+from ...core.measurement.documents import plain
 from ...core.numerics.float32 import shortest_decimal
+from .hooks import changed
 
 GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_diagonal", "given_inertia_products")
+Row = tuple[float, ...]
+
+
+class GivenPartProperties:
+    """Optional given values beside a mass."""
+
+    use_center: BoolProperty(
+        name="Given Center",
+        description="Enter the center of mass instead of taking that of the geometry",
+        default=False,
+        update=changed,
+    )
+    given_center: FloatVectorProperty(
+        name="Center of Mass",
+        description="Center of mass from the origin, along the axes of the object. Of a collection, in the world",
+        subtype="XYZ",
+        unit="LENGTH",
+        precision=6,
+        update=changed,
+    )
+    use_inertia: BoolProperty(
+        name="Given Inertia",
+        description="Enter the inertia tensor instead of taking that of the geometry with the given mass",
+        default=False,
+        update=changed,
+    )
+    given_inertia_diagonal: FloatVectorProperty(
+        name="Ixx, Iyy, Izz",
+        description=(
+            "Diagonal of the inertia tensor about the center of mass in kg·m², independent of the scene units, along "
+            "the axes of the object. Of a collection, along the world axes"
+        ),
+        min=0.0,
+        precision=6,
+        update=changed,
+    )
+    given_inertia_products: FloatVectorProperty(
+        name="Ixy, Ixz, Iyz",
+        description="Tensor entries off the diagonal in kg·m², independent of the scene units: Ixy = −∫xy dm",
+        precision=6,
+        update=changed,
+    )
 
 
 @dataclass(frozen=True, eq=False)
 class GivenPart:
     """Given values of a part beside its mass, SI, in its own frame; a value is None if it follows from the geometry.
 
-    center: (3,) center of mass, m. inertia: (3, 3) tensor about the center, kg·m².
+    center: (3,) center of mass, m. inertia: (3, 3) rows of the tensor about the center, kg·m².
     """
 
-    center: NDArray[np.float64] | None = None
-    inertia: NDArray[np.float64] | None = None
+    center: Row | None = None
+    inertia: tuple[Row, ...] | None = None
 
     @classmethod
-    def from_settings(cls, settings: PropertyGroup, unit: float) -> GivenPart:
+    def from_settings(cls, settings: PropertyGroup, unit: float) -> "GivenPart":
         """Return the given part of the settings.
 
         unit: meters per Blender unit.
         """
         center = inertia = None
         if settings.use_center:
-            center = _decimals(settings.given_center) * unit
+            center = tuple(unit * shortest_decimal(value) for value in settings.given_center)
         if settings.use_inertia:
-            inertia = np.diag(_decimals(settings.given_inertia_diagonal))
-            xy, xz, yz = _decimals(settings.given_inertia_products)
-            inertia += np.array([[0.0, xy, xz], [xy, 0.0, yz], [xz, yz, 0.0]])
+            xx, yy, zz = map(shortest_decimal, settings.given_inertia_diagonal)
+            xy, xz, yz = map(shortest_decimal, settings.given_inertia_products)
+            inertia = (xx, xy, xz), (xy, yy, yz), (xz, yz, zz)
         return cls(center, inertia)
 
     def __bool__(self) -> bool:
@@ -49,8 +90,7 @@ class GivenPart:
     @property
     def key(self) -> str:
         """Text that changes with the settings, "" if nothing is given."""
-        values = [None if value is None else value.tolist() for value in (self.center, self.inertia)]
-        return repr(values) if self else ""
+        return repr(plain([self.center, self.inertia])) if self else ""
 
 
 def shows_collection(obj: Object) -> bool:
@@ -62,7 +102,3 @@ def is_point_mass(obj: Object) -> bool:
     """Return whether an object without any geometry stands for a part of given mass."""
     settings = getattr(obj, "body_moments", None)  # none where the add-on is not registered
     return obj.type == "EMPTY" and not shows_collection(obj) and settings is not None and settings.mass_from == "MASS"
-
-
-def _decimals(values) -> NDArray[np.float64]:
-    return np.array([shortest_decimal(value) for value in values])

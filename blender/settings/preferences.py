@@ -165,6 +165,3 @@ def _density(settings: PropertyGroup) -> float | None:
     if settings.default_material == "CUSTOM":
         return shortest_decimal(settings.default_density)
     return BY_NAME[settings.default_material].density
-
-
-CLASSES = (BodyMomentsPreferences,)

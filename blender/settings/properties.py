@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings: the material of an object, and the frame of displayed numbers.
+"""The settings of an object's body and of its materials.
 
 They live in property groups (`Object.body_moments`, `Material.body_moments`, `Scene.body_moments`); results live in ID
 properties, never here. The given mass has no unit type: Blender would scale a `unit='MASS'`
@@ -8,22 +8,14 @@ property by scale_length³, while a weighed part weighs the same in all units.
 """
 
 import bpy
-import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 from bpy.types import Context, Material, Object, PropertyGroup, Scene
 
-from ...core.density.density_units import DENSITY_UNITS, density_unit
-from ...core.density.materials import BY_NAME
-from ...core.density.transfer_function import CT_DENSITIES
+from ...core.density.materials import BY_NAME, CT_DENSITIES, DENSITY_UNITS, density_unit
 from ...core.numerics.float32 import shortest_decimal
-from ...core.polyhedron import MAX_ORDER
 from .density import object_density
-from .given import GIVEN_PROPERTIES, is_point_mass
-from .given_properties import GivenPartProperties
+from .given import GIVEN_PROPERTIES, GivenPartProperties, is_point_mass
 from .hooks import changed, density_changed, threshold_changed, wall_changed
-from .overlay import BodyMomentsOverlaySettings
-from .preferences import CLASSES as PREFERENCES
-from .preferences import SceneDefaults
 
 TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Blender's own translations
 
@@ -52,7 +44,9 @@ def _density_changed(settings: PropertyGroup, context: Context) -> None:
 
 def _forget_material(settings: PropertyGroup, _context: Context | None = None) -> None:
     material = BY_NAME.get(settings.material)
-    if settings.material and (material is None or np.float32(material.density) != np.float32(settings.density)):
+    if settings.material and (
+        material is None or shortest_decimal(material.density) != shortest_decimal(settings.density)
+    ):
         settings.material = ""
 
 
@@ -350,63 +344,6 @@ class BodyMomentsMaterialSettings(PropertyGroup):
     )
 
 
-class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
-    """Display settings of the scene's numbers, and initial settings of its objects."""
-
-    overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
-    has_defaults: BoolProperty(
-        name="Has Defaults",
-        description="The add-on's preferences were copied into this scene",
-        options={"HIDDEN"},
-    )
-    units_answered: BoolProperty(
-        name="Units Answered",
-        description="Whether a unit of this scene is a millimeter has been answered",
-        options={"HIDDEN"},
-    )
-    moments_order: IntProperty(
-        name="Order",
-        translation_context=TRANSLATION_CONTEXT,
-        description="Highest p + q + r of the computed moments ∫ x^p y^q z^r",
-        default=4,
-        min=1,
-        max=MAX_ORDER,
-        soft_max=20,
-    )
-    moments_of: EnumProperty(
-        name="Domain",
-        description="What the moments integrate over",
-        items=(
-            ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
-            ("SURFACE", "Surface", "Area of the faces"),
-            ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
-            ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
-        ),
-        default="VOLUME",
-    )
-    moments_about: EnumProperty(
-        name="About",
-        translation_context=TRANSLATION_CONTEXT,
-        description="Point that the coordinates are relative to",
-        items=(
-            ("ORIGIN", "Frame Origin", "Origin of the chosen frame"),
-            ("CENTER", "Center", "Center of the volume or surface: central moments"),
-            (
-                "NORMALIZED",
-                "Center, Normalized",
-                "Central moments of the shape scaled to a volume or area of 1, independent of size",
-            ),
-            (
-                "INVARIANT",
-                "Invariants",
-                "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, then Flusser's",
-            ),
-            ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
-        ),
-        default="ORIGIN",
-    )
-
-
 def density_field_name(scene: Scene) -> str:
     """Return the property of an object's or a material's settings for its density in the scene's unit."""
     return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
@@ -448,26 +385,8 @@ def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
         settings.thickness = options.thickness / shortest_decimal(scene.unit_settings.scale_length)
 
 
-CLASSES = (
-    *PREFERENCES,
-    BodyMomentsOverlaySettings,
-    BodyMomentsObjectSettings,
-    BodyMomentsMaterialSettings,
-    BodyMomentsSceneSettings,
-)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    Object.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsObjectSettings)
-    Material.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsMaterialSettings)
-    Scene.body_moments = PointerProperty(name="Body Moments", type=BodyMomentsSceneSettings)
-
-
-def unregister() -> None:
-    del Scene.body_moments
-    del Material.body_moments
-    del Object.body_moments
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+CLASSES = (BodyMomentsObjectSettings, BodyMomentsMaterialSettings)
+POINTERS = {
+    (Object, "body_moments"): BodyMomentsObjectSettings,
+    (Material, "body_moments"): BodyMomentsMaterialSettings,
+}

@@ -4,9 +4,9 @@
 
 from ...core.verdict.finding import error, warning
 
-LINKED_RESULTS = error("linked_results", "Linked from another file. Make it local to store results.")
-OVERRIDE_RESULTS = error(
-    "override_results", "A library override, which would lose its results. Make it local to store results."
+LINKED_RESULTS = error(
+    "linked_results",
+    "Linked from another file, or an override of something linked, which loses its results. Make it local.",
 )
 STALE_RESULTS = warning("stale_results", "Out of date: the object changed after it was measured. Measure it again.")
 NO_STORED_RESULTS = error("no_stored_results", "No stored results. Measure the object.")

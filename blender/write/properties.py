@@ -11,23 +11,25 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from math import isfinite
+from functools import cached_property, lru_cache
+from math import hypot, isfinite, sqrt
+from typing import TYPE_CHECKING, Any
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
-from ...core.inertia.mass_properties import MassProperties
-from ...core.inertia.principal_frames import PrincipalFrame
-from ...core.measurement.documents import TENSOR
-from ...core.measurement.measurement import UNIFORM_DENSITIES, Measurement
-from ...core.measurement.record import plain
-from ...core.numerics.rotations import quaternion, rotation_matrix
+from ...core import inertia
+from ...core.measurement.documents import TENSOR, plain
+from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.sentences import of_severity, sentence
-from .findings import LINKED_RESULTS, OVERRIDE_RESULTS
+from .findings import LINKED_RESULTS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...core.inertia.mass_properties import MassProperties
+    from ...core.measurement.measurement import Measurement
 
 DESCRIPTIONS = {
     "body_mass": "Mass in kg",
@@ -83,60 +85,121 @@ OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies m
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
 ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
+IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+Vector = tuple[float, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class StoredProperties:
-    """Stored results of an object, SI.
+    """Stored results of an object as plain numbers, SI, in the object frame, or in the world after `in_world`.
 
-    body: in the object frame, or in the world after `in_world`. error_bound: as in `Measurement`.
+    center: (3,). inertia: (6,) in the order of ENTRIES. moments, axes: the (3,) principal moments, and the axes as
+    three vectors. error_bound: as in `Measurement`.
     """
 
+    mass: float
     density: float
     volume: float
     area: float
-    body: MassProperties
-    error_bound: dict
+    center: Vector
+    inertia: Vector
+    moments: Vector
+    axes: tuple[Vector, ...]
+    error_bound: dict[str, Any]
 
-    def in_world(self, matrix_world, unit: float) -> StoredProperties:
+    @classmethod
+    def of_body(
+        cls, body: MassProperties, density: float, volume: float, area: float, error_bound: dict[str, Any]
+    ) -> StoredProperties:
+        """Return the numbers of a body."""
+        center, entries, moments = body.center.tolist(), body.inertia[ROWS, COLUMNS].tolist(), body.principal.moments
+        axes = tuple(map(tuple, body.principal.axes.T.tolist()))
+        return cls(
+            body.mass, density, volume, area, tuple(center), tuple(entries), tuple(moments.tolist()), axes, error_bound
+        )
+
+    @property
+    def gyration(self) -> Vector:
+        """(3,) radii of gyration about the principal axes."""
+        return tuple(sqrt(max(moment, 0.0) / self.mass) if self.mass > 0.0 else 0.0 for moment in self.moments)
+
+    @cached_property
+    def body(self) -> MassProperties:
+        """The same numbers for computing."""
+        xx, yy, zz, xy, xz, yz = self.inertia
+        error, moved = (
+            {"mass": bound["volume"] * self.density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
+            for bound in (self.error_bound, self.error_bound["input"])
+        )
+        return inertia.MassProperties.from_numbers(
+            self.mass,
+            self.center,
+            ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)),
+            self.moments,
+            tuple(zip(*self.axes)),
+            error,
+            moved,
+        )
+
+    def in_world(self, matrix_world: Any, unit: float) -> StoredProperties:
         """Return the results in the world frame.
 
         matrix_world: of the object; unit: meters per Blender unit.
         """
         location, turn, _ = matrix_world.decompose()
-        to_object = rotation_matrix(turn).T
-        origin = -to_object @ np.array(location, np.float64) * unit
-        return replace(self, body=self.body.in_frame(to_object, origin))
+        columns = rotation_axes(turn)
+        xx, yy, zz, xy, xz, yz = self.inertia
+        rows = tuple(zip(*columns))
+        half = [[_dot(row, column) for column in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))] for row in rows]
+        return replace(
+            self,
+            center=tuple(_dot(row, self.center) + unit * along for row, along in zip(rows, location)),
+            inertia=tuple(_dot(half[i], rows[j]) for _, i, j in TENSOR),
+            axes=tuple(tuple(_dot(row, axis) for row in rows) for axis in self.axes),
+        )
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def rotation_axes(turn: Sequence[float]) -> tuple[Vector, ...]:
+    """Return the axes of a rotation, the columns of its matrix, from a quaternion of any length."""
+    length = hypot(*turn)
+    if not length > 0.0:
+        return IDENTITY
+    w, x, y, z = (value / length for value in turn)
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
+        (2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)),
+        (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)),
+    )
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
-    """Write all results on an object, a collection or a pose bone, or none.
+    """Write all results on an object, a collection or a pose bone.
 
     EditRefusedError if it cannot hold them.
     """
     require_storable(obj)
-    body = measurement.mass_properties.in_frame(measurement.rotation, measurement.location)
-    bound = measurement.error_bound
-    numbers = {
-        "body_mass": body.mass,
-        "body_density": measurement.density,
-        "body_volume": measurement.volume,
-        "body_area": measurement.area,
-        "body_center_of_mass": body.center.tolist(),
-        "body_inertia": tensor_entries(body.inertia).tolist(),
-        "body_principal_moments": body.principal.moments.tolist(),
-        "body_principal_axes": quaternion(body.principal.axes).tolist(),
-        "body_error_bound": [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
-    }
-    optional = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
-    numbers |= {key: value for key, value in optional.items() if value is not None}
-    varying = (
-        {}
-        if measurement.density_from in UNIFORM_DENSITIES
-        else {"body_density_from": str(measurement.density_from), "body_materials": "\n".join(measurement.materials)}
+    body, bound = measurement.in_object_frame(), measurement.error_bound
+    row = (
+        body.mass,
+        measurement.density,
+        measurement.volume,
+        measurement.area,
+        body.center.tolist(),
+        tensor_entries(body.inertia).tolist(),
+        body.principal.moments.tolist(),
+        body.principal.quaternion.tolist(),
+        [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
     )
-    texts = {key: value for key, value in varying.items() if value}
-    _replace(obj, numbers | _texts(measurement.method, measurement.findings, measurement.fingerprint) | texts)
+    values: dict[str, Any] = {key: getattr(measurement, key.removeprefix("body_")) for key in OPTIONAL}
+    if measurement.density_from.code not in (DENSITY_FROM_VALUE, DENSITY_FROM_MASS):
+        values["body_density_from"] = str(measurement.density_from)
+        values["body_materials"] = "\n".join(measurement.materials) or None
+    values |= dict(zip(LENGTHS, row)) | _texts(measurement.method, measurement.findings, measurement.fingerprint)
+    _replace(obj, {key: value for key, value in values.items() if value is not None})
     retrigger_drivers(obj)
 
 
@@ -163,7 +226,7 @@ def store_stack(
         body.center,
         body.inertia[:, ROWS, COLUMNS],
         body.principal.moments,
-        quaternion(body.principal.axes),
+        body.principal.quaternion,
         error_bounds.reshape(-1, 8),
     )
     rows = zip(*[column.tolist() for column in columns])
@@ -192,21 +255,26 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
     }
 
 
-def _replace(obj: Owner, values: dict) -> None:
-    """Make these the only results, or leave the earlier ones.
-
-    The tensor is stored in two ways.
-    """
+def _replace(obj: Owner, values: dict[str, Any]) -> None:
+    """Make these the only results, or leave the earlier ones. The tensor is stored in two ways."""
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
-    values = {key: values[key] for key in DESCRIPTIONS if key in values}
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
     before = {key: value.to_list() if hasattr(value, "to_list") else value for key, value in before.items()}
     try:
-        _write(obj, values, before)
+        _write(obj, values)
     except BaseException:
-        _write(obj, before, {})
+        _write(obj, before)
         raise
+
+
+def _write(obj: Owner, values: dict[str, Any]) -> None:
+    """Make these the only results, in the order of their descriptions."""
+    for key in DESCRIPTIONS:
+        if key in values:
+            _set(obj, key, values[key])
+        elif key in obj:
+            del obj[key]
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
@@ -225,24 +293,10 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
     retrigger_drivers(obj)
 
 
-def _write(obj: Owner, values: dict, before: dict) -> None:
-    """Make these values, by their keys, the only results of the object.
-
-    before: the earlier ones, whose descriptions stay if the kind of value does.
-    """
-    for key in DESCRIPTIONS:
-        if key not in values and key in obj:
-            del obj[key]
-    for key, value in values.items():
-        if type(before.get(key)) is type(value):
-            obj[key] = value
-        else:
-            _set(obj, key, value)
-
-
 def _set(obj: Owner, key: str, value: object) -> None:
+    is_new = key not in obj  # otherwise it has its description
     obj[key] = value
-    if not isinstance(value, str):
+    if is_new and not isinstance(value, str):
         obj.id_properties_ui(key).update(description=_description(key, type(obj)), precision=6)
 
 
@@ -267,10 +321,8 @@ def store_reference(obj: Owner, values: dict) -> None:
 def require_storable(obj: Owner) -> None:
     """Raise EditRefusedError for an owner that cannot hold results."""
     data = obj.id_data
-    if not data.is_editable:
+    if not data.is_editable or data.override_library is not None:  # saving drops an override's new ID properties
         raise EditRefusedError(LINKED_RESULTS, subject=data.name_full)
-    if data.override_library is not None:  # Blender drops an override's new ID properties when the file is saved
-        raise EditRefusedError(OVERRIDE_RESULTS, subject=data.name_full)
 
 
 def clear(obj: Owner) -> bool:
@@ -298,7 +350,7 @@ def retrigger_drivers(obj: Owner) -> None:
 
 def is_stored(obj: Owner) -> bool:
     """Return whether the object carries results."""
-    return numbers(obj) is not None
+    return stored(obj) is not None
 
 
 def method(obj: Owner) -> Method | None:
@@ -312,7 +364,7 @@ def method_text(obj: Owner) -> str:
 
 
 def fingerprint(obj: Owner) -> str:
-    """Return the mark of the numbers' inputs (session/marks.py), "" if there is none."""
+    """Return the stamp of the numbers' inputs (session/tracking/stamps.py) as text, "" if there is none."""
     return str(obj.get("body_fingerprint", ""))
 
 
@@ -383,37 +435,23 @@ def density_from(obj: Owner) -> str:
     return str(obj.get("body_density_from", ""))
 
 
-def numbers(obj: Owner) -> tuple[tuple[float, ...], ...] | None:
-    """Return the stored numbers unchanged, in the order of LENGTHS; None if one is missing or not finite."""
-    values = []
+def stored(obj: Owner) -> StoredProperties | None:
+    """Return the stored results, in the object frame; None if a number is missing or not finite."""
+    values: list[Any] = []
     for key, length in LENGTHS.items():
         value = obj.get(key)
         try:
-            row = tuple(float(number) for number in value) if length else (float(value),)
+            row = tuple(map(float, value)) if length else (float(value),)
         except (TypeError, ValueError):  # absent, or overwritten by something else
             return None
         if len(row) != max(length, 1) or not (key == "body_error_bound" or all(map(isfinite, row))):
             return None
-        values.append(row)
-    return tuple(values)
-
-
-def from_numbers(numbers_read: tuple[tuple[float, ...], ...]) -> StoredProperties:
-    """Return the results that `numbers` has read, in the object frame."""
-    (mass,), (density,), (volume,), (area,), center, entries, moments, turn, bounds = numbers_read
-    tensor = np.zeros((3, 3))
-    tensor[ROWS, COLUMNS] = tensor[COLUMNS, ROWS] = entries
-    axes = rotation_matrix(turn) if any(turn) else np.eye(3)
+        values.append(row if length else row[0])
+    *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    frame = PrincipalFrame(np.array(moments), axes, symmetry="", is_unique=False, finding=None)
-    error, moved = (
-        {"mass": bound["volume"] * density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
-        for bound in (rounding, inputs)
-    )
-    body = MassProperties(mass, np.array(center), tensor, frame, error, moved)
-    return StoredProperties(density, volume, area, body, {**rounding, "input": inputs})
+    return StoredProperties(*numbers, rotation_axes(turn), {**rounding, "input": inputs})
 
 
-def tensor_entries(tensor: NDArray) -> NDArray[np.float64]:
-    """Return (6,) a (3, 3) tensor in the order of ENTRIES."""
+def tensor_entries(tensor: NDArray) -> NDArray:
+    """Return a (3, 3) tensor as (6,) in the order of ENTRIES."""
     return tensor[ROWS, COLUMNS]

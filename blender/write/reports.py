@@ -1,31 +1,43 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings as operators show them: reports, reasons why a button is off, the status bar.
+"""Texts of operators: reports, reasons why a button is off, the status bar.
 
-Sentences are in the language of the interface and lengths in the scene's units.
+A text of the interface is an English template at the place where it is shown; `phrase` translates and fills it.
+Findings are shown by their sentences. Both are in the language of the interface, with lengths in the scene's units.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any, TypeVar
 
 import bpy
 from bpy.types import Operator
 
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
-from ...core.verdict.sentences import sentence, severity
+from ...core.verdict.sentences import fill, sentence, severity
 from .findings import FAILURE, REFUSED
 from .units import Units
 
 MAX_REPORTED = 3  # findings of one kind that a report names before it only counts
 LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "ERROR"}
+Shown = TypeVar("Shown", bound=Finding | str)
 
 
-def text(*findings: Finding) -> str:
-    """Return the sentences of findings, one after the other."""
+def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
+    """Return an interface text, translated and filled with values as sentences of findings are.
+
+    plural: the template for a `count` other than 1.
+    """
+    return fill(template, plural, values, bpy.app.translations.pgettext_rpt, _length)
+
+
+def text(*parts: Finding | str) -> str:
+    """Return the sentences of findings and finished texts, one after the other."""
     joined = ""
-    for added in [sentence(shown, bpy.app.translations.pgettext_rpt, _length) for shown in findings]:
+    for part in parts:
+        added = part if isinstance(part, str) else sentence(part, bpy.app.translations.pgettext_rpt, _length)
         between = " " if joined.endswith(".") else ". " if added.endswith(".") else "; "
         joined += between + added if joined else added
     return joined
@@ -35,25 +47,26 @@ def _length(meters: float) -> str:
     return Units.from_settings(bpy.context.scene.unit_settings).text("length", meters)
 
 
-def _rank(shown: Finding) -> int:
-    return tuple(Severity).index(severity(shown))
+def _rank(part: Finding | str) -> Severity:
+    return Severity.NOTE if isinstance(part, str) else severity(part)
 
 
-def report(operator: Operator, *findings: Finding) -> None:
-    """Report findings at once, as severe as the most severe of them."""
-    worst = findings[0] if len(findings) == 1 else max(findings, key=_rank)
-    operator.report({LEVELS[severity(worst)]}, text(*findings))
+def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> None:
+    """Report texts and findings at once, as severe as the most severe finding. level: the severity of the texts."""
+    worst = max(level, *map(_rank, parts), key=[*Severity].index)
+    operator.report({LEVELS[worst]}, text(*parts))
 
 
-def unavailable(operator: type[Operator], reason: Finding) -> bool:
-    """Return False from `poll`, with this reason."""
-    operator.poll_message_set(text(reason))
+def unavailable(operator: type[Operator], reason: str) -> bool:
+    """Return False from `poll`, with the reason, a text in English."""
+    operator.poll_message_set(phrase(reason))
     return False
 
 
-def first(findings: Sequence[Finding]) -> list[Finding]:
-    """Return the first of the most severe findings, and how many more there are."""
-    return truncate_findings(sorted(findings, key=_rank, reverse=True), MAX_REPORTED)
+def first(parts: Sequence[Shown]) -> list[Shown | Finding]:
+    """Return the first of the most severe findings or texts, and the number of the others."""
+    ranked = sorted(parts, key=lambda part: [*Severity].index(_rank(part)), reverse=True)
+    return truncate_findings(ranked, MAX_REPORTED)
 
 
 def failure(name: str, reason: Finding | Exception) -> Finding:

@@ -11,15 +11,18 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from math import degrees
+from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 
-from ...core.flat.section import Plane, Section
+from ...core import flat
 from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.sentences import sentence, severity
 from .properties import findings_in, findings_text, warning_lines
 from .units import rounded_up
+
+if TYPE_CHECKING:
+    from ...core.flat.section import Section
 
 KEY = "body_section"
 BOUND_KEYS = ("area", "perimeter", "centroid", "second")
@@ -86,6 +89,16 @@ def fingerprint(obj: bpy.types.Object) -> str:
     return str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
 
 
+def unit(obj: bpy.types.Object) -> float | None:
+    """Return the unit scale of the stored section, in meters; None if it is damaged."""
+    group = obj.get(KEY)
+    try:
+        (meters,) = group["unit"]
+    except (KeyError, TypeError, ValueError):
+        return None
+    return float(meters)
+
+
 def stored(obj: bpy.types.Object) -> StoredSection | None:
     """Return the stored section; None if there is none, or something else under its name."""
     group = obj.get(KEY)
@@ -112,14 +125,12 @@ def clear(obj: bpy.types.Object) -> bool:
 @lru_cache(maxsize=64)
 def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
     values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
-    plane = Plane(np.array(values["origin"]), np.array(values["axes"]).reshape(3, 3).T, values["off"][0], named)
-    section = Section(
-        plane,
+    axes = values["axes"]
+    section = flat.Section.from_numbers(
+        (values["origin"], (axes[0::3], axes[1::3], axes[2::3]), values["off"][0], named),
         values["area"][0],
         values["perimeter"][0],
-        np.array(values["centroid"]),
-        np.array(values["second"]),
-        np.array(values["reach"]),
+        (values["centroid"], values["second"], values["reach"]),
         int(values["counts"][0]),
         int(values["counts"][1]),
         dict(zip(BOUND_KEYS, values["error"])),
@@ -128,7 +139,7 @@ def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -
     return StoredSection(section, what, findings_in(findings), fingerprint, values["unit"][0])
 
 
-def text(name: str, section: StoredSection, outdated: Finding | None = None) -> str:
+def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
     """Return a report that a person reads, in SI units.
 
     outdated: the reason why the section no longer holds.
@@ -136,14 +147,14 @@ def text(name: str, section: StoredSection, outdated: Finding | None = None) -> 
     return "\n".join(_lines(name, section, outdated)) + "\n"
 
 
-def _lines(name: str, stored_section: StoredSection, outdated: Finding | None) -> Iterator[str]:
+def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> Iterator[str]:
     section, plane = stored_section.section, stored_section.section.plane
     x, y, normal = plane.axes.T
     yield "Section properties, SI units, world frame"
     yield ""
     yield name
     if outdated:
-        yield _line("Out of date", str(outdated))
+        yield _line("Out of date", outdated)
     yield _line(
         "Measured",
         "{}; outer outlines {}, holes {}".format(stored_section.description, section.outlines, section.holes),

@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from ...core.inertia.mass_properties import MassProperties, combine
-from ...core.measurement.documents import TENSOR, document
+from ...core.measurement.documents import TENSOR, document, plain
 from ...core.measurement.plain_text import visible
-from ...core.measurement.record import described, plain
+from ...core.measurement.record import described
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Verdict
@@ -60,11 +60,10 @@ def stored_document(
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []
     for obj in objects:
-        numbers = properties.numbers(obj)
-        if numbers is None:
+        stored = properties.stored(obj)
+        if stored is None:
             errors.append({"name": obj.name, "reason": ReadError(NO_STORED_RESULTS).reason})
             continue
-        stored = properties.from_numbers(numbers)
         world = stored.in_world(obj.matrix_world, unit)
         bodies.append(world.body)
         entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))
@@ -211,13 +210,13 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
         "method": properties.method_text(obj),
         "density": stored.density,
         **({"density_from": source} if source else {}),
-        "mass": stored.body.mass,
+        "mass": stored.mass,
         "volume": stored.volume,
         "area": stored.area,
-        "center_of_mass": stored.body.center,
+        "center_of_mass": stored.center,
         "inertia": stored.body.inertia,
-        "principal_moments": stored.body.principal.moments,
-        "principal_axes": stored.body.principal.axes,
+        "principal_moments": stored.moments,
+        "principal_axes": tuple(zip(*stored.axes)),
         "symmetry": None,
         "health": {},
         "error_bound": {**stored.error_bound, **({"estimated": True} if properties.is_estimated(obj) else {})},
@@ -225,7 +224,7 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
     }
     length, display = (properties.optional(obj, key) for key in properties.OPTIONAL)
     if length is not None:
-        entry |= {"length": length, "linear_density": stored.body.mass / length}
+        entry |= {"length": length, "linear_density": stored.mass / length}
     if display is not None:
         entry["display_mesh"] = {"volume": display, "difference": display - stored.volume}
     return plain(entry)

@@ -5,12 +5,16 @@
 Blender itself looks up labels, tooltips and texts without placeholders. Everything with placeholders goes through
 `localized` or `localized_sentence`, and is drawn with `translate=False`. Stored texts and records stay English.
 
-The translations are `locale/*.po`, by the English text. Only the file of the interface's language is read.
+The translations are `locale/*.po`, by the English text, in gettext's format, which the tools of translators write. Only
+the file of the interface's language is read.
 """
 
 from __future__ import annotations
 
+import json
+import re
 import sys
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -20,13 +24,36 @@ from bpy.app.handlers import persistent
 
 from ...core.verdict.finding import Finding
 from ...core.verdict.sentences import sentence
-from .po import read_po
 from .units import Units
 
 ADDON_ID = __name__.removesuffix(".blender.write.translations")
 FOLDER = Path(sys.modules[ADDON_ID].__path__[0]) / "locale"
 # Words that mean something else in Blender's own translations, such as Frame and Order, are looked up under this.
 CONTEXT = "Body Moments"
+
+# A field with the first part of its text, or a further part of it on a line of its own.
+_PART = re.compile(r'(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)?\s*(".*")\s*')
+_FUZZY = re.compile(r"^#,.*\bfuzzy\b", re.MULTILINE)  # a tool's guess that no translator has confirmed
+
+
+def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
+    """Yield (context or None, English text, translation) of each singular and plural that is translated.
+
+    Blender looks up singular and plural as two texts, so that the plural takes the language's last form.
+    """
+    for block in re.split(r"\n\s*\n", path.read_text(encoding="utf-8")):
+        if _FUZZY.search(block):
+            continue
+        entry: dict[str, str] = {}
+        field = ""
+        for part in filter(None, map(_PART.fullmatch, block.splitlines())):
+            field = part[1] or field
+            entry[field] = entry.get(field, "") + json.loads(part[2], strict=False)
+        forms = [entry[name] for name in entry if name.startswith("msgstr")]
+        for english in filter(None, (entry.get("msgid"), entry.get("msgid_plural"))):
+            translation = forms[0] if english == entry["msgid"] else forms[-1]
+            if translation:
+                yield entry.get("msgctxt"), english, translation
 
 
 def read_translations(locale: str) -> dict[tuple[str, str], str]:

@@ -12,10 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, Context
 from math import isfinite
 
-from ...core.density.density_units import DENSITY_UNITS, FOOT, POUND, density_unit
+from ...core.density.materials import DENSITY_UNITS, FOOT, POUND, density_unit
 from ...core.numerics.float32 import shortest_decimal
 
 LENGTHS = {
@@ -72,7 +71,6 @@ SI_UNITS = {
     "area_moment": "m⁴",
 }
 DIGITS = 6
-UPWARD = Context(prec=2, rounding=ROUND_CEILING)
 GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # separators of groups of three digits
 MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
@@ -174,7 +172,11 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
 
 def rounded_up(bound: float) -> float:
     """Return a bound rounded up to two digits: a bound that is rounded down is none."""
-    return float(UPWARD.create_decimal(repr(float(bound))))
+    text = "{:.1e}".format(bound)
+    if not float(text) < bound:
+        return float(text)
+    mantissa, _, exponent = text.partition("e")
+    return float("{:.1f}e{:s}".format(float(mantissa) + 0.1, exponent))
 
 
 def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:

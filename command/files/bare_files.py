@@ -99,7 +99,7 @@ class BareFile:
             raise QueryError(STREAM_OPTIONS, options=["--" + one.replace("_", "-") for one in given])
         findings = [*unit_findings(self.path, options.unit_scale)]
         if options.density is None and options.mass is None and options.material is None:
-            findings.append(finding(DENSITY_DEFAULTED))
+            findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
         findings += unused_array_options(options)
         wanted = replace(measure_options, unit_scale=options.unit_scale)
         return measure_mesh_file(self.path, name, wanted, tuple(findings), progress)

@@ -26,9 +26,10 @@ import addon_utils
 import bpy
 
 from ...core.scans import formats as scans
-from ...core.scans.findings import DAMAGE_ARCHIVE, FILE_MISSING, FILE_NOT_REGULAR
+from ...core.scans.findings import DAMAGE_INCOMPLETE, FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
 from ...core.scans.scan import damaged
-from ...core.streams.findings import FILE_TYPE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS, STL_CUT_SHORT, STL_SIZE
+from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS, STL_CUT_SHORT
+from ...core.streams.stl_text import BY_COUNT, BY_WORD
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import (
     FILE_EMPTY,
@@ -108,7 +109,7 @@ def _opened(path: str) -> Opened:
         raise FileError(IMPORT_FAILED, error=reason(error)) from error
     unresolved = (finding(MISSING_REFERENCES, names=missing),) if missing else ()
     if not bpy.context.scene.objects:
-        raise FileError(unresolved[0] if unresolved else finding(FILE_WITHOUT_OBJECTS, suffix=kind))
+        raise FileError(unresolved[0] if unresolved else finding(FILE_WITHOUT_OBJECTS, content="objects"))
     return found if isinstance(found, Opened) else Opened(unresolved)
 
 
@@ -190,7 +191,7 @@ def _check_usdz(path: Path, size: int) -> None:
                     while file.read(1 << 20):
                         pass
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
-        raise damaged(path, DAMAGE_ARCHIVE, error=str(error).rstrip(".")) from error
+        raise damaged(path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")) from error
 
 
 def _check_stl(head: bytes, tail: bytes, size: int) -> None:
@@ -201,9 +202,9 @@ def _check_stl(head: bytes, tail: bytes, size: int) -> None:
     if len(head) == 84 and size == 84 + 50 * struct.unpack_from("<I", head, 80)[0]:
         return
     if not head.lstrip().lower().startswith(b"solid"):
-        raise FileError(STL_SIZE)
+        raise FileError(STL_CUT_SHORT, end=BY_COUNT)
     if b"endsolid" not in tail.lower():
-        raise FileError(STL_CUT_SHORT)
+        raise FileError(STL_CUT_SHORT, end=BY_WORD)
 
 
 def reason(error: Exception) -> str:

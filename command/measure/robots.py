@@ -19,13 +19,13 @@ import bpy
 from ...blender.read.robots import link_entry, object_entry
 from ...blender.session.robots import SceneLinks, bone_links, collection_links
 from ...blender.settings.options import MeasureOptions
-from ...core.measurement.documents import ROBOT_FORMATS
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
-from ...core.robots.from_records import robot_name, robot_of_document
+from ...core.robots.formats import FORMATS
+from ...core.robots.from_records import robot_name, robot_of_records
 from ...core.robots.model import Robot
-from ...core.robots.write.formats import robot_text, with_geometry
 from ...core.robots.write.shapes import with_primitives
+from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ...core.verdict.sentences import sentence, severity
 from ..files.output import is_stream
@@ -48,7 +48,7 @@ def complete(
     Prints the findings of the format to the standard error. measure_options: the options of the measurements.
     is_opened: whether the file is the open scene, with its collections and bones.
     """
-    if options.format not in ROBOT_FORMATS:
+    if options.format not in FORMATS:
         return document
     if options.links == "object" or not is_opened:
         made = _by_object(document, measured, measure_options)
@@ -78,7 +78,7 @@ def _by_object(
     for entry in document["objects"]:
         if entry["name"] in links:
             entry["link"] = links[entry["name"]]
-    robot, findings = robot_of_document(document)
+    robot, findings = robot_of_records(robot_name(document["file"]), document["objects"])
     unit = measure_options.meters_per_unit(bpy.context.scene)
     return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
 

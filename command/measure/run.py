@@ -22,7 +22,7 @@ from ...blender.bodies.measure_object import THREADS, Measured
 from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.total_caveats import boolean_operands, open_body_caveats, total_caveats
 from ...blender.read.tracking import tracking_paused
-from ...blender.session.findings import DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULTED
+from ...blender.session.findings import DENSITY_DEFAULTED
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
@@ -276,10 +276,8 @@ class Run:
         if self.options.density is not None or self.options.mass is not None or self.options.material is not None:
             return
         unset = unset_density(obj, measurement, bpy.context.scene)
-        if unset == "density":
-            yield finding(DENSITY_DEFAULTED)
-        elif unset is not None:
-            yield finding(LINEAR_DENSITY_DEFAULTED)
+        if unset is not None:
+            yield finding(DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³")
 
     def _open(self, path: str | None, file: str | None) -> Opened:
         """Open the file, if one is given, and return the findings."""

@@ -23,8 +23,9 @@ from pathlib import Path
 from typing import Any
 
 from ...core.files.file_lock import Busy, beside, locked
-from ...core.measurement.documents import FORMATS, ROBOT_FORMATS, failed_document
+from ...core.measurement.documents import failed_document
 from ...core.measurement.plain_text import PROGRAM, print_message
+from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from .. import interruption
 from ..files import output, own_results
@@ -45,6 +46,7 @@ from ..findings import (
 )
 from ..options import targets
 from ..options.arguments import as_record, fail, of_numbers
+from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
 from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, is_journal, state

@@ -12,7 +12,7 @@ import argparse
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ...core.measurement.documents import ROBOT_FORMATS
+from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import finding
 from ..findings import (
     ROBOT_ONE_FILE,
@@ -37,7 +37,6 @@ _OF_RUNS = {
     *("command", "files", "format", "output", "force", "forced", "jobs", "timeout", "memory_mb", "range", "manifest"),
     *("resume", "no_supervisor", "blender", "errors_exit_0"),
 }
-_BINARY_SUFFIXES = {"gltf": (".glb",), "usd": (".usdc", ".usdz")}  # readers take no text in files of these names
 _PATHS = ("output", "fourier", "q", "manifest")
 _TRIPLES = ("spacing", "origin", "about")
 
@@ -60,7 +59,8 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         given = [name for name in of_bodies if getattr(options, name) is not None]
         if options.links == "bone" and given:
             fail(finding(USAGE_LINKS_OF_BONES, option=given[0]))
-        if options.output is not None and options.output.suffix.lower() in _BINARY_SUFFIXES.get(options.format, ()):
+        binary = ROBOT_FORMATS[options.format].binary_suffixes
+        if options.output is not None and options.output.suffix.lower() in binary:
             fail(finding(USAGE_TEXT_FORMAT, format=options.format))
     if options.surface_moments and options.order is None:
         options.order = DEFAULT_ORDER

@@ -10,9 +10,11 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ...core.measurement.documents import FORMATS, FRAMES
+from ...core.measurement.documents import FRAMES
+from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ..parser import Parser
 from . import option_types as types
+from .formats import FORMATS
 
 DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
 DEFAULT_TIMEOUT = 1800.0  # seconds for one file
@@ -218,7 +220,7 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
     add(
         "--inertial-only",
         action="store_true",
-        help="urdf, sdf, mjcf, usd, gltf: the links with their inertials alone, without geometry, places and joints",
+        help=", ".join(ROBOT_FORMATS) + ": the links with their inertials alone, without geometry, places and joints",
     )
     add(
         "--links",

@@ -7,7 +7,6 @@ from __future__ import annotations
 import argparse
 import math
 
-from ...core.measurement.documents import FORMATS
 from ...core.verdict.finding import finding
 from ...core.verdict.number_text import parse_number, parse_whole
 from ..findings import (
@@ -25,6 +24,7 @@ from ..findings import (
     USAGE_RANGE,
     USAGE_SPLINE_ORDER,
 )
+from .formats import FORMATS
 
 # Equal to the values in the core, which needs numpy: the process that supervises others may have none.
 MAX_ORDER = 30

@@ -16,16 +16,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..nurbs.patch import Patch
+from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import (
     CURVES_LEFT_OUT,
-    SURFACE_FLATTENED,
-    SURFACE_OF_UNSUPPORTED,
-    SURFACE_RECURSIVE,
+    SURFACE_DAMAGED,
     SURFACE_TRIMMED,
-    SURFACE_TYPE_UNSUPPORTED,
+    SURFACE_UNSUPPORTED,
     SURFACES_HIDDEN,
-    TOO_MANY_SURFACES,
 )
 from .iges_text import Entry, IgesText, integers, numbers, padded
 from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
@@ -33,6 +31,7 @@ from .trims import Piece, trims_nothing
 
 MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
 MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
+RECURSION = "references to itself, or nested too deeply"
 MAX_PIECES = 10_000  # pieces of the boundary of a surface
 # Surfaces and solids that Blender's surfaces are not, by the names of the specification. What is missing here is no
 # surface: curves, points, annotation, structure.
@@ -105,11 +104,11 @@ class _Reader:
         """Return the patches of an entity in its place. above: (4, 4) by the subfigures that it is in, path."""
         kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
-            self._refusals.add(SURFACE_TYPE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name)
+            self._refusals.add(SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind)
             return []
         self._placed += 1
         if self._placed > MAX_SURFACES:
-            raise FileError(TOO_MANY_SURFACES, limit=MAX_SURFACES)
+            raise FileError(FILE_TOO_LARGE, limit=MAX_SURFACES, content="surfaces")
 
         def make() -> list[Patch]:
             if entry.type == INSTANCE:
@@ -124,7 +123,7 @@ class _Reader:
         x, y, z, scale = numbers(padded(fields[1:], 4))
         definition = self._entry(pointer, DEFINITION)
         if pointer in path or len(path) >= MAX_DEPTH:
-            raise SurfaceRefusedError(SURFACE_RECURSIVE)
+            raise SurfaceRefusedError(SURFACE_DAMAGED, fault=RECURSION)
         local = np.diag([*[scale or 1.0] * 3, 1.0])
         local[:3, 3] = x, y, z
         matrix = above @ self._matrix(entry) @ local @ self._matrix(definition)
@@ -149,7 +148,7 @@ class _Reader:
             pointer = chain[-1].matrix
         known = self._matrices.get(pointer)
         if known is None:
-            raise SurfaceRefusedError(SURFACE_RECURSIVE)
+            raise SurfaceRefusedError(SURFACE_DAMAGED, fault=RECURSION)
         for one in reversed(chain):
             rows = numbers(self._text.fields(one)[:12])
             matrix = np.eye(4)
@@ -157,7 +156,7 @@ class _Reader:
             known = known @ matrix
             self._matrices[one.number] = known
         if not abs(np.linalg.det(known[:3, :3])) > 0.0:
-            raise SurfaceRefusedError(SURFACE_FLATTENED)
+            raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a transformation that flattens")
         return known
 
     def _surface(self, entry: Entry, above: NDArray) -> list[Patch]:
@@ -171,7 +170,7 @@ class _Reader:
         pointer, has_outer, holes = integers(fields, 3)
         base = self._entries[pointer]
         if base.type != SURFACE:
-            raise SurfaceRefusedError(SURFACE_OF_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
+            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
         spline = _Spline(self._text.fields(base))
         if holes or has_outer and not self._trims_nothing(fields, pointer, spline):
             raise SurfaceRefusedError(SURFACE_TRIMMED)

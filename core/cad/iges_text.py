@@ -16,9 +16,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..verdict.finding import FileError, finding
-from .findings import IGES_DAMAGED, IGES_DIRECTORY, IGES_GLOBAL_SECTION, IGES_NOT_ASCII, IGES_UNIT, IGES_UNRECOGNIZED
+from ..scans.findings import FILE_UNRECOGNIZED
+from ..verdict.finding import FileError
+from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
 
+FORMAT = "IGES (fixed ASCII form)"
 LINE = 80  # columns
 SECTION = 72  # column of the letter of a line's section
 PARAMETERS = 64  # columns that parameters may take
@@ -63,20 +65,21 @@ class IgesText:
             if letter in ("B", "C") and not sections["S"]:
                 raise FileError(IGES_NOT_ASCII)
             if letter not in sections:
-                raise FileError(IGES_UNRECOGNIZED)
+                raise FileError(FILE_UNRECOGNIZED, format=FORMAT)
             sections[letter].append(line)
         if not (sections["G"] and sections["D"] and sections["P"]):
-            raise FileError(IGES_UNRECOGNIZED)
+            raise FileError(FILE_UNRECOGNIZED, format=FORMAT)
         self._lines = sections["P"]
-        self._delimiter, self._end, fields = _global_fields("".join(line[:SECTION] for line in sections["G"]))
-        self.unit = _unit(fields)
+        text = "".join(line[:SECTION] for line in sections["G"])
+        try:
+            self._delimiter, self._end, fields = _global_fields(text)
+            self.unit = _unit(fields)
+        except ValueError:
+            raise FileError(IGES_DAMAGED, section="global section", text=text[:LINE]) from None
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
-        """Return the parameters of an entity, behind its type, texts without their length.
-
-        ValueError if they end too early, or are another entity's.
-        """
+        """Return the parameters of an entity, behind its type. ValueError if they end too early, or are another's."""
         first, count = entry.parameters
         start, end = first - 1, first - 1 + count
         if not 0 <= start < end <= len(self._lines):
@@ -96,38 +99,28 @@ def _lines(text: str) -> list[str]:
     return [line for line in lines if line.strip("\0 \x1a")]
 
 
-def _damaged(code: str, **values: object) -> FileError:
-    return FileError(IGES_DAMAGED, cause=finding(code, **values).as_record())
-
-
 def _global_fields(text: str) -> tuple[str, str, list[str]]:
-    """Return the delimiter of parameters, the end mark, and the parameters from the third on."""
+    """Return the delimiter of parameters, the end mark, and the parameters from the third on. Raises ValueError."""
     delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
     if not rest.startswith(delimiter):
-        raise _damaged(IGES_GLOBAL_SECTION)
+        raise ValueError("no delimiter")
     rest = rest[1:]
     end, rest = (rest[2:3], rest[3:]) if rest.startswith("1H") else (";", rest)
     if not rest.startswith((delimiter, end)) or delimiter == end:
-        raise _damaged(IGES_GLOBAL_SECTION)
-    try:
-        return delimiter, end, _split(rest[1:], delimiter, end)
-    except ValueError:
-        raise _damaged(IGES_GLOBAL_SECTION) from None
+        raise ValueError("no end mark")
+    return delimiter, end, _split(rest[1:], delimiter, end)
 
 
 def _unit(fields: list[str]) -> float:
-    """Return the meters for a unit of the model."""
+    """Return the meters for a unit of the model. ValueError if its scale or its number is not possible."""
     scale_word, flag_word, name = padded(fields[10:], 3)
-    try:
-        scale = float(numbers([scale_word])[0]) or 1.0
-        flag = _integer(flag_word) or 1
-    except ValueError:
-        raise _damaged(IGES_GLOBAL_SECTION) from None
+    scale = float(numbers([scale_word])[0]) or 1.0
+    flag = _integer(flag_word) or 1
     unit = UNIT_NAMES.get(name.strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
     if unit is None:
         raise FileError(IGES_UNIT, unit=name.strip() or str(flag))
     if not 0.0 < unit / scale < math.inf:
-        raise _damaged(IGES_GLOBAL_SECTION)
+        raise ValueError("scale")
     return unit / scale
 
 
@@ -147,7 +140,8 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
                 words[16].strip(),
             )
         except (ValueError, IndexError):
-            raise _damaged(IGES_DIRECTORY, number=number) from None
+            text = "".join(lines[number - 1 : number + 1])
+            raise FileError(IGES_DAMAGED, section="directory", text=text[: 2 * LINE]) from None
     return entries
 
 
@@ -194,10 +188,7 @@ def padded(fields: list[str], count: int) -> list[str]:
 
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:
-    """Return the real numbers of the fields, with Fortran's exponents, 0 if a field is blank.
-
-    ValueError if a field is no number.
-    """
+    """Return the real numbers of fields, with Fortran's exponents, 0 for blank ones. ValueError if one is no number."""
     text = "\n".join(fields)
     if not _NUMBERS.fullmatch(text):
         raise ValueError("not a number")

@@ -18,9 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..nurbs.patch import Patch
+from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
-from .findings import OBJ_CALL, SURFACE_OF_UNSUPPORTED, SURFACE_ORDER, SURFACE_TRIMMED, TOO_MANY_SURFACES
+from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
 from .surfaces import MAX_ORDER, MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 
 KIND = "surf"
@@ -91,7 +92,7 @@ class _Reader:
                 degrees = rest
             elif word == "surf":
                 if len(self._elements) >= MAX_SURFACES:
-                    raise FileError(TOO_MANY_SURFACES, limit=MAX_SURFACES)
+                    raise FileError(FILE_TOO_LARGE, limit=MAX_SURFACES, content="surfaces")
                 name = "{} {}".format(KIND, len(self._elements) + 1)
                 current = _Element(name, kind, rational, degrees, rest, len(self._vertices), body)
                 self._elements.append(current)
@@ -142,7 +143,7 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
     if element.trimmed:
         raise SurfaceRefusedError(SURFACE_TRIMMED)
     if element.type not in ("bspline", "bezier"):
-        raise SurfaceRefusedError(SURFACE_OF_UNSUPPORTED, base=element.type or "cstype")
+        raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=element.type or "cstype")
     degrees = [parse_whole(word) for word in element.degrees]
     if len(degrees) != 2 or min(degrees) < 1:
         raise ValueError("degrees")

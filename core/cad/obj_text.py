@@ -15,27 +15,28 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ..streams.findings import FIELD_NOT_VERTEX, FIELD_NOT_WHOLE, FIELD_NOT_WORD
 from ..streams.misread import (
     BLOCK,
     MARK,
     SHORT,
     SHORT_OR_NAN,
     SHORT_WHOLE,
+    VERTEX,
+    WHOLE,
     Data,
+    Fault,
     count_fault,
     find_number_fault,
     find_whole_fault,
     refuse_line,
     shorten,
 )
-from ..verdict.finding import Finding, finding
 
 VERTICES = {b"v": 3, b"vt": 1, b"vn": 3, b"vp": 1}  # the least count of numbers
 INDICES = {b"f": 3, b"l": 2, b"p": 1}  # the least count of indices
-WHOLE = {b"deg": 1, b"curv2": 2}  # the least count of whole numbers
+WHOLES = {b"deg": 1, b"curv2": 2}  # the least count of whole numbers
 FREE_FORM = {b"surf": 4, b"curv": 2}  # the count of numbers before the indices
-_KINDS = b"|".join([*VERTICES, *INDICES, *WHOLE, *FREE_FORM, b"parm"])
+_KINDS = b"|".join([*VERTICES, *INDICES, *WHOLES, *FREE_FORM, b"parm"])
 _MARKED = re.compile(MARK + rb"[ \t]*(?:" + _KINDS + rb")(?!\S)")
 _SPACES = bytes.maketrans(bytes(range(10)) + bytes(range(11, 13)) + bytes(range(14, 32)), b" " * 30)  # not \n, \r
 _NEXT = b" \v "  # joins a line and its continuation, so that lines can still be counted
@@ -53,7 +54,7 @@ _LINES = re.compile(
 def check_obj_text(data: Data) -> None:
     """Raise FileError if an importer would misread a statement."""
     if _MARKED.match(data[:BLOCK]):
-        refuse_line(data, 0, finding(FIELD_NOT_WORD, text="U+FEFF", expected="v"))
+        refuse_line(data, 0, ("U+FEFF", "“v”"))
     counts = np.zeros(3, np.int64)  # counts of v, vt and vn before the block
     for start, text in _blocks(data):
         suspects, counts = _find_suspects(text, counts)
@@ -78,10 +79,7 @@ def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
 
 
 def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArray]], NDArray]:
-    """Return places of statements that may be wrong, and the counts of v, vt and vn before each and behind the text.
-
-    counts: before the text.
-    """
+    """Return places of statements that may be wrong, with the counts of v, vt, vn before each; and those behind all."""
     letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # so that three letters of any word can be looked at
     is_word = letters > ord(" ")
     is_word[1:] &= letters[:-1] <= ord(" ")
@@ -123,22 +121,19 @@ def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[ND
     return at, slashes - np.maximum.accumulate(np.where(is_first, slashes, 0)), value
 
 
-def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Finding | None:
-    """Return the part of a statement that an importer would misread, as a finding, or None.
-
-    before: counts of v, vt and vn.
-    """
+def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
+    """Return the part that an importer would misread, or None. before: counts of v, vt and vn."""
     kind = line.split(None, 1)[0]
     # Behind an index without a space, a comment is a part of it; 1.#IND has none.
     words = re.split(rb"\s#" if kind in INDICES else rb"(?<!\.)#", line)[0].split()[1:]
-    faults: Iterable[Finding | None]
+    faults: Iterable[Fault | None]
     if kind in VERTICES:
         least = VERTICES[kind]
         faults = (find_number_fault(word, kind == b"v" and place < 3) for place, word in enumerate(words))
     elif kind in INDICES:
         least, faults = INDICES[kind], (_find_index_fault(word, before) for word in words)
-    elif kind in WHOLE:
-        least, faults = WHOLE[kind], map(find_whole_fault, words)
+    elif kind in WHOLES:
+        least, faults = WHOLES[kind], map(find_whole_fault, words)
     else:
         numbers = FREE_FORM.get(kind, len(words))
         least = numbers + 1 if kind in FREE_FORM else 2
@@ -151,15 +146,12 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Finding | None:
     return count_fault(line.split()) if fault is None and len(words) < least else fault
 
 
-def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Finding | None:
-    """Return the reason why a word is no index of v, vt and vn, or None.
-
-    Importers ignore vt and vn if there are none.
-    """
+def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Fault | None:
+    """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn if there are none."""
     if not re.fullmatch(_ANY_INDEX, word):
-        return finding(FIELD_NOT_WHOLE, text=shorten(word))
+        return shorten(word), WHOLE
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):
         is_there = len(number) < 19 and 0 < abs(int(number or 0)) <= count
         if number and not is_there and (count or not role):
-            return finding(FIELD_NOT_VERTEX, text=shorten(word))
+            return shorten(word), VERTEX
     return None

@@ -14,6 +14,7 @@ from ..numerics.bspline import SplineSpace
 from ..nurbs.bezier_form import bezier_patches
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.patch import Patch
+from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
     FILE_WITHOUT_SURFACES,
@@ -22,7 +23,6 @@ from .findings import (
     SURFACE_ORDER,
     SURFACE_POINTS,
     SURFACE_TOO_LARGE,
-    TOO_MANY_CONTROL_POINTS,
 )
 
 MAX_ORDER = 6  # largest order of the surfaces that are kept
@@ -36,20 +36,7 @@ MAX_COORDINATE = 3e38  # below what float32 holds
 
 @dataclass(frozen=True, eq=False)
 class SurfaceBody:
-    """Surfaces that a file has as one thing.
-
-    Attributes
-    ----------
-    name : str
-    patches : tuple of Patch
-        With Blender's flags *Bézier* and *Endpoint*, in the file's unit.
-
-    Examples
-    --------
-    >>> from body_moments.core.cad import SurfaceBody
-    >>> SurfaceBody("Hull", ()).name
-    'Hull'
-    """
+    """Surfaces that a file has as one thing, with Blender's flags *Bézier* and *Endpoint*, in the file's unit."""
 
     name: str
     patches: tuple[Patch, ...]
@@ -57,24 +44,7 @@ class SurfaceBody:
 
 @dataclass(frozen=True, eq=False)
 class SurfaceFile:
-    """The surfaces of a file.
-
-    Attributes
-    ----------
-    bodies : tuple of SurfaceBody
-    unit : float or None
-        Meters; None if the file does not state it.
-    refused : tuple of Finding
-        The surfaces that could not be kept, and why.
-    notes : tuple of Finding
-        Other decisions.
-
-    Examples
-    --------
-    >>> from body_moments.core.cad import SurfaceFile
-    >>> SurfaceFile((), 0.001).refused
-    ()
-    """
+    """The surfaces of a file. unit: m, None if it is not stated. refused: surfaces that could not be kept, and why."""
 
     bodies: tuple[SurfaceBody, ...]
     unit: float | None = None
@@ -105,7 +75,7 @@ class Refusals:
             # A nested call for other surfaces of this file has counted its own.
             self.points = max(self.points, before + sum(patch.points.size // 3 for patch in patches))
             if self.points > MAX_TOTAL_POINTS:
-                raise FileError(TOO_MANY_CONTROL_POINTS, limit=MAX_TOTAL_POINTS)
+                raise FileError(FILE_TOO_LARGE, limit=MAX_TOTAL_POINTS, content="control points")
             return patches
         except FileError:
             raise
@@ -114,7 +84,7 @@ class Refusals:
         except MeasureError as error:  # about its control points
             self.add(SURFACE_POINTS, kind, name, cause=error.finding)
         except (ValueError, OverflowError, LookupError):
-            self.add(SURFACE_DAMAGED, kind, name)
+            self.add(SURFACE_DAMAGED, kind, name, fault="numbers that are missing or not possible")
         return []
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:

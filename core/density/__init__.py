@@ -8,11 +8,8 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     MATERIALS="materials",
     SplineAxis="spline_tables",
-    TrivariateSpline="spline_grid",
     density_moments="spline_grid",
     grid_moments="spline_grid",
-    inside_moments="voxel_fill",
     parse_polynomial="polynomial",
-    solid_mass_moments="piecewise_mass",
     threshold_body="threshold",
 )

@@ -5,29 +5,22 @@
 from ..verdict.finding import error
 
 POLYNOMIAL_EMPTY = error("polynomial_empty", "The polynomial is empty. Type one, such as 1000 + 20*z.")
-POLYNOMIAL_TOO_LONG = error("polynomial_too_long", "The polynomial is longer than {limit} characters. Shorten it.")
-POLYNOMIAL_SYNTAX = error("polynomial_syntax", "The polynomial cannot be read. Write products with *, as in 20*z.")
-POLYNOMIAL_SYNTAX_AT = error(
-    "polynomial_syntax_at", "The polynomial cannot be read at “{part}”. Write products with *, as in 20*z."
+POLYNOMIAL_TOO_LONG = error(
+    "polynomial_too_long", "The polynomial is longer than {limit} characters or nested too deeply. Shorten it."
 )
-POLYNOMIAL_NESTED = error(
-    "polynomial_nested", "The polynomial is nested too deeply or has invalid characters. Simplify it."
+POLYNOMIAL_SYNTAX = error(
+    "polynomial_syntax", "The polynomial cannot be read at “{part}”. Write products with *, as in 20*z."
 )
-POLYNOMIAL_COEFFICIENTS = error("polynomial_coefficients", "Too many coefficients: the degree is at most {limit}.")
-POLYNOMIAL_NUMBER_TOO_LARGE = error("polynomial_number_too_large", "“{part}” is too large a number.")
-POLYNOMIAL_UNKNOWN_NAME = error("polynomial_unknown_name", "“{part}” is not x, y or z.")
 POLYNOMIAL_NOT_ALLOWED = error(
     "polynomial_not_allowed",
     "“{part}” is not allowed in a polynomial. Use numbers, x, y, z, +, -, *, division by a number, whole "
-    "powers with "
-    "**, and parentheses.",
+    "powers with **, and parentheses.",
 )
-POLYNOMIAL_CARET = error("polynomial_caret", "“{part}” is not allowed in a polynomial. Write powers with **.")
 POLYNOMIAL_DIVISION_BY_ZERO = error("polynomial_division_by_zero", "“{part}” divides by zero.")
 POLYNOMIAL_EXPONENT = error("polynomial_exponent", "The exponent in “{part}” must be a whole number from 0 to {limit}.")
 POLYNOMIAL_DEGREE = error("polynomial_degree", "“{part}” has a degree above {limit}.")
 POLYNOMIAL_NOT_CONSTANT = error("polynomial_not_constant", "“{part}” must be a number, without x, y and z.")
-POLYNOMIAL_OVERFLOW = error("polynomial_overflow", "“{part}” has coefficients outside the range of numbers.")
+POLYNOMIAL_OVERFLOW = error("polynomial_overflow", "“{part}” is outside the range of numbers.")
 POLYNOMIAL_BEYOND_NUMBERS = error(
     "polynomial_beyond_numbers",
     "The polynomial has values outside the range of numbers at the object. Use smaller coefficients, or move the "
@@ -43,10 +36,7 @@ TRANSFER_TABLE_SYNTAX = error(
     "transfer_table_syntax",
     "“{part}” is not a pair of the transfer table: a value and a density in kg/m³, with commas between pairs.",
 )
-TRANSFER_TABLE_TOO_SHORT = error(
-    "transfer_table_too_short", "The transfer table needs at least two pairs of a value and a density."
-)
 TRANSFER_TABLE_NUMBERS = error(
-    "transfer_table_numbers", "The transfer table has negative densities or numbers that are not finite."
+    "transfer_table_numbers",
+    "The transfer table needs at least two pairs, with ascending values and finite densities that are not negative.",
 )
-TRANSFER_TABLE_ORDER = error("transfer_table_order", "The values of the transfer table must ascend.")

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pure data: densities of common materials, each with the source of its number.
+"""Pure data: densities of common materials, each with the source of its number, and units of densities.
 
 Real materials vary: woods by a fifth, alloys and plastics by some percent. If the mass of a part matters, weigh the
 part and give its mass instead.
@@ -187,3 +187,25 @@ MATERIALS: tuple[Material, ...] = (
 
 CATEGORIES: tuple[str, ...] = tuple(dict.fromkeys(material.category for material in MATERIALS))
 BY_NAME: dict[str, Material] = {material.name: material for material in MATERIALS}
+
+# CT numbers in Hounsfield units to kg/m³: air, fat, water and soft tissue, bone, after Schneider, Bortfeld and Schlegel
+# (Phys. Med. Biol. 45, 2000), as the table of densities that comes with GATE has them.
+CT_DENSITIES = "-1000 1.21, -98 930, -97 930.486, 14 1030, 23 1031, 100 1119.9, 101 1076.2, 1600 1964.2, 3000 2800"
+
+POUND = 0.45359237  # kg
+FOOT = 0.3048  # m
+DENSITY_UNITS = {  # name of a setting → kg/m³, unit
+    "KG_M3": (1.0, "kg/m³"),
+    "G_CM3": (1e3, "g/cm³"),
+    "LB_IN3": (POUND / (FOOT / 12.0) ** 3, "lb/in³"),
+    "LB_FT3": (POUND / FOOT**3, "lb/ft³"),
+}
+SYSTEM_UNITS = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}  # The customary units of tables, not kg/mm³.
+
+
+def density_unit(chosen: str, system: str) -> str:
+    """Return the unit to show densities in, one of `DENSITY_UNITS`.
+
+    chosen: one of `DENSITY_UNITS`, or "AUTO". system: a scene's unit system, one of `SYSTEM_UNITS`.
+    """
+    return SYSTEM_UNITS[system] if chosen == "AUTO" else chosen

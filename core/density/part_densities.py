@@ -18,12 +18,11 @@ from ..solid.closed_parts import ClosedParts
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """Densities of parts, each from its faces.
+    """Densities of parts, (number,) each, from their faces.
 
-    density: (number,) of each part. has_several_materials: (number,) True if its own faces differ;
-    has_foreign_cavity_material: (number,) cavities with faces of other densities than the part they are cut from.
-    first_face: (number,) a part's first mesh face, -1 for none. range_by_area, most_by_area: (number,) how far its
-    faces' densities are apart, and the largest of them, times its area.
+    has_several_materials: its own faces differ; has_foreign_cavity_material: a cavity with faces of other densities
+    than the part it is cut from. first_face: a part's first mesh face, -1 for none. range_by_area, most_by_area: how
+    far its faces' densities are apart, and the largest of them, times its area.
     """
 
     density: NDArray[np.float64]
@@ -35,10 +34,7 @@ class PartDensities:
 
 
 def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
-    """Return one density for each part.
-
-    faces: (f,) the density of every mesh face. linear: (3, 3) the map under which areas count.
-    """
+    """Return one density for each part, from (f,) the density of every mesh face; areas count under the linear map."""
     of_mesh = parts.face >= 0
     part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]
     first = np.full(parts.number, np.iinfo(np.int64).max)

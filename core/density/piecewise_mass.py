@@ -22,7 +22,7 @@ from functools import lru_cache
 from math import factorial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..moments.moments import (
     FLOAT32_HALF_ULP,
@@ -34,7 +34,6 @@ from ..moments.moments import (
     monomial_index,
     monomials,
 )
-from ..numerics.arguments import check_type, float_array, index_array, number_array
 
 TRIANGLES_PER_BLOCK = 4096  # triangles whose table of 20 monomials stays in the cache
 MIN_TRIANGLES_PER_BLOCK = 64
@@ -62,44 +61,12 @@ def _block_size(order: int) -> int:
     return max(TRIANGLES_PER_BLOCK * 20 // monomial_count(order), MIN_TRIANGLES_PER_BLOCK)
 
 
-def solid_mass_moments(points: ArrayLike, triangles: ArrayLike, density: ArrayLike, like: Moments) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each part of one density.
+def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
+    """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each of one density; the result maps as a volume.
 
-    They are about the point of `like`.
-
-    Parameters
-    ----------
-    points : (n, 3) array_like
-    triangles : (t, 3) array_like of int
-    density : (t,) array_like
-        That of the part which the triangle bounds, not negative.
-    like : Moments
-        The same parts' volume moments; their order, point and coordinate error are taken.
-
-    Returns
-    -------
-    Moments
-        They map as a volume does.
-
-    Notes
-    -----
-    Sheynin and Tuzikov, Pattern Recognition Letters 22, 2001; see the module.
-
-    Examples
-    --------
-    >>> from body_moments.core.density import solid_mass_moments
-    >>> from body_moments.core.mesh import Surface
-    >>> from body_moments.core.polyhedron import polyhedron_moments
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> volume, _ = polyhedron_moments(surface, about=(0, 0, 0))
-    >>> mass = solid_mass_moments(surface.points, surface.triangles, np.full(4, 600.0), volume)
-    >>> round(mass.total, 9)
-    100.0
+    points: (n, 3). triangles: (t, 3). density: (t,) that of the part which the triangle bounds, not negative. like: the
+    same parts' volume moments; their order, point and coordinate error are taken.
     """
-    check_type("like", like, Moments)
-    points = number_array("points", points, "n", 3)
-    triangles = index_array("triangles", triangles, "t", 3, count=len(points))
-    density = float_array("density", density, len(triangles))
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
     raw = sums * _scales(like.order, 3)
@@ -122,10 +89,8 @@ def sheet_mass_moments(
 ) -> Moments:
     """Return ∫ ρ x^p y^q z^r dA, with densities (t,) of triangles, or (t, 3) of their corners, linear between them.
 
-    No density may be negative.
-
-    like: the area moments, to the order that is wanted. stored: the densities were float32, which goes into
-    `input_error`. The result maps as an area does.
+    No density may be negative. like: the area moments, to the order that is wanted; the result maps as they do. stored:
+    the densities were float32, which goes into `input_error`.
     """
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=False)
     reach = _reach(points, triangles, like.about)
@@ -141,10 +106,7 @@ def sheet_mass_moments(
 def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
-    """Return (K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ.
-
-    Weights are ρ det or, for sheets, ρ times doubled areas.
-    """
+    """Return (K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ; weights are ρ det or, for sheets, ρ times doubled areas."""
     order, step = like.order, _block_size(like.order)
     series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
     block_sums, sizes, tau = [np.zeros(monomial_count(order))], 0.0, np.zeros(3)
@@ -167,10 +129,7 @@ def _accumulate(
 
 
 def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K, k) ρ h_α of each triangle.
-
-    corners: (3 axes, 3 corners, k).
-    """
+    """Return (K, k) ρ h_α of each triangle with corners (3 axes, 3 corners, k)."""
     table = np.zeros((monomial_count(order), corners.shape[2]))
     table[0] = density
     for corner in range(3):
@@ -179,10 +138,7 @@ def _complete_homogeneous(corners: NDArray, density: NDArray, order: int) -> NDA
 
 
 def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K, k) h_(α,1) of each triangle.
-
-    density: (3 corners, k).
-    """
+    """Return (K, k) h_(α,1) of each triangle with corners (3 axes, 3 corners, k) of density (3 corners, k)."""
     table, linear = np.zeros((2, monomial_count(order), corners.shape[2]))
     table[0] = 1.0
     for corner in range(3):

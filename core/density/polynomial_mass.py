@@ -32,12 +32,10 @@ def polynomial_mass_of_images(
 ) -> Moments:
     """Return the mass moments of k images of one body with a polynomial density, as one body, of the remaining order.
 
-    moments: of the volume or area, to order n + the degree. matrices: (k, 4, 4) the images, as for `sum_of_images`.
-    fields: (k, 4, 4) from the body's own coordinates to the density's, taken exactly; by default `matrices`. about:
-    (3,), by default the mean of the images of `moments.about`.
-
-    error: rounding, beside the image of `moments.rounding_error`; input: the image of `moments.input_error`. Both hold
-    for bodies with negative density somewhere too. ValueError if the moments' order is below the degree.
+    moments: of the volume or area, to order n + the degree, else ValueError. matrices: (k, 4, 4) the images, as for
+    `sum_of_images`. fields: (k, 4, 4) from the body's own coordinates to the density's, taken exactly; by default
+    `matrices`. about: (3,), by default the mean of the images of `moments.about`. The bounds of rounding and input, the
+    images of the moments' own, hold for bodies with negative density somewhere too.
     """
     order = moments.order - density.degree
     if order < 0:
@@ -83,9 +81,7 @@ def polynomial_mass_of_images(
 def _mass_functional(
     moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return, (K, k) each: G, its rounding bound, the image of `moments.input_error`, and bounds of magnitudes.
-
-    The last are bounds of the integrals of the same functions' magnitudes.
+    """Return (K, k) each: G, its rounding bound, the image of `moments.input_error`, bounds of magnitudes.
 
     forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) the error bounds of their constants.
     """
@@ -135,10 +131,7 @@ def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[ND
 
 
 def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes from its own origin.
-
-    matrices: (k, 4, 4) the places of the body.
-    """
+    """Return (k, 4, 4) maps from coordinates of a body at (k, 4, 4) places to lengths along its own axes."""
     axes, _ = polar_rotation(matrices)
     fields = np.zeros((len(matrices), 4, 4))
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]

@@ -27,8 +27,6 @@ def find_negative_point(
 ) -> tuple[tuple[float, NDArray] | None, bool]:
     """Return a negative value and its place, (3,), or None; and True if an unfound one may exist.
 
-    The place is in the body or on its surface.
-
     points: (n, 3) in the density's coordinates. triangles: (m, 3). solid: the inside counts too.
     """
     used = np.unique(triangles)

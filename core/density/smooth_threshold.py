@@ -60,9 +60,9 @@ def smooth_threshold_body(
 
 
 def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.float64]:
-    """Return a uniform spline's values at its coefficients' places and at `parts` - 1 places between any two.
+    """Return a uniform spline's values (parts (nx - 1) + 1, …) at its (nx, ny, nz) coefficients and between.
 
-    The outermost of the (nx, ny, nz) coefficients go on beyond the grid; the result is (parts (nx - 1) + 1, …).
+    The outermost of the coefficients go on beyond the grid.
     """
     values = np.asarray(coefficients, np.float64)
     reach = (order + 1) // 2

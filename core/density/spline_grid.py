@@ -8,7 +8,7 @@ The volumetric scheme of Soldea, Elber and Rivlin. The integrals separate,
 
 so three small tables (`spline_tables`) are all there is to precompute, and the sum is three contractions: the first
 along the axis that is contiguous in memory, in blocks that stay in the cache, the others on the small result. A grid
-may therefore be larger than memory. One coefficient adds its change times a product of three table columns: O(1).
+may therefore be larger than memory.
 
 The knots are centered first; if the mass stands far from their middle for its size, once more about the knot
 nearest to its center, as the paper advises (section 5).
@@ -164,126 +164,6 @@ def grid_moments(
         raise ValueError("positions for other samples")
     inside = density_moments(samples, axes, order, value)
     return replace(replace(inside, measure=Measure.VOLUME).transform(matrix), measure=Measure.MASS)
-
-
-class TrivariateSpline:
-    """A trivariate spline with variable coefficients; its moments follow at the cost of the changes.
-
-    Parameters
-    ----------
-    coefficients : (nx, ny, nz) array_like
-    axes : sequence of three SplineAxis
-    order : int
-        Of the moments.
-
-    Attributes
-    ----------
-    moments : Moments
-        Moments for the current coefficients; every change adds its rounding to their bounds.
-
-    Notes
-    -----
-    Soldea, Elber and Rivlin, section 5.
-
-    Examples
-    --------
-    >>> from body_moments.core.density import SplineAxis, TrivariateSpline
-    >>> spline = TrivariateSpline(np.ones((4, 4, 4)), [SplineAxis.uniform(4)] * 3)
-    >>> round(spline.set_coefficient(0, 0, 0, 3.0).total, 9)
-    66.0
-    """
-
-    def __init__(self, coefficients: ArrayLike, axes: Sequence[SplineAxis], order: int = 2) -> None:
-        self.coefficients = float_array("coefficients", coefficients, "nx", "ny", "nz").copy()
-        self.axes = tuple(axes)
-        self.moments = density_moments(self.coefficients, self.axes, order)
-        self._powers = monomials(order)
-        self._tables = [
-            axis.table(order, center)[powers]
-            for axis, center, powers in zip(self.axes, self.moments.about, self._powers.T)
-        ]  # (K, n) each: a column is a factor
-        self._sizes = [
-            _absolute_moments(axis, order, center)[powers]
-            for axis, center, powers in zip(self.axes, self.moments.about, self._powers.T)
-        ]
-        self._units = (sum(axis.rounding_counts(order) for axis in self.axes) + 6) * U
-
-    def set_coefficient(self, i: int, j: int, k: int, value: float) -> Moments:
-        """Change one coefficient and return the moments after it, in O(1).
-
-        Parameters
-        ----------
-        i, j, k : int
-        value : float
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the value is not finite.
-        """
-        if not math.isfinite(value):
-            raise ValueError("coefficients must be finite")
-        change = value - self.coefficients[i, j, k]
-        self.coefficients[i, j, k] = value
-        x, y, z = self._tables
-        added = change * x[:, i] * y[:, j] * z[:, k]
-        x, y, z = self._sizes
-        return self._add_change(added, self._units * abs(change) * x[:, i] * y[:, j] * z[:, k])
-
-    def set_block(self, start: Sequence[int], values: ArrayLike) -> Moments:
-        """Change a block of coefficients and return the moments after it.
-
-        Parameters
-        ----------
-        start : sequence of three int
-            The first coefficient of the block.
-        values : (a, b, c) array_like
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the block exceeds the coefficients, or a value is not finite.
-        """
-        values = float_array("values", values, "a", "b", "c")
-        place = tuple(slice(first, first + count) for first, count in zip(start, values.shape))
-        old = self.coefficients[place]
-        if old.shape != values.shape or min(start) < 0:
-            raise ValueError("block exceeds coefficients")
-        if not np.isfinite(values).all():
-            raise ValueError("coefficients must be finite")
-        change = values - old
-        self.coefficients[place] = values
-
-        def contracted(factors: list[NDArray], block: NDArray) -> NDArray[np.float64]:
-            x, y, z = (factor[:, part] for factor, part in zip(factors, place))
-            partial = np.einsum("ijk,mk->mij", block, z)
-            return np.einsum("mi,mi->m", np.einsum("mij,mj->mi", partial, y), x)
-
-        units = self._units + sum(values.shape) * U
-        return self._add_change(contracted(self._tables, change), units * contracted(self._sizes, np.abs(change)))
-
-    def _add_change(self, added: NDArray, error: NDArray) -> Moments:
-        old = self.moments
-        raw = old.raw + added
-        self.moments = Moments(
-            raw, old.about, old.measure, old.rounding_error + error + U * np.abs(raw), old.input_error
-        )
-        return self.moments
-
-
-def _absolute_moments(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
-    """Return (order + 1, n) ∫ B_i times the powers of the largest |t - center| in its support."""
-    knots = np.abs(axis.knots - center)
-    far = np.maximum(knots[: -axis.order], knots[axis.order :])
-    return axis.table(0, center)[0] * far ** np.arange(order + 1)[:, None]
 
 
 def _moments_about(

@@ -8,8 +8,7 @@ Over a full support the same integral has a closed form, positive wherever the k
     ∫ t^l B_{i,k} = (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l),
 
 h_l the complete homogeneous polynomial of the k + 1 knots: k B_{i,k} / (t_{i+k} - t_i) is the density of a mean of the
-knots with weights uniform on a simplex. If a domain cuts supports, each span is integrated by Gauss's rule, which is
-exact for as many points as the degree asks for.
+knots with weights uniform on a simplex.
 """
 
 from __future__ import annotations
@@ -21,8 +20,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import float_array
-from ..numerics.bspline import SplineSpace
-from ..numerics.quadrature import gauss_legendre
 
 MAX_ORDER = 16  # Splines of higher order are refused: far above any use.
 
@@ -37,13 +34,11 @@ class SplineAxis:
         Ascending.
     order : int
         k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
-    domain : (low, high), optional
-        Ends at which the functions are cut off ("clipped"); None for full supports ("floating ends").
 
     Raises
     ------
     ValueError
-        If the knots, the order or the domain make no such space.
+        If the knots or the order make no such space.
 
     Examples
     --------
@@ -54,7 +49,6 @@ class SplineAxis:
 
     knots: NDArray[np.float64]
     order: int
-    domain: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         knots = float_array("knots", self.knots, "n")
@@ -65,8 +59,6 @@ class SplineAxis:
             raise ValueError("too few knots")
         if not np.isfinite(knots).all() or (np.diff(knots) < 0.0).any():
             raise ValueError("knots must ascend")
-        if self.domain is not None and not self.domain[0] < self.domain[1]:
-            raise ValueError("empty domain")
 
     @classmethod
     def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> SplineAxis:
@@ -78,8 +70,7 @@ class SplineAxis:
         """Return one function for each sample, with knots around it: samples as coefficients, full supports.
 
         With an even order the knots are the positions, with an odd one the middles between them; beyond the ends they
-        go on with the last distance. Even positions give `uniform`. ValueError if positions do not ascend, or there
-        are fewer than two.
+        go on with the last distance. ValueError if positions do not ascend, or there are fewer than two.
         """
         x = float_array("positions", positions, "n")
         if len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
@@ -87,10 +78,6 @@ class SplineAxis:
         steps = np.arange(1, (order + 1) // 2 + 1)
         x = np.concatenate([x[0] - (x[1] - x[0]) * steps[::-1], x, x[-1] + (x[-1] - x[-2]) * steps])
         return cls(x if order % 2 == 0 else x[:-1] + np.diff(x) / 2.0, order)
-
-    def clip(self) -> SplineAxis:
-        """Return the functions cut off at the ends of their partition of unity: the domain [t_{k-1}, t_n]."""
-        return SplineAxis(self.knots, self.order, (float(self.knots[self.order - 1]), float(self.knots[self.count])))
 
     @property
     def count(self) -> int:
@@ -114,24 +101,17 @@ class SplineAxis:
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
         """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt.
 
-        Each entry is off by at most `rounding_counts` units of ∫ B_i times the l-th power of the largest |t - center|
-        in the support.
+        Off by at most `rounding_counts` units of ∫ B_i times the l-th power of the largest |t - center| in the support.
         """
-        knots = self.knots - center
-        if self.domain is None:
-            return full_support_integrals(knots, self.order, degree)
-        return clipped_integrals(knots, self.order, degree, self.domain[0] - center, self.domain[1] - center)
+        return full_support_integrals(self.knots - center, self.order, degree)
 
     def rounding_counts(self, degree: int) -> int:
         """Return the bound of a table entry's error in units of rounding, see `table`."""
-        return 2 * (self.order + 1) + 3 * degree + 6 if self.domain is None else 16 * self.order + 3 * degree + 64
+        return 2 * (self.order + 1) + 3 * degree + 6
 
 
 def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray[np.float64]:
-    """Return (degree + 1, n) ∫ t^l B_i over full supports, by the closed form.
-
-    Repeated knots are fine.
-    """
+    """Return (degree + 1, n) ∫ t^l B_i over full supports, by the closed form; knots may be repeated."""
     knots = np.asarray(knots, np.float64)
     count = len(knots) - order
     h = np.zeros((degree + 1, count))
@@ -143,26 +123,3 @@ def full_support_integrals(knots: ArrayLike, order: int, degree: int) -> NDArray
     for power in range(1, degree + 1):
         h[power] /= math.comb(order + power, power)
     return h
-
-
-def clipped_integrals(knots: ArrayLike, order: int, degree: int, low: float, high: float) -> NDArray[np.float64]:
-    """Return (degree + 1, n) ∫ t^l B_i over [low, high], span by span."""
-    knots = np.asarray(knots, np.float64)
-    table = np.zeros((degree + 1, len(knots) - order))
-    # With more knots on both sides as many functions act in each interval; those that they add are left out again.
-    far = np.arange(1, order)
-    longer = np.concatenate([knots[0] - far[::-1], knots, knots[-1] + far])
-    space = SplineSpace(tuple(longer.tolist()), order, len(longer) - order)
-    edges = np.clip(space.intervals, low, high)
-    spans, edges = space.spans[edges[:, 0] < edges[:, 1]], edges[edges[:, 0] < edges[:, 1]]
-    nodes, weights = gauss_legendre(-(-(order + degree) // 2))
-    length = edges[:, 1:] - edges[:, :1]
-    t = edges[:, :1] + length * nodes
-    basis = space.derivatives(spans[:, None], t, 0)[0]
-    functions = space.controls_of_spans(spans) - (order - 1)
-    in_range = (functions >= 0) & (functions < table.shape[1])
-    weight = length * weights
-    for row in table:
-        np.add.at(row, functions[in_range], (basis * weight[..., None]).sum(axis=1)[in_range])
-        weight = weight * t
-    return table

@@ -160,10 +160,7 @@ def threshold_body(
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    """Yield slabs of planes of samples as float64, each with the first plane of the next, and its first index.
-
-    If there is a background, a layer of it is added on every side.
-    """
+    """Yield each slab's first index, and its planes of samples with the next one's first, padded by a background."""
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
     step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))
@@ -317,14 +314,15 @@ class _Sums:
             z = low + node * height
             density = threshold + columns.density[kept] + columns.growth[kept] * z
             points = [*place, first + size * z]
-            self._add_points(floor * size * height * weight * density, points, turn)
+            self._add_points("mass", floor * size * height * weight * density, points, turn)
 
-    def _add_points(self, masses: NDArray, points: list[NDArray], turn: tuple) -> None:
-        tables = [power_table(values, self.order) for values in points]
-        for number, powers in enumerate(self.powers[:, turn].tolist()):
-            term = masses * tables[0][powers[0]] * tables[1][powers[1]] * tables[2][powers[2]]
-            self.mass[number] += term.sum()
-            self.mass_size[number] += np.abs(term).sum()
+    def _add_points(self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]) -> None:
+        total, size = getattr(self, measure), getattr(self, measure + "_size")
+        xs, ys, zs = (power_table(values, self.order) for values in points)
+        for number, (p, q, r) in enumerate(self.powers[:, turn].tolist()):
+            term = amounts * xs[p] * ys[q] * zs[r]
+            total[number] += term.sum()
+            size[number] += np.abs(term).sum()
 
     def _add_boxes(self, cells: Cells, threshold: float) -> None:
         """Add parts of cells that lie inside altogether."""
@@ -335,13 +333,9 @@ class _Sums:
             u, v, w = nodes[list(place)]
             points = list((cells.origin + cells.size[:, None] * np.array([u, v, w])).T)
             volumes = weights[list(place)].prod() * cells.size**3
-            tables = [power_table(values, self.order) for values in points]
-            for number, (p, q, r) in enumerate(self.powers.tolist()):
-                term = volumes * tables[0][p] * tables[1][q] * tables[2][r]
-                self.volume[number] += term.sum()
-                self.volume_size[number] += np.abs(term).sum()
+            self._add_points("volume", volumes, points)
             if self.with_density:
-                self._add_points(volumes * (threshold + interpolate(cells.corners, u, v, w)), points, TURNS[2])
+                self._add_points("mass", volumes * (threshold + interpolate(cells.corners, u, v, w)), points)
         self.terms += len(cells.size)
 
     def _give_up(self, cells: Cells, threshold: float) -> None:
@@ -357,10 +351,7 @@ class _Sums:
         self._add_largest("estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
 
     def _add_largest(self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:
-        """Add the largest possible moments of given volumes, areas and masses in cells to the totals called `name`.
-
-        name: "estimate", of the error, or "size", of the absolute sum of the terms.
-        """
+        """Add the largest moments of volumes, areas and masses in cells to the totals "estimate" or "size"."""
         reach = power_table((np.abs(cells.origin) + cells.size[:, None]).T, self.order)
         density = abs(threshold) + np.abs(cells.corners).max(axis=(1, 2, 3))
         largest = np.stack([reach[p][0] * reach[q][1] * reach[r][2] for p, q, r in self.powers.tolist()])

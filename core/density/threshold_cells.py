@@ -18,10 +18,7 @@ TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cubes with the density above the threshold in their corners.
-
-    corners: (n, 2, 2, 2). origin: (n, 3) their first corners, about the middle of the grid. size: (n,) their edges.
-    """
+    """Cubes: density above the threshold in corners (n, 2, 2, 2), first corners (n, 3) about the grid, edges (n,)."""
 
     corners: NDArray[np.float64]
     origin: NDArray[np.float64]
@@ -43,10 +40,7 @@ class Cells:
         return Cells(self.corners[chosen], self.origin[chosen], self.size[chosen])
 
     def cut_in_eight(self) -> Cells:
-        """Cut each at the middle of its edges.
-
-        A density that is linear along the axes stays so in every part.
-        """
+        """Cut each at the middle of its edges; a density that is linear along the axes stays so in every part."""
         finer = self.corners
         for axis in (1, 2, 3):
             low, high = np.split(finer, 2, axis=axis)

@@ -31,38 +31,12 @@ MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 
 
 def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -> tuple[Moments, float]:
-    """Return the mass moments of a closed surface filled with the density of a grid of voxels.
+    """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of the body in the grid.
 
-    They are about the middle of the bounding box within the grid, rounded to a corner of voxels.
-
-    Parameters
-    ----------
-    triangles : (n, 3, 3) array_like
-        Corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is the
-        cube from (i, j, k) to (i+1, j+1, k+1).
-    densities : (nx, ny, nz) array_like
-        There is nothing outside the grid.
-    order : int
-
-    Returns
-    -------
-    mass : Moments
-        `rounding_error` estimates the rounding, from the sizes of all terms; nothing else is approximate.
-    volume : float
-        Volume of the body in the grid.
-
-    Raises
-    ------
-    MeasureError
-        If a density is not finite.
-
-    Examples
-    --------
-    >>> from body_moments.core.density import inside_moments
-    >>> corners = 2 * np.eye(4, 3, -1)[[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]]
-    >>> mass, volume = inside_moments(corners, np.full((2, 2, 2), 3.0))
-    >>> round(mass.total, 9), round(volume, 9)
-    (4.0, 1.333333333)
+    They are about the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n, 3, 3)
+    corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is the cube
+    from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), nothing outside. `rounding_error` estimates the rounding
+    from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
     """
     triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)
     if not len(triangles):

@@ -10,9 +10,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     Section="section",
     area_moments="polygon",
     directed_edges="polygon",
-    find_defects="polygon",
     fit_plane="section",
     measure_section="section",
-    orient_loops="polygon",
     region_moments="regions",
 )

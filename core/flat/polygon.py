@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.arguments import float_array, index_array
 from ..numerics.arrays import segment_ranges, sums_by_index
 from ..numerics.graph import connected_components
-from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments, facet_moments
+from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments
 from ..verdict.finding import MeasureError
 from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE
 
@@ -97,13 +97,6 @@ def edge_arrays(
     return points, index_array("edges", edges, "m", 2, count=len(points))
 
 
-def outline_moments(
-    points: ArrayLike, edges: ArrayLike, order: int = 0, about: ArrayLike | None = None
-) -> SimplexMoments:
-    """Return ∫ x^p y^q ds along the edges; of order 0 the perimeter."""
-    return facet_moments(points, edges, order, about)
-
-
 def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
     """Return the edges of loops, in the direction of each.
 
@@ -128,30 +121,10 @@ def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
 
 
 def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
-    """Return the edges of loops of any direction, oriented so that points in an odd number of loops are inside.
+    """Return (m, 2) edges of loops, oriented so that points in an odd number of loops are inside.
 
-    Parameters
-    ----------
-    points : (n, 2) array_like
-    loops : sequence of (k,) array_like of int
-        Outlines, their holes, islands in holes.
-
-    Returns
-    -------
-    (m, 2) integer array
-        The inside lies to the left of each edge.
-
-    Raises
-    ------
-    MeasureError
-        If one loop runs along another all the way, so that neither is in the other.
-
-    Examples
-    --------
-    >>> from body_moments.core.flat import orient_loops
-    >>> square = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]])
-    >>> orient_loops(square, [np.arange(4)])[0].tolist()
-    [3, 2]
+    points: (n, 2). loops: outlines, their holes, islands in holes, as (k,) indices of points. The inside lies to the
+    left of each edge. MeasureError if one loop runs along another all the way, so that neither is in the other.
     """
     points = float_array("points", points, "n", 2)
     loops = [index_array("loops", loop, "k", count=len(points)) for loop in loops]
@@ -176,10 +149,7 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
 
 
 def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
-    """Return (m, 2) directed edges of (k, 3) triangles over `count` points without an opposite edge.
-
-    An edge is repeated as often as its direction is more frequent than the opposite one.
-    """
+    """Return (m, 2) directed edges of (k, 3) triangles, each as often as it has no opposite edge."""
     ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
     low, high = ahead.min(axis=1), ahead.max(axis=1)
     ahead, low, high = (values[low != high] for values in (ahead, low, high))
@@ -191,10 +161,7 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
-    """Return (k,) the signed areas of one or more outlines: negative ones are holes.
-
-    Outlines that share a point count as one.
-    """
+    """Return (k,) the signed areas of outlines, negative ones of holes; outlines that share a point count as one."""
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
     outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
@@ -203,27 +170,10 @@ def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
 
 
 def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> OutlineDefects:
-    """Find defects that make the inside of edges ambiguous.
+    """Find defects that make the inside of (m, 2) edges between (n, 2) points ambiguous.
 
-    Outlines may touch, at corners and along edges; edges so short that their ends touch have no sides.
-
-    Parameters
-    ----------
-    points : (n, 2) array_like
-    edges : (m, 2) array_like of int
-    error : float
-        Largest distance of the points from their intended places; overlaps of no more count as touching.
-
-    Returns
-    -------
-    OutlineDefects
-
-    Examples
-    --------
-    >>> from body_moments.core.flat import directed_edges, find_defects
-    >>> bow_tie = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])
-    >>> find_defects(bow_tie, directed_edges([range(4)])).crossings
-    1
+    Outlines may touch, at corners and along edges; edges so short that their ends touch have no sides. error: the
+    largest distance of the points from their intended places; overlaps of no more count as touching.
     """
     points, edges = edge_arrays(points, edges)
     if not len(edges):
@@ -306,10 +256,10 @@ def _twice_the_area(points: NDArray, edges: NDArray) -> float:
 
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
-    """Count pairs of edges that cross by more than `touch`, and sum the length of others against each other.
+    """Count pairs of edges that cross by more than `touch`, and sum the length of edges that run against each other.
 
-    The length is that of edges that run against each other. Each edge is entered into the cells of a grid that its box
-    meets, and compared with edges that share a cell. The last value is True if that was given up.
+    Each edge is entered into the cells of a grid that its box meets, and compared with edges that share a cell. The
+    last value is True if that was given up.
     """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)

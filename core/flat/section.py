@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import atan2, pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,9 +22,10 @@ from ..mesh.surface import normals
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
 from ..numerics.arguments import check_type, float_array, index_array
+from ..polyhedron.n_dimensions import facet_moments
 from ..verdict.finding import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
-from .polygon import boundary_edges, edge_arrays, outline_areas, outline_moments
+from .polygon import boundary_edges, edge_arrays, outline_areas
 from .regions import plane_positions, region_moments
 
 # Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
@@ -105,6 +107,21 @@ class Section:
     rounding_error: dict[str, float]
     input_error: dict[str, float]
 
+    @classmethod
+    def from_numbers(
+        cls,
+        plane: tuple[ArrayLike, ArrayLike, float, str],
+        area: float,
+        perimeter: float,
+        vectors: tuple[ArrayLike, ArrayLike, ArrayLike],
+        *rest: Any,
+    ) -> Section:
+        """Return the section with these numbers: the plane's, then its own, in the order of the attributes."""
+        origin, axes, out_of_plane, x_axis_name = plane
+        flat = Plane(np.asarray(origin, float), np.asarray(axes, float), out_of_plane, x_axis_name)
+        centroid, second, reach = (np.asarray(vector, float) for vector in vectors)
+        return cls(flat, area, perimeter, centroid, second, reach, *rest)
+
     @property
     def center(self) -> NDArray[np.float64]:
         """(3,) the centroid in the coordinates of the plane's origin."""
@@ -150,10 +167,7 @@ class Section:
 
 
 def principal_angle(second: NDArray, noise: float) -> float:
-    """Return the angle of axis 1, in (-π/2, π/2].
-
-    A product of inertia below `noise` is none, so that it cannot turn the axis over.
-    """
+    """Return the angle of axis 1, in (-π/2, π/2]; a product of inertia below `noise` cannot turn the axis over."""
     first, last, mixed = second.tolist()
     if abs(mixed) <= noise:
         return 0.0 if first >= last else pi / 2.0
@@ -239,9 +253,7 @@ def region(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m, 2) directed edges of the region covered by triangles near the plane, and the number of turned faces.
 
-    Points at one place are merged. Faces that look against the plane are turned.
-
-    faces: (k,) the face of each triangle; a face is turned as a whole.
+    Points at one place are merged. Faces, (k,) of each triangle, that look against the plane are turned as a whole.
     """
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = (plane.project(points)[triangles[:, i]] for i in range(3))
@@ -304,7 +316,7 @@ def measure_section(
         raise MeasureError(SECTION_ENCLOSES_NOTHING)
     about, positions = moments.about[:2], plane_positions(2)
     raw = moments.raw[positions]
-    length = outline_moments(flat, edges)
+    length = facet_moments(flat, edges, 0)
     bounds = [_bounds(raw, about, delta[positions]) for delta in (moments.rounding_error, moments.input_error)]
     # For at most 2 len(edges) shared pieces, each taken twice.
     ends = EDGE_GROWTH * len(edges) * (5.0 if shared else 1.0)

@@ -6,9 +6,7 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    BodyTransform="instances",
     FrequencyGrid="wave_vectors",
-    GridTransform="grid",
     Spectrum="spectrum",
     polygon_transform="polygon",
     solid_transform="transform",

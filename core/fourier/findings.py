@@ -8,13 +8,10 @@ FOURIER_OF_OPEN_SURFACE = error(
     "fourier_of_open_surface",
     "The surface is open and bounds no body. Close it, set Kind to Shell, or set Domain to Surface.",
 )
-FOURIER_TOO_LARGE = error("fourier_too_large", "Too large for a Fourier transform. Scale the object down.")
-FOURIER_TOO_SMALL = error("fourier_too_small", "Too small for a Fourier transform. Scale the object up.")
 WAVE_VECTORS_SHAPE = error(
     "wave_vectors_shape",
     "Wave vectors must be rows of {dimension} real numbers; the array has shape {shape:size} and type {type}.",
 )
-WAVE_VECTORS_NON_FINITE = error("wave_vectors_non_finite", "Some wave vectors are not finite.")
-WAVE_VECTORS_TOO_LARGE = error("wave_vectors_too_large", "Some wave vectors exceed 1e100 rad/m.")
+WAVE_VECTORS_RANGE = error("wave_vectors_range", "Some wave vectors are not finite, or exceed 1e100 rad/m.")
 FREQUENCY_RANGE = error("frequency_range", "The largest frequency must be positive and at most 1e100 rad/m.")
 FREQUENCY_COUNT = error("frequency_count", "A grid needs at least two frequencies along each axis.")

@@ -51,39 +51,9 @@ ERROR_CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)
 class GridTransform(Transform):
     """A transform on a regular grid, to a tolerance: `steps` does the work, `result` returns the spectrum.
 
-    The result is "approximate", or exact if that costs less.
-
-    Parameters
-    ----------
-    surface : Surface
-    grid : FrequencyGrid
-    of : Measure
-        Volume or area.
-    tolerance : float
-        Absolute, in the unit of the values.
-    threads : int
-
-    Raises
-    ------
-    ValueError
-        If double precision does not reach the tolerance, and as `solid_transform`.
-    MeasureError
-        As `solid_transform`.
-
-    Notes
-    -----
-    The non-uniform fast transform of Barnett, Magland and af Klinteberg (2019); see the module.
-
-    Examples
-    --------
-    >>> from body_moments.core.fourier import FrequencyGrid, GridTransform
-    >>> from body_moments.core.mesh import Surface
-    >>> from body_moments.core.moments import Measure
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> transform = GridTransform(surface, FrequencyGrid(4, 10.0), Measure.VOLUME, 1e-8)
-    >>> done = list(transform.steps())
-    >>> round(float(abs(transform.result().values.reshape(4, 4, 4)[2, 2, 2])) * 6, 6)
-    1.0
+    The result is "approximate", or exact if that costs less: the non-uniform fast transform of Barnett, Magland and af
+    Klinteberg (2019); see the module. `of` is volume or area, `tolerance` absolute, in the unit of the values.
+    ValueError if double precision does not reach it; otherwise errors are as for `solid_transform`.
     """
 
     spreading: Spreading  # Set if any triangle takes points.
@@ -237,10 +207,7 @@ class GridTransform(Transform):
 
 
 def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
-    """Return the least width of the kernel for an error of tolerance Σ |c|.
-
-    divided: the error is divided by |k| at each wave vector k.
-    """
+    """Return the least width of the kernel for an error of tolerance Σ |c|, or for its quotient by |k|."""
     k = np.arange(1, half + 1) if divided else np.ones(half)
     for width in WIDTHS:
         if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
@@ -249,10 +216,7 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """Return (m,) the points along a side that keep each D within tolerance, for |q| times the diameters.
-
-    It is MAX_POINTS_PER_SIDE + 1 if no number does.
-    """
+    """Return (m,) the points along a side that keep each D within tolerance, for |q| times the diameters."""
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)
@@ -269,10 +233,7 @@ def _trial_vectors(grid: FrequencyGrid) -> NDArray[np.float64]:
 
 
 def _sample_indices(grid: FrequencyGrid) -> NDArray[np.intp]:
-    """Return indices of sample places on a grid: the ends and beginnings of its axes and diagonals, and random ones.
-
-    Faces across these axes and diagonals show most there.
-    """
+    """Return indices of sample places on a grid: on axes and diagonals, where faces show most, and random ones."""
     h, n = grid.half, grid.count
     steps = np.concatenate([np.eye(3, dtype=int), np.ones((1, 3), int), 1 - np.eye(3, dtype=int)])
     positions = np.concatenate(

@@ -33,36 +33,10 @@ FOURIER_RTOL = 1e-7  # Tolerance of that transform, relative to the volume or th
 
 
 class BodyTransform:
-    """The transform of several surfaces, each at one or many places.
+    """The transform of surfaces, each at one or many places: `steps` does the work, `result` has the spectrum.
 
-    `steps` does the work, `result` returns the spectrum.
-
-    Parameters
-    ----------
-    parts : sequence of (Surface, (k, 4, 4) array)
-        Each surface with its maps.
-    q : (M, 3) array_like, or FrequencyGrid
-        Wave vectors, rad per unit of length.
-    of : Measure
-        Volume or area.
-    total : float
-        The body's volume or area, to which `FOURIER_RTOL` refers.
-    threads : int
-
-    Raises
-    ------
-    MeasureError
-        If there are no faces, or as `solid_transform`.
-
-    Examples
-    --------
-    >>> from body_moments.core.fourier import BodyTransform
-    >>> from body_moments.core.mesh import Surface
-    >>> from body_moments.core.moments import Measure
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> transform = BodyTransform([(surface, np.stack([np.eye(4)] * 3))], [[0.0, 0.0, 0.0]], Measure.VOLUME, 0.5)
-    >>> round(list(transform.steps())[-1], 9), round(float(transform.result().values[0].real), 9)
-    (1.0, 0.5)
+    parts: each surface with its (k, 4, 4) maps. q: wave vectors (M, 3) or a grid. `of` is volume or area, `total` the
+    body's, to which `FOURIER_RTOL` refers. MeasureError if there are no faces, or as `solid_transform`.
     """
 
     def __init__(

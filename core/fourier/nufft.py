@@ -10,10 +10,11 @@ error is about 10^(1 - width) of Σ |c|.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ..numerics.quadrature import gauss_legendre
 
 OVERSAMPLING = 2.0
 BETA = 2.30  # per unit of width, for that oversampling
@@ -73,10 +74,7 @@ class Spreading:
             cells[run] += np.bincount(index, weights.reshape(-1), minlength=run.stop - run.start)
 
     def sums(self) -> Iterator[NDArray[np.complex128]]:
-        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z from 0 on.
-
-        Uses the cells up.
-        """
+        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z from 0 on, using the cells up."""
         n, along = self.side, np.arange(-self.half, self.half + 1)
         factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(along / n, self.width)
         while self.cells:
@@ -98,21 +96,14 @@ def _kernel(z: NDArray, width: int) -> NDArray[np.float64]:
 
 def _kernel_transform(frequencies: NDArray, width: int) -> NDArray[np.float64]:
     """Return ∫ kernel(2 t / width) exp(-2πi f t) dt over its support, by Gauss's rule."""
-    z, weights = _gauss(8 * width + 32)
+    nodes, weights = gauss_legendre(8 * width + 32)
+    z = 2.0 * nodes - 1.0
     phases = np.pi * width * np.multiply.outer(frequencies, z)
-    return (np.cos(phases) * (weights * _kernel(z, width))).sum(axis=-1) * (width / 2.0)
-
-
-@lru_cache
-def _gauss(count: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    return np.polynomial.legendre.leggauss(count)
+    return (np.cos(phases) * (weights * _kernel(z, width))).sum(axis=-1) * width
 
 
 def _grid_side(half: int, width: int) -> int:
-    """Return the cells along a side of the fine grid: an even number with small prime factors only.
-
-    For such a number a fast Fourier transform is fast.
-    """
+    """Return the cells along a side of the fine grid: even, with small prime factors only, for a fast transform."""
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
     while _has_large_prime(n):

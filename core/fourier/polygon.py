@@ -123,28 +123,15 @@ class RegionTransform:
             values[near] = cross.sum() / 2.0 - 1j * (q[near] @ first * scale)
         values = values * scale**2 * phase_factors(q, self.center)
         if self.grid is not None:
-            q, values = self.grid.vectors(), expand_half(self.grid, values)
+            q, values = self.grid.vectors(), self.grid.expand(values)
         error = U * ROUNDING_FACTOR * self.perimeter * scale + self.moved + 8.0 * U * np.abs(values)
         return Spectrum(q, values, error, float(self.input_error))
 
 
 def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
-    """Return ((h+1)(2h+1), 2) the wave vectors of a grid from 0 on along x, and from -h to h along y.
-
-    The values at the others are conjugates.
-    """
-    x, y = np.arange(grid.half + 1) * grid.step, (np.arange(2 * grid.half + 1) - grid.half) * grid.step
-    return np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2).astype(np.float64, copy=False)
-
-
-def expand_half(grid: FrequencyGrid, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
-    """Return (count²,) the values everywhere from the values at `half_of_grid`."""
-    n, h = grid.count, grid.half
-    values = values.reshape(h + 1, 2 * h + 1)
-    full = np.empty((n, n), np.complex128)
-    full[h:] = values[: n - h, :n]
-    full[:h] = values[:0:-1, ::-1][:, :n].conj()
-    return full.reshape(-1)
+    """Return ((2h+1)(h+1), 2) wave vectors of a grid with y ≥ 0; the values at the others are conjugates."""
+    steps = np.arange(-grid.half, grid.half + 1) * grid.step
+    return np.stack(np.meshgrid(steps, steps[grid.half :], indexing="ij"), axis=-1).reshape(-1, 2)
 
 
 def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> NDArray[np.complex128]:

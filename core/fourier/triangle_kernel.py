@@ -28,9 +28,8 @@ from ..numerics.arguments import check_type
 from ..numerics.arrays import indices_in_range, spread_bits
 from ..numerics.compensated import compensated_normals
 from ..verdict.finding import MeasureError
-from ..verdict.findings import NO_FACES
-from ..verdict.tolerances import MAX_COORDINATE, MIN_SIZE
-from .findings import FOURIER_TOO_LARGE, FOURIER_TOO_SMALL
+from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
+from ..verdict.tolerances import MAX_COORDINATE, check_size
 from .wave_vectors import GridWaves, ListWaves
 
 TRIANGLES_PER_BLOCK = 128  # triangles
@@ -45,9 +44,8 @@ TINY = 1e-300
 class SortedTriangles:
     """The triangles of a surface about its center and at unit size, sorted so that blocks of them are alike.
 
-    center: (3,). scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. triangles: (m, 3);
-    area: of all of them; diameters: (m,), their longest sides; heights: (m,), over the shortest sides; in units of the
-    scale.
+    scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. area: of all triangles (m, 3);
+    diameters: (m,), their longest sides; heights: (m,), over the shortest sides; in units of the scale.
     """
 
     def __init__(self, surface: Surface):
@@ -70,9 +68,8 @@ class SortedTriangles:
         self.center = center
         reach = hypot(*np.maximum(high - center, center - low).tolist())
         if not reach < MAX_COORDINATE:
-            raise MeasureError(FOURIER_TOO_LARGE)
-        if 0.0 < reach < MIN_SIZE:
-            raise MeasureError(FOURIER_TOO_SMALL)
+            raise MeasureError(OBJECT_TOO_LARGE)
+        check_size(reach)
         exponent = int(np.ceil(np.log2(reach))) if reach > 0.0 else 0
         self.scale = float(np.ldexp(1.0, exponent))
         self.points = np.ascontiguousarray(np.ldexp(points.astype(np.float64) - center, -exponent))

@@ -10,9 +10,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     PrincipalFrame="principal_frames",
     Reference="reference",
     combine="mass_properties",
-    equivalent_frames="principal_frames",
-    nearest_frame="principal_frames",
     pose_matrix="principal_frames",
     principal_frame="principal_frames",
-    zhang_chen_frame="principal_frames",
 )

@@ -21,16 +21,6 @@ def affine_image(
     `center` and `mass` are those of the image; each principal axis points the way of a column of `preferred_axes`.
     The bounds are those of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
     second moments alone leave the signs open.
-
-    Examples
-    --------
-    >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
-    >>> from body_moments.core.inertia.affine_image import affine_image
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> body = MassProperties.from_moments(polyhedron_moments(surface)[0], density=6.0)
-    >>> image = affine_image(body, np.diag([2.0, 1.0, 1.0]), (0.5, 0.25, 0.25), 2.0, np.eye(3))
-    >>> image.inertia.diagonal().round(6).tolist()
-    [0.15, 0.375, 0.375]
     """
     linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
     second = np.trace(properties.inertia) / 2.0 * np.eye(3) - properties.inertia

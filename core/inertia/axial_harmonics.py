@@ -67,10 +67,9 @@ class AxialHarmonics:
 def axial_harmonics(
     surfaces: Iterable[Surface], center: NDArray, frame: NDArray, *, area: bool, order: int = MAX_AXIAL_ORDER
 ) -> AxialHarmonics:
-    """Find the harmonics of the body that surfaces bound, or of the surfaces themselves if `area`.
+    """Find the harmonics, to m = order, of the body that surfaces bound, or of the surfaces themselves if `area`.
 
-    The surfaces are closed, outward, and in the same coordinates. `center` is a point of the axis, `frame` as in
-    `AxialHarmonics`, `order` the largest m.
+    The surfaces are closed, outward, and in the same coordinates. `center` is a point of the axis, frame[:, 2].
     """
     pieces = [((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0]) for piece in surfaces]
     reach = max(float(np.hypot(points[:, 0], points[:, 1]).max()) for points, _ in pieces)
@@ -91,10 +90,7 @@ def axial_harmonics(
 
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
-    """Return (2, order + 1, k) the means of w^m and w^m z over triangles.
-
-    corners: (3, 3, k), x, y, z of each corner.
-    """
+    """Return (2, order + 1, k) the means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
     w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
     power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)
@@ -122,8 +118,8 @@ def turn_by_harmonics(
 ) -> EquivalentFrames:
     """Turn the frames of a body with one apparent axis of revolution to suit its harmonics about that axis.
 
-    Return frames in which the body is the same, to the harmonics' order; `alike` if no harmonic is more than noise,
-    or the axis itself is not known well.
+    Return frames in which the body is the same, to the harmonics' order; `alike` if no harmonic is more than noise, or
+    the axis itself is not known well.
     """
     (axis,) = alike.revolution_axes
     if alike.tilt > MAX_TILT:

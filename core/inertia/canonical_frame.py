@@ -133,7 +133,7 @@ def _candidates(
             directions, sign, tilt, are_isolated = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
-            bases = np.array([_frame_from_axis(direction) for direction in directions])
+            bases = np.array([frame_about(direction) for direction in directions])
             fourfold = sign if degree == 4 else -1.0
             frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
             rule = FrameRule(degree, 2, harmonic, _sign(harmonic, fourfold)) if are_isolated else None
@@ -151,10 +151,9 @@ def _fix_rotation_about_axis(
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
     """Turn the bases about that axis of theirs as the first clear harmonic asks.
 
-    Return them, its degree, m and k if there is one, and the angle by which noise may have turned it.
-
-    fourfold: the sign of a harmonic with m = 4; others get a positive one. E[cos 4φ] is negative for a square with
-    sides along the axes.
+    Return them, its degree, m and k if there is one, and the angle by which noise may have turned it. fourfold: the
+    sign of a harmonic with m = 4; others get a positive one. E[cos 4φ] is negative for a square with sides along the
+    axes.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
@@ -181,7 +180,7 @@ def _clear_harmonic(
     It is its degree, m and k, (n,) its value in each basis, and its noise.
     """
     first, second = (axis + 1) % 3, (axis + 2) % 3
-    order, size, weaker = [first, second, axis], _extents(spread), None
+    order, size, weaker = [first, second, axis], extents_of(spread.size), None
     for degree in range(3, central.order + 1):
         tensor = _rotate_tensor(central.raw[tensor_index(degree)], bases[:, :, order])
         noise = _normalization(central, replace(spread, noise=NOISE_LEVEL), degree)[1]
@@ -244,13 +243,12 @@ def _extreme_directions(
 
 
 def _maximize_on_sphere(tensor: NDArray, degree: int, span: float, within: float) -> NDArray[np.float64]:
-    """Return the maxima on the sphere, the best approached first, no more than `within` below the largest.
-
-    Some of them are returned several times. span: between the largest and the least value.
+    """Return maxima on the sphere, some repeated, the best approached first, at most `within` below the largest.
 
     The search starts from the highest points of a grid over the sphere: along the sphere the function is a
-    trigonometric polynomial, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)² span / 4 on the
-    way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and always uphill.
+    trigonometric polynomial of this span, so that by Bernstein's inequality it loses at most (degree MAX_START_GAP)²
+    span / 4 on the way from a maximum to the nearest of them. Steps are Newton's in the directions that are curved, and
+    always uphill.
     """
     points, scale = _sphere_directions(), degree**2 * span
     height = _contract(tensor, degree, points)
@@ -287,8 +285,8 @@ def _sphere_directions() -> NDArray[np.float64]:
     return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
 
 
-def _frame_from_axis(axis: NDArray) -> NDArray[np.float64]:
-    """Return a right-handed frame with this third axis."""
+def frame_about(axis: NDArray) -> NDArray[np.float64]:
+    """Return a right-handed frame with this third axis, the others near to the coordinate axes."""
     helper = np.eye(3)[np.argmin(np.abs(axis))]
     first = helper - axis * (axis @ helper)
     first /= np.linalg.norm(first)
@@ -307,12 +305,9 @@ def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDAr
 
 
 def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> tuple[NDArray, NDArray]:
-    """Return for each monomial of a degree its scale and the noise of its normalized moment.
-
-    The scale is the product of the extents along its axes; the noise comes from float32 coordinates and from rounding.
-    """
+    """Return for monomials of a degree their scales, products of extents, and their normalized moments' noise."""
     powers = monomials(degree)[monomial_index(degree, 0, 0) :]
-    size = _extents(spread)
+    size = extents_of(spread.size)
     unit = np.prod(size**powers, axis=1)
     thin = np.min(np.where(powers > 0, size, np.inf), axis=1)
     error = np.abs(_rotate_tensor(central.rounding_error[tensor_index(degree)], np.abs(spread.axes)[None]))
@@ -322,9 +317,9 @@ def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> t
     return unit, NOISE_GROWTH[degree] * noise + error.ravel()[_tensor_positions(degree)] / unit
 
 
-def _extents(spread: SecondMomentAxes) -> NDArray[np.float64]:
-    """Return (3,) the extents, infinite along an axis with hardly any: no noise is divided by almost nothing."""
-    return np.where(spread.size > FLAT_EXTENT_RTOL * spread.size.max(), spread.size, np.inf)
+def extents_of(size: NDArray) -> NDArray[np.float64]:
+    """Return (..., 3) extents, infinite along an axis with hardly any: no noise is divided by almost nothing."""
+    return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=-1, keepdims=True), size, np.inf)
 
 
 def _lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray, NDArray]:

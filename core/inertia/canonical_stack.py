@@ -20,7 +20,7 @@ from ..moments.affine_maps import rotate_moments
 from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
 from ..moments.moments import Moments
 from ..verdict.finding import MeasureError
-from .canonical_frame import FLAT_EXTENT_RTOL, NOISE_GROWTH
+from .canonical_frame import NOISE_GROWTH, extents_of
 from .findings import MOMENTS_OVERFLOW
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
@@ -32,10 +32,7 @@ HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.
 
 
 def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Choose the half turns of `canonical_frames` for bodies without axes of equal moments.
-
-    Return an (n, 4) mask of `third_moment_frames.HALF_TURN_SIGNS`. The moments are to sixth order, `bodies` indices.
-    """
+    """Return (n, 4) the HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
 
@@ -55,7 +52,7 @@ def choose_about_axis(
         weights, columns, forms = _harmonics(axis, moments.order)
         size = fixed.size[bodies[rows]]
         powers = monomials(moments.order)[columns + THIRD]
-        unit = np.multiply.reduce(_extents(size)[:, None] ** powers, axis=2)
+        unit = np.multiply.reduce(extents_of(size)[:, None] ** powers, axis=2)
         harmonic = np.abs(raw[rows][:, THIRD:] @ forms.T) / unit
         is_round[rows] = ~(harmonic > weights * least[rows][:, columns]).any(axis=1)
         # keep only the first frame for each direction of the axis
@@ -68,9 +65,9 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the allowed half turns with the largest normalized moments.
+    """Return (n, 4) mask of the allowed half turns with the largest normalized moments (n, columns).
 
-    Moments: (n, columns), compared column after column; values that differ by no more than `least` are equal.
+    They are compared column after column; values that differ by no more than `least` are equal.
     """
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
@@ -88,10 +85,7 @@ def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDAr
 def _along_axes(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Return (n, columns) the normalized central moments of third to the highest order along the axes, and their noise.
-
-    Return also (n, K) the central moments along the axes by the total.
-    """
+    """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central ones."""
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
     with np.errstate(over="ignore"):
@@ -102,16 +96,11 @@ def _along_axes(
     raw = rotate_moments(central.raw / total, order, turned)
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]
     powers = monomials(order)[THIRD:]
-    degree, extents = powers.sum(axis=1), _extents(size)
+    degree, extents = powers.sum(axis=1), extents_of(size)
     unit = np.multiply.reduce(extents[:, None] ** powers, axis=2)
     thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
     noise = fixed.noise + 4.0 * fixed.step[bodies, None] / thin + degree * fixed.tilt[bodies, None]
     return raw[:, THIRD:] / unit, np.array(NOISE_GROWTH)[degree] * noise + error / unit, raw
-
-
-def _extents(size: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3) the extents; infinite along an axis that has hardly any."""
-    return np.where(size > FLAT_EXTENT_RTOL * size.max(axis=1, keepdims=True), size, np.inf)
 
 
 @lru_cache

@@ -5,7 +5,9 @@
 from ..verdict.finding import error, note
 
 NO_CERTAIN_VOLUME = error(
-    "no_certain_volume", "The volume is zero within rounding. Check for vertices far away from the object."
+    "no_certain_volume",
+    "The volume is zero within rounding. Close the surface, set Kind to Shell, or check for vertices far away from "
+    "the object.",
 )
 MOMENTS_OVERFLOW = error(
     "moments_overflow",
@@ -16,27 +18,15 @@ NEGATIVE_INERTIA = error(
     "The surface intersects itself or cannot be closed, and regions count as negative. Set Overlaps to Count as "
     "Union, repair the mesh, or set Kind to Shell.",
 )
-AXES_ALL_FREE = note("axes_all_free", "All principal moments are equal; the object's own axes are used.")
-AXES_2_3_FREE = note(
-    "axes_2_3_free", "Principal moments 2 and 3 are equal; the directions nearest to the object's axes are used."
+AXES_FREE = note(
+    "axes_free", "Principal moments {axes} are equal; the directions nearest to the object's axes are used."
 )
-AXES_1_2_FREE = note(
-    "axes_1_2_free", "Principal moments 1 and 2 are equal; the directions nearest to the object's axes are used."
+AXES_FREE_BY_SHAPE = note(
+    "axes_free_by_shape",
+    "Principal moments {axes} are equal; the shape's own directions nearest to the object's axes are used.",
 )
 AXES_AMBIGUOUS = note(
     "axes_ambiguous", "The body is symmetric under half a turn; the directions nearest to the object's axes are used."
-)
-AXES_ALL_FREE_BY_SHAPE = note(
-    "axes_all_free_by_shape",
-    "All principal moments are equal; the shape's own axes nearest to the object's axes are used.",
-)
-AXES_2_3_FREE_BY_SHAPE = note(
-    "axes_2_3_free_by_shape",
-    "Principal moments 2 and 3 are equal; the shape's own directions nearest to the object's axes are used.",
-)
-AXES_1_2_FREE_BY_SHAPE = note(
-    "axes_1_2_free_by_shape",
-    "Principal moments 1 and 2 are equal; the shape's own directions nearest to the object's axes are used.",
 )
 STRICT_RULE_EQUAL_MOMENTS = error(
     "strict_rule_equal_moments", "Zhang and Chen's rule is undefined for equal principal moments. Turn it off."

@@ -68,9 +68,7 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     """Return (m, 3, 3) the frame of each (m, k, 3, 3) with the smallest turn from the preferred ones, (m, 3, 3).
 
     If several are as near, take the one with axes that, in order, point along rather than against their preferred axes,
-    so that noise cannot flip it.
-
-    tilt: the angle by which noise may have turned the candidates, for all or for each.
+    so that noise cannot flip it. tilt: the angle by which noise may have turned the candidates, for all or for each.
     """
     bodies = np.arange(len(candidates))
     if candidates.shape[1] == 1:

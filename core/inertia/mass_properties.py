@@ -70,27 +70,9 @@ class MassProperties:
         refine: Callable[[], Moments] | None = None,
         higher: Callable[[], Moments | OwnMoments] | None = None,
     ) -> MassProperties:
-        """Derive mass properties from moments of a body with constant density.
+        """Derive mass properties from moments to order 3 at least of a body with constant density, not negative.
 
-        Parameters
-        ----------
-        moments : Moments
-            To order 3 at least.
-        density : float
-            Mass per unit of the moments, not negative.
-        preferred_axes, refine, higher
-            As for `principal_frame`.
-
-        Returns
-        -------
-        MassProperties
-
-        Raises
-        ------
-        MeasureError
-            If the body has no certain volume.
-        ValueError
-            If the order is below 3 or the density is negative or not finite.
+        The other arguments are as for `principal_frame`. MeasureError if the body has no certain volume.
         """
         check_type("moments", moments, Moments)
         if moments.order < 3:
@@ -102,6 +84,26 @@ class MassProperties:
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
 
     @classmethod
+    def from_numbers(
+        cls,
+        mass: float,
+        center: ArrayLike,
+        inertia: ArrayLike,
+        moments: ArrayLike,
+        axes: ArrayLike,
+        rounding_error: dict[str, PerBody],
+        input_error: dict[str, PerBody],
+    ) -> MassProperties:
+        """Return the body with these numbers, as `MassProperties` and `PrincipalFrame` hold them.
+
+        Whether its axes are unique is unknown.
+        """
+        frame = PrincipalFrame(
+            np.asarray(moments, float), np.asarray(axes, float), symmetry="", is_unique=False, finding=None
+        )
+        return cls(mass, np.asarray(center, float), np.asarray(inertia, float), frame, rounding_error, input_error)
+
+    @classmethod
     def of_stack(
         cls,
         moments: Moments,
@@ -110,21 +112,9 @@ class MassProperties:
         fixed: ThirdMomentFrames,
         higher: Callable[[NDArray[np.intp]], OwnMoments] | None = None,
     ) -> MassProperties:
-        """Derive the mass properties of a stack of bodies, as `from_moments` does for one.
+        """Derive the mass properties of a stack of n bodies with certain volumes and (n,) densities.
 
-        Parameters
-        ----------
-        moments : Moments
-            Of n bodies, each with a certain volume, to order 3 at least.
-        density : (n,) array
-            Mass per unit of the moments, not negative.
-        preferred_axes, fixed, higher
-            As for `principal_frames`.
-
-        Returns
-        -------
-        MassProperties
-            With a leading axis.
+        The other arguments are as for `principal_frames`.
         """
         return cls._with_frame(moments, density, principal_frames(fixed, preferred_axes, higher))
 
@@ -151,27 +141,19 @@ class MassProperties:
 
     def at(self, which: int | list[int]) -> MassProperties:
         """Return one body of a stack, or a stack of some of them."""
+
+        def pick(values: PerBody) -> PerBody:
+            return values[which] if isinstance(which, list) else float(values[which])
+
         rounding, inputs = (
-            {
-                name: values[which] if isinstance(which, list) else float(values[which])
-                for name, values in bounds.items()
-            }
+            {name: pick(values) for name, values in bounds.items()}
             for bounds in (self.rounding_error, self.input_error)
         )
-        mass = self.mass[which] if isinstance(which, list) else float(self.mass[which])
-        return MassProperties(mass, self.center[which], self.inertia[which], self.principal.at(which), rounding, inputs)
+        principal = self.principal.at(which)
+        return MassProperties(pick(self.mass), self.center[which], self.inertia[which], principal, rounding, inputs)
 
     def inertia_about(self, point: ArrayLike) -> NDArray[np.float64]:
-        """Return the tensor about another point, by the parallel-axis theorem.
-
-        Parameters
-        ----------
-        point : (3,) array_like
-
-        Returns
-        -------
-        (3, 3) array
-        """
+        """Return the (3, 3) tensor about another point, by the parallel-axis theorem."""
         arm = float_array("point", point, 3) - self.center
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
@@ -188,10 +170,7 @@ class MassProperties:
         return np.sqrt(self.principal.moments / self.mass)
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
-        """Return the same body in the frame with the columns of `rotation` as axes and with `origin` as origin.
-
-        ValueError if that is no rotation.
-        """
+        """Return the same body in the frame with the columns of a rotation as axes and with this origin."""
         rotation = rotation_array("rotation", rotation)
         inverse = rotation.swapaxes(-1, -2)
         inertia = inverse @ self.inertia @ rotation
@@ -239,10 +218,9 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike |
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return (n,) whether bodies within these boxes, (n, 3) and (n, 3), can have these moments.
+    """Return (n,) whether centers are in these boxes, (n, 3) and (n, 3), and second central moments of a positive mass.
 
-    Their centers are inside, and their second central moments are those of a positive mass. A surface that intersects
-    itself may violate both.
+    A surface that intersects itself may violate both.
     """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
@@ -256,10 +234,9 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDA
 
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
-    """Return bounds of the change by rounding, and of the change if the moments are off by their `input_error`.
+    """Return bounds of the changes by rounding and by `input_error`; infinite if nothing bounds a quotient.
 
-    They hold for the worst signs of all errors, with the divisor at its smallest; infinite if nothing bounds a
-    quotient.
+    They hold for the worst signs of all errors, with the divisor at its smallest.
     """
     delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]

@@ -27,19 +27,15 @@ from numpy.typing import ArrayLike, NDArray
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
-from ..numerics.rotations import rotation_array
+from ..numerics.rotations import quaternion, rotation_array
 from ..verdict.finding import MeasureError, finding
 from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
 from .canonical_stack import choose_about_axis, choose_half_turns
 from .findings import (
-    AXES_1_2_FREE,
-    AXES_1_2_FREE_BY_SHAPE,
-    AXES_2_3_FREE,
-    AXES_2_3_FREE_BY_SHAPE,
-    AXES_ALL_FREE,
-    AXES_ALL_FREE_BY_SHAPE,
     AXES_AMBIGUOUS,
+    AXES_FREE,
+    AXES_FREE_BY_SHAPE,
     NEGATIVE_INERTIA,
     STRICT_RULE_EQUAL_MOMENTS,
     STRICT_RULE_NO_SKEWNESS,
@@ -52,18 +48,11 @@ NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed
 
 # The choice if the body leaves one: the object's own directions, or the nearest of the body's own.
-FREE = {
-    "isotropic": finding(AXES_ALL_FREE),
-    "prolate": finding(AXES_2_3_FREE),
-    "oblate": finding(AXES_1_2_FREE),
-    "asymmetric": finding(AXES_AMBIGUOUS),
-}
-FREE_BY_SHAPE = {
-    "isotropic": finding(AXES_ALL_FREE_BY_SHAPE),
-    "prolate": finding(AXES_2_3_FREE_BY_SHAPE),
-    "oblate": finding(AXES_1_2_FREE_BY_SHAPE),
-    "asymmetric": finding(AXES_AMBIGUOUS),
-}
+FREE, FREE_BY_SHAPE = (
+    {name: finding(code, axes=[axis + 1 for axis in axes]) for name, axes in EQUAL_AXES.items() if axes}
+    | {"asymmetric": finding(AXES_AMBIGUOUS)}
+    for code in (AXES_FREE, AXES_FREE_BY_SHAPE)
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +90,11 @@ class PrincipalFrame:
     is_unique: PerBody
     finding: PerBody
     undetermined_axes: PerBody = ()
+
+    @property
+    def quaternion(self) -> NDArray[np.float64]:
+        """(..., 4) w, x, y, z that turn the coordinate axes into the principal ones."""
+        return quaternion(self.axes)
 
     def rotate(self, rotation: ArrayLike) -> PrincipalFrame:
         """Return the same frame in coordinates new = rotation @ old."""
@@ -271,29 +265,10 @@ def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: O
 
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
-    """Return the principal frames in which the body is the same.
+    """Return the principal frames in which a body is the same, to the order of its moments, 3 at least.
 
-    Parameters
-    ----------
-    moments : Moments
-        To order 3 at least; the frames are alike to their order.
-    noise : float
-        Normalized third moments below this count as zero; the tolerance of the others grows with it.
-
-    Returns
-    -------
-    EquivalentFrames
-        `frames` (k, 3, 3) and the directions that no moment fixes.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments
-    >>> from body_moments.core.inertia import equivalent_frames
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> len(equivalent_frames(polyhedron_moments(surface, 6)[0]).frames)
-    3
+    noise: normalized third moments below this count as zero; the tolerance of the others grows with it.
     """
-    check_type("moments", moments, Moments)
     fixed = _of_one_body(moments, noise / NOISE_LEVEL)
     return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
 
@@ -311,32 +286,8 @@ def _require_body(moments: Moments, fixed: ThirdMomentFrames) -> None:
         raise MeasureError(OBJECT_TOO_SMALL if is_lost else NEGATIVE_INERTIA)
 
 
-def nearest_frame(equivalent: EquivalentFrames, preferred_axes: ArrayLike) -> NDArray[np.float64]:
-    """Return, of the frames in which a body is the same, the one nearest to the preferred axes.
-
-    Parameters
-    ----------
-    equivalent : EquivalentFrames
-        As `equivalent_frames` returns them.
-    preferred_axes : (3, 3) array_like
-        A rotation, its axes as columns.
-
-    Returns
-    -------
-    (3, 3) array
-        The axes as columns.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments
-    >>> from body_moments.core.inertia import equivalent_frames, nearest_frame
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> frame = nearest_frame(equivalent_frames(polyhedron_moments(surface, 6)[0]), np.eye(3))
-    >>> round(float(np.linalg.det(frame)), 9)
-    1.0
-    """
-    check_type("equivalent", equivalent, EquivalentFrames)
-    preferred_axes = rotation_array("preferred_axes", preferred_axes)
+def nearest_frame(equivalent: EquivalentFrames, preferred_axes: NDArray) -> NDArray[np.float64]:
+    """Return the frame nearest to the preferred axes, (3, 3) each with the axes as columns."""
     free = undetermined_axes(equivalent.revolution_axes)
     frames = complete_free_axes(equivalent.frames, free, preferred_axes)
     return nearest_frames(frames[None], preferred_axes[None], equivalent.tilt)[0]
@@ -350,37 +301,10 @@ def undetermined_axes(revolution_axes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = None) -> PrincipalFrame:
-    """Return the frame by Zhang and Chen's own rule: axes 1 and 2 in the direction of positive M_300 and M_030.
+    """Return the frame by Zhang and Chen's rule (ICIP 2001, eq. 11): axes 1 and 2 point along positive M_300 and M_030.
 
-    Parameters
-    ----------
-    moments : Moments
-        To order 3 at least.
-    refine : callable, optional
-        As for `principal_frame`.
-
-    Returns
-    -------
-    PrincipalFrame
-
-    Raises
-    ------
-    MeasureError
-        If one of the two moments is noise, or second moments are equal: the rule has no answer there.
-
-    Notes
-    -----
-    Zhang and Chen, ICIP 2001, eq. 11. Axis 3 completes a right-handed frame.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments
-    >>> from body_moments.core.inertia import zhang_chen_frame
-    >>> surface = Surface.from_triangles(
-    ...     np.eye(4, 3, -1) * (3, 2, 1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-    ... )
-    >>> zhang_chen_frame(polyhedron_moments(surface)[0]).is_unique
-    True
+    Axis 3 completes a right-handed frame. moments, to order 3 at least, and refine are as for `principal_frame`.
+    MeasureError if one of the two moments is noise, or second moments are equal: the rule has no answer there.
     """
     check_type("moments", moments, Moments)
     fixed = _of_one_body(moments)

@@ -1,11 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inertia about any point, along any axes, and about any axis, by exact shifts, with bounds.
+"""Inertia about any point, along any axes, and about any axis, by the parallel-axis theorem, with bounds.
 
-From moments it is a shift of these (`Moments.in_frame`); from mass properties, if nothing else is known any more, the
-parallel-axis theorem:
-
-    I_p = I_c + m (|d|² 1 - d dᵀ),   d = c - p.
+I_p = I_c + m (|d|² 1 - d dᵀ),   d = c - p.
 """
 
 from __future__ import annotations
@@ -15,11 +12,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import SECOND_MOMENT_INDEX, Moments, U
+from ..moments.moments import U
 from ..numerics.arguments import check_type, float_array
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import QueryError
-from .findings import AXIS_POINTS_COINCIDE, NO_CERTAIN_VOLUME
+from .canonical_frame import frame_about
+from .findings import AXIS_POINTS_COINCIDE
 from .mass_properties import MassProperties
 
 IDENTITY_3 = np.eye(3)
@@ -55,61 +53,24 @@ class Reference:
     def through_points(cls, first: ArrayLike, second: ArrayLike) -> Reference:
         """Return the frame with its origin at the first point and its Z axis from there to the second.
 
-        Parameters
-        ----------
-        first, second : (3,) array_like
-
-        Returns
-        -------
-        Reference
-            Its other axes are as near as possible to the coordinate axes.
-
-        Raises
-        ------
-        QueryError
-            If the points are one, or so near that they fix no direction.
+        Its other axes are as near as possible to the coordinate axes. QueryError if the points fix no direction.
         """
         first, second = float_array("first", first, 3), float_array("second", second, 3)
         way = second - first
         length = float(np.linalg.norm(way))
         if not length > MIN_AXIS_RATIO * max(np.abs(first).max(), np.abs(second).max()):
             raise QueryError(AXIS_POINTS_COINCIDE)
-        along = way / length
-        side = IDENTITY_3[np.abs(along).argmin()]
-        side = side - (side @ along) * along
-        side = side / float(np.linalg.norm(side))
-        return cls(first, np.column_stack([side, np.cross(along, side), along]).astype(np.float64))
+        return cls(first, frame_about(way / length))
 
     def refer(self, properties: MassProperties) -> ReferredInertia:
-        """Refer the inertia of one body to this frame, from its mass properties.
+        """Refer the inertia of one body, given in the same coordinates, to this frame, by the parallel-axis theorem.
 
-        Parameters
-        ----------
-        properties : MassProperties
-            Of one body, in the coordinates that this frame is given in.
-
-        Returns
-        -------
-        ReferredInertia
-
-        Notes
-        -----
-        The parallel-axis theorem. With e the bound of the center, and d = |c - p|, the tensor is off by at most its own
-        bound plus √2 d² times that of the mass plus m (6 d e + 2 e²).
-
-        Examples
-        --------
-        >>> from body_moments.core import MassProperties, Surface, polyhedron_moments
-        >>> from body_moments.core.inertia import Reference
-        >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-        >>> properties = MassProperties.from_moments(polyhedron_moments(surface)[0], density=60.0)
-        >>> np.round(Reference(np.zeros(3)).refer(properties).inertia[0], 9).tolist()
-        [2.0, -0.5, -0.5]
+        With e the bound of the center, and d = |c - p|, the tensor is off by at most its own bound plus √2 d² times
+        that of the mass plus m (6 d e + 2 e²).
         """
         check_type("properties", properties, MassProperties)
         arm = properties.center - self.origin
-        tensor = properties.inertia + properties.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
-        inertia = self.axes.T @ tensor @ self.axes
+        inertia = self.axes.T @ properties.inertia_about(self.origin) @ self.axes
         distance = float(np.linalg.norm(arm))
         rounded = 2.0 * U * float(np.abs(properties.center).sum() + np.abs(self.origin).sum())
         size = float(np.linalg.norm(properties.inertia) + np.sqrt(2.0) * properties.mass * distance**2)
@@ -133,56 +94,6 @@ class Reference:
             self, properties.mass, self.axes.T @ arm, (inertia + inertia.T) / 2.0, bounds[0], bounds[1]
         )
 
-    def refer_moments(self, moments: Moments, density: float = 1.0) -> ReferredInertia:
-        """Refer the inertia of a body of constant density to this frame, from its moments.
-
-        Parameters
-        ----------
-        moments : Moments
-            Of one body, to order 2 at least.
-        density : float
-            Mass per unit of the moments.
-
-        Returns
-        -------
-        ReferredInertia
-            With the bounds that the shift of the moments gives.
-
-        Raises
-        ------
-        MeasureError
-            If the body has no certain mass.
-
-        Examples
-        --------
-        >>> from body_moments.core.inertia import Reference
-        >>> from body_moments.core.moments import Moments
-        >>> point = Moments(np.r_[1.0, np.zeros(9)], np.array([3.0, 4.0, 0.0]))
-        >>> Reference(np.zeros(3)).refer_moments(point, 2.0).inertia.diagonal().tolist()
-        [32.0, 18.0, 50.0]
-        """
-        check_type("moments", moments, Moments)
-        shifted = moments.truncate(2).in_frame(self.axes, self.origin).about_point(np.zeros(3)) * density
-        total = shifted.total
-        if not total > 2.0 * shifted.rounding_error[0]:
-            raise QueryError(NO_CERTAIN_VOLUME)
-        center = shifted.raw[1:4] / total
-        second = shifted.raw[SECOND_MOMENT_INDEX]
-        bounds = []
-        for delta in (shifted.rounding_error, shifted.input_error):
-            spread = delta[SECOND_MOMENT_INDEX]
-            least, shift = total - delta[0], float(np.linalg.norm(delta[1:4] + np.abs(center) * delta[0]))
-            bounds.append(
-                {
-                    "mass": float(delta[0]),
-                    "center": shift / least if least > 0.0 else np.inf,
-                    "inertia": float(np.linalg.norm(spread.trace() * IDENTITY_3 + spread)),
-                }
-            )
-        bounds[0]["center"] += float(2.0 * U * np.linalg.norm(center))
-        bounds[0]["inertia"] += float(4.0 * U * np.linalg.norm(second))
-        return ReferredInertia(self, total, center, second.trace() * IDENTITY_3 - second, bounds[0], bounds[1])
-
 
 @dataclass(frozen=True, eq=False)
 class ReferredInertia:
@@ -191,16 +102,6 @@ class ReferredInertia:
     `center`: the center of mass from the reference's origin, along its axes; mass times this is the first moment.
     `inertia`: the (3, 3) tensor about the reference's origin.
     `rounding_error`, `input_error`: absolute bounds of "mass", "center" and "inertia", as in `MassProperties`.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments
-    >>> from body_moments.core.inertia import Reference
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> volume, _ = polyhedron_moments(surface)
-    >>> referred = Reference(np.zeros(3)).refer_moments(volume, 60.0)
-    >>> np.round(referred.inertia[0], 9).tolist(), round(referred.about_z, 9)
-    ([2.0, -0.5, -0.5], 2.0)
     """
 
     reference: Reference

@@ -106,10 +106,7 @@ def _frames_alike(
 def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
-    """Return the frames of a body with these rounded moments, without values.
-
-    ways: 1 if its fixed axis may point ahead, 2 back, 3 both.
-    """
+    """Return the frames of a body with these rounded moments. Its fixed axis points ahead (1), back (2) or both (3)."""
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -141,10 +138,7 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) the central moments by the total along (n, 3, 3) axes, in units of the extents there.
-
-    Return also (n, degrees) bounds of them for each degree; (n, 3) the extents.
-    """
+    """Return (n, K) central moments by the total along (n, 3, 3) axes, by the extents (n, 3); and bounds by degree."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -171,10 +165,7 @@ def _rounded_up(values: NDArray) -> NDArray[np.float64]:
 def _refined(
     frames: NDArray[np.float64], rule: FrameRule, raw: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (n, k, 3, 3) the frames (k, 3, 3) turned by the rule, and (n,) whether they have hardly turned.
-
-    The rule is applied to the moments (n, K) of n bodies.
-    """
+    """Return (n, k, 3, 3) frames turned by the rule for moments (n, K), and (n,) whether they hardly turned."""
     start, frames = frames, np.tile(frames, (len(raw), 1, 1, 1))
     third, first, second = rule.axis, (rule.axis + 1) % 3, (rule.axis + 2) % 3
     if rule.extreme:
@@ -207,10 +198,7 @@ def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
 
 
 def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -> NDArray:
-    """Return (n, k, ...) the moments of a degree of n bodies as tensors, with the forms (n, k, 3) put into them.
-
-    The degree is by default the number of forms.
-    """
+    """Return (n, k, ...) moments of a degree as tensors, with forms (n, k, 3) put in, by default as many."""
     out = np.einsum("n...i,nki->nk...", raw[:, tensor_index(degree or len(forms))], forms[0])
     for form in forms[1:]:
         out = np.einsum("nk...i,nki->nk...", out, form)

@@ -108,7 +108,7 @@ def third_moment_frames(
         size[:, :, None], size[:, PARTNER_AXES]
     )
     real = size * np.sqrt(scale)[:, None]
-    skewness, skewness_error = _third_scores(moments, shift, real, axes)
+    skewness, skewness_error = _third_scores(moments, shift, real, axes, symmetry)
     # Two axes that noise may have turned about the third one mix what the body has along them.
     tilt_between = np.zeros((len(total), 3, 3))
     tilt_between[:, 0, 1] = tilt_between[:, 1, 0] = tilts[:, 0]
@@ -125,7 +125,7 @@ def third_moment_frames(
         if len(undecided):
             third, error = third.copy(), error.copy()
             third[undecided], error[undecided] = _third_scores(
-                refine(undecided), shift[undecided], real[undecided], axes[undecided]
+                refine(undecided), shift[undecided], real[undecided], axes[undecided], symmetry[undecided]
             )
     is_clear = np.abs(third) > noise + error
     first = is_clear.argmax(axis=2)[:, :, None]  # zero where none of them is more than noise
@@ -148,10 +148,7 @@ def third_moment_frames(
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n,) whether better third moments could change no decision.
-
-    They could change neither the scores of fixed axes that count, nor their signs, nor their order.
-    """
+    """Return (n,) whether better third moments could change no score that counts, no sign and no order."""
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
@@ -163,10 +160,12 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 
 
-def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray) -> tuple[NDArray, NDArray]:
-    """Return (n, 3, 3) for each body and axis i its skewness and two normalized third moments, and their error bounds.
+def _third_scores(
+    moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, symmetry: NDArray[np.intp]
+) -> tuple[NDArray, NDArray]:
+    """Return (n, 3, 3) for each axis i its normalized M_iii, M_ijj and M_ikk, all odd in i, and their error bounds.
 
-    The three are M_iii, M_ijj and M_ikk: the two are odd in i and even in another axis.
+    If axes j and k are free, the last two are replaced by their mean, the same for every choice of these axes.
     """
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
@@ -184,7 +183,12 @@ def _third_scores(moments: Moments, shift: NDArray, size: NDArray, axes: NDArray
     turned = axes.transpose(0, 2, 1)
     scores = turned @ third.reshape(count, 3, 9) @ squares
     score_error = np.abs(turned) @ error.reshape(count, 3, 9) @ np.abs(squares)
-    return scores[:, OWN_AXIS, PARTNER_AXES] / unit, score_error[:, OWN_AXIS, PARTNER_AXES] / unit
+    scores, score_error = scores[:, OWN_AXIS, PARTNER_AXES] / unit, score_error[:, OWN_AXIS, PARTNER_AXES] / unit
+    for name, axis in FIXED_AXIS.items():
+        bodies = symmetry == SYMMETRIES.index(name)
+        for values in (scores, score_error):
+            values[bodies, axis, 1:] = values[bodies, axis, 1:].mean(axis=1, keepdims=True)
+    return scores, score_error
 
 
 def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.canonical_frame import MAX_ORDER
-from ..inertia.findings import AXES_ALL_FREE, MOMENTS_OVERFLOW
+from ..inertia.findings import AXES_FREE, MOMENTS_OVERFLOW
 from ..inertia.mass_properties import MassProperties
 from ..inertia.principal_frames import OwnMoments, PrincipalFrame
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments, U, monomial_count
-from ..solid.findings import OBJECT_TOO_LARGE
 from ..verdict.finding import Finding, ReadError, finding
+from ..verdict.findings import OBJECT_TOO_LARGE
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Verdict
 from ..wall.findings import NO_FACE_AREA
@@ -253,7 +253,11 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
         center=central.about,
         inertia=np.zeros((3, 3)),
         principal=PrincipalFrame(
-            np.zeros(3), np.asarray(preferred_axes, np.float64), NO_AXES_FIXED, False, finding(AXES_ALL_FREE)
+            np.zeros(3),
+            np.asarray(preferred_axes, np.float64),
+            NO_AXES_FIXED,
+            False,
+            finding(AXES_FREE, axes=[1, 2, 3]),
         ),
         rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},

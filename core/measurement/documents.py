@@ -15,11 +15,12 @@ import io
 import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from math import isfinite
 from typing import Any
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
-ROBOT_FORMATS = ("urdf", "sdf", "mjcf", "usd", "gltf")  # `core/robots/write/formats.py` has what writes them
+MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
 
 # The inertia tensor's six entries, in the order in which they are stored on an object.
@@ -34,6 +35,19 @@ _NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|nu
 
 # Beginnings of formulas, as OWASP lists them, or an apostrophe that does not stand for one.
 _FORMULA = re.compile(r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
+
+
+def plain(value: Any) -> Any:
+    """Return the value as JSON can hold it: Python's own types, and None for every number that is not finite."""
+    if hasattr(value, "tolist"):  # an array, or a number of one
+        value = value.tolist()
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if isinstance(value, float) and not isfinite(value):
+        return None
+    return value
 
 
 def document(
@@ -232,10 +246,5 @@ def _cell(value: Any) -> Any:
     return value
 
 
-def to_robot(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield the robot description of each file, as written by the process that measured it."""
-    return (file_document.get("robot", "") for file_document in documents)
-
-
 # From documents, which may be gone through twice, to pieces of text.
-FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv, **dict.fromkeys(ROBOT_FORMATS, to_robot)}
+FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}

@@ -17,7 +17,8 @@ from ..moments.exponents import monomial_index
 from ..moments.moments import Moments, U
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import Finding
-from .record import described, plain
+from .documents import plain
+from .record import described
 
 _FIRST, _SECOND = ((1, 0, 0), (0, 1, 0)), ((2, 0, 0), (0, 2, 0), (1, 1, 0))
 SHIFT_ROUNDINGS = 16.0  # u of the distance, from the plane to the frame

@@ -23,6 +23,7 @@ from ..moments.exponents import order_from_count
 from ..moments.moments import Moments, monomials
 from ..verdict.finding import Finding, MeasureError, Severity
 from ..verdict.sentences import sentence, severity
+from .documents import plain
 from .measurement import UNIFORM_DENSITIES, Measurement
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
@@ -144,21 +145,6 @@ def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ())
         with suppress(MeasureError):  # together they have no mass, and so no center
             entry.update(_inertial(combine([measurement.mass_moments for measurement in measurements])))
     return plain(entry) | described(findings)
-
-
-def plain(value: Any) -> Any:
-    """Return the value as JSON can hold it: Python's own types, and None for every number that is not finite."""
-    if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, np.ndarray):
-        return plain(value.tolist())
-    if isinstance(value, (list, tuple)):
-        return [plain(item) for item in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 def _inertial(properties: MassProperties) -> dict[str, Any]:

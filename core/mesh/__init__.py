@@ -9,8 +9,4 @@ __getattr__, __dir__, __all__ = lazy_names(
     ConvexHull="hulls",
     Surface="surface",
     convex_hull="hulls",
-    convex_polygon="hulls",
-    join_surfaces="surface",
-    normals="surface",
-    winding_number="winding",
 )

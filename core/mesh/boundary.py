@@ -25,20 +25,7 @@ KEYS = np.frombuffer(os.urandom(48), np.uint64) | np.uint64(1)
 
 
 class BoundarySum:
-    """The sum over the sides of faces, of pieces that are added one after the other.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface
-    >>> from body_moments.core.mesh.boundary import BoundarySum
-    >>> total = BoundarySum()
-    >>> total.add(Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2]]))
-    >>> total.is_zero
-    False
-    >>> total.add(Surface.from_triangles(np.eye(4, 3, -1), [[1, 2, 3]]))
-    >>> total.is_zero
-    True
-    """
+    """The sum over the sides of faces, of pieces that are added one after the other."""
 
     def __init__(self) -> None:
         self._total = np.zeros((), np.uint64)

@@ -14,11 +14,7 @@ ROUNDING = 1e-6  # relative to a box's sides
 
 
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) the boxes in the order of their beginnings along an axis, and (k,) counts of overlaps along it.
-
-    A count is the number of boxes behind a box that begin before its end. The axis is the one with the fewest such
-    pairs.
-    """
+    """Return (k,) boxes in order along the best axis, and (k,) counts of later ones that begin before their ends."""
     sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
         order = np.argsort(low[:, axis], kind="stable")
@@ -28,10 +24,7 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
 
 
 def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
-    """Return pairs of boxes that overlap by more than `margin` along every axis, at most about `most`.
-
-    Return also the number of candidates that were left out.
-    """
+    """Return about `most` pairs of boxes that overlap by over `margin` on each axis, and the count of untested ones."""
     order, count = _sweep(low, high, margin)
     left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
     for i, j in following_pairs(order, count, PIECE):
@@ -46,11 +39,8 @@ def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int)
 
 
 def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
-    """Return whether any two of k boxes overlap by more than rounding. centers, extents: (k, 3), half the sides.
-
-    A flat box inside another one meets it, though it overlaps it by nothing.
-    """
+    """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than rounding."""
     extents = extents * (1.0 - ROUNDING)
     low, high = centers - extents, centers + extents
-    pairs = following_pairs(*_sweep(low, high, 0.0), PIECE)
+    pairs = following_pairs(*_sweep(low, high, 0.0), PIECE)  # a flat box in another one overlaps it by nothing
     return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)

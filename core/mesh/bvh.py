@@ -28,10 +28,9 @@ MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
 
 @dataclass(frozen=True, eq=False)
 class SortedComponents:
-    """Triangles sorted by component, and the measures of each component.
+    """Triangles, (m, 3), sorted by component, (m,), and the measures of each of c components.
 
-    triangles: (m, 3); component: (m,) ascending; start: (c + 1,) the first triangle of each component.
-    low, high: (c, 3) boxes; volume: (c,) signed; area: (c,).
+    start: (c + 1,) first triangles; low, high: (c, 3) boxes; volume: (c,) signed; area: (c,).
     """
 
     triangles: NDArray[np.integer]
@@ -73,10 +72,7 @@ def sort_components(
 
 
 def radix_argsort(values: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return the stable order of integers from 0 to 2^32 - 1, 16 bits at a time.
-
-    numpy sorts 16-bit integers by counting.
-    """
+    """Return the stable order of integers below 2^32, 16 bits at a time: numpy sorts 16-bit integers by counting."""
     order = np.argsort(values.astype(np.uint16), kind="stable")
     if values.max() > 0xFFFF:
         order = order[np.argsort((values >> 16).astype(np.uint16)[order], kind="stable")]
@@ -98,10 +94,7 @@ class Bvh:
         self._build_nodes(self._sort(components, selected), selected)
 
     def _sort(self, components: SortedComponents, selected: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """Set `ids`, `bottom` and `top`, and return (m,) the component of each triangle.
-
-        The triangles are the ones of the wanted components, one component after the other, each in Morton order.
-        """
+        """Sort the triangles by selected component and Morton order, set their boxes, and return (m,) components."""
         ids, component = components.triangles, components.component
         if not selected.all():
             triangle_rows = np.flatnonzero(selected[component])
@@ -128,7 +121,7 @@ class Bvh:
         return component
 
     def _build_nodes(self, component: NDArray[np.intp], selected: NDArray[np.bool_]) -> None:
-        """Build the nodes over the sorted triangles. component: (m,) of each triangle."""
+        """Build the nodes over the sorted triangles of these (m,) components."""
         present = np.flatnonzero(selected)
         begin = np.searchsorted(component, present)
         size = np.searchsorted(component, present, side="right") - begin
@@ -174,7 +167,7 @@ class Bvh:
     def winding_numbers(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Return (k,) the winding number of a component around each place (about `origin`), and whether it is sure.
+        """Return (k,) winding numbers of components around places (about `origin`), and whether each is sure.
 
         It is unsure if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
         """
@@ -233,11 +226,7 @@ class Bvh:
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
     def distances(self, query_points: NDArray[np.float64], component: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return (k,) the distance of each place (about `origin`) from a component's surface.
-
-        The tree is walked level by level: boxes certainly farther away than the farthest corner of another box are left
-        out.
-        """
+        """Return (k,) the distance of each place (about `origin`) from a component's surface."""
         nearest = np.full(len(query_points), np.inf)
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         while pieces:
@@ -265,9 +254,7 @@ class Bvh:
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return for each pair of components whether they intersect, and whether the work ran out before that was known.
-
-    They do if an edge of one goes through a triangle of the other by more than the tolerance.
+    """Return (k,) whether an edge of either component pierces the other by the tolerance, and whether work ran out.
 
     first, second: (k,) components. vertex: (n,) the vertex of each point; triangles that share one are not compared.
     """
@@ -329,10 +316,10 @@ def _intersect_leaves(
 def _edges_cross_triangles(
     corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.intp]:
-    """Return the indices of the triangles `corner` with an edge that goes through their partner in `plane`.
+    """Return the indices of triangles `corner`, (3, k, 3), with an edge that goes through their partner in `plane`.
 
-    Both are (3, k, 3). The edge goes more than the tolerance away from the partner's edges, and further than that to
-    both sides while it is over the partner. (The plane of a sliver is not known far from it.)
+    It runs farther than the tolerance from the partner's edges, and to both sides of it while it is over the partner:
+    the plane of a sliver is not known far from it.
     """
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]

@@ -23,12 +23,13 @@ from ..numerics.arrays import first_occurrence, sums_by_index
 from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface
 
+HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
+
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """Return (2, e) the mesh faces on the two sides of each used edge, None if the surface is not proven closed.
+    """Return (2, e) the mesh faces beside each used edge, None if the mesh's own corners do not prove closedness.
 
-    It is proven by the mesh's own corners if every edge with faces has two, which run along it in opposite directions;
-    None also if there are no faces. Edges without faces do not count. The edge names at the corners are trusted.
+    They do if every edge with faces has two, in opposite directions. The edge names at the corners are trusted.
     """
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
@@ -55,7 +56,7 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
 def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
-    """Return a function of the start of a block of corners, or None if faces and corners do not fit.
+    """Return a function of a block's first corner, or None if faces and corners do not fit.
 
     It returns the face of each corner, and whether its side runs to a higher vertex.
     """
@@ -66,9 +67,7 @@ def _sides_at(
         size = 3
     else:
         quad_faces, triangle_faces = face_of_each(surface)
-        pieces = np.bincount(triangle_faces, minlength=quad_faces.max(initial=-1) + 1)
-        sizes = np.where(pieces > 0, pieces + 2, 0)
-        sizes[quad_faces] = 4
+        sizes = ring_sizes(triangle_faces, quad_faces)
         ends = np.cumsum(sizes)
         if not sizes.all() or ends[-1] != len(corners):
             return None
@@ -93,6 +92,16 @@ def _sides_at(
     return sides_at
 
 
+def ring_sizes(
+    triangle_faces: NDArray[np.integer], quad_faces: NDArray[np.integer], count: int = 0
+) -> NDArray[np.intp]:
+    """Return (count or more,) the number of corners of each mesh face, by its triangles or quad; 0 if it has none."""
+    pieces = np.bincount(triangle_faces, minlength=max(count, int(quad_faces.max(initial=-1)) + 1))
+    sizes = np.where(pieces > 0, pieces + 2, 0)
+    sizes[quad_faces] = 4
+    return sizes
+
+
 def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
     """Return the mesh face of each quad and of each triangle."""
     return (
@@ -103,10 +112,10 @@ def face_of_each(surface: Surface) -> tuple[NDArray[np.integer], NDArray[np.inte
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """The undirected edges of triangles. Side 3t + i runs from corner i of triangle t to the next one.
+    """The undirected edges of m triangles. Side 3t + i runs from corner i of triangle t to the next one.
 
-    of_side: (3m,) the edge of each side; upward: (3m,) if the side runs from the lower vertex to the higher.
-    first: (e,) the first side of each edge, in ascending order. count: (e,) sides of each.
+    of_side: (3m,) the edge of each side; upward: (3m,) if the side runs from the lower vertex to the higher; first:
+    (e,) the first side of each edge, ascending; count: (e,) sides of each.
     """
 
     of_side: NDArray[np.intp]
@@ -136,78 +145,31 @@ class Edges:
         """Return the sides of edges that have only one, ascending."""
         return self.first[self.count == 1]
 
+    def boundary_ends(self, triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
+        """Return the vertices from which and to which the boundary sides of (m, 3) triangles run."""
+        side = self.boundary_sides()
+        return triangles.ravel()[side], np.roll(triangles, -1, axis=1).ravel()[side]
 
-def find_edges(triangles: NDArray[np.integer]) -> Edges:
-    """Return the edges of (m, 3) triangles with three different vertices each, m at least 1."""
-    start, stop = _ends(triangles.astype(np.int64, copy=False))
+
+def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
+    """Return the edges of (m, 3) triangles with three different vertices each.
+
+    The last of them are the halves of so many quads, a, b, c and a, c, d, whose diagonals are edges of their own.
+    """
+    start, stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
-    first = first_occurrence(low * (int(high.max()) + 1) + high)
+    width = int(high.max(initial=0)) + 1
+    bits = (len(low) // width).bit_length()  # neighbors in the mesh share the table's cached part
+    slots = np.left_shift(low, bits, dtype=np.intp)
+    slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits) if bits else 0
+    keys = np.multiply(low, width, dtype=np.int64)
+    keys += high
+    diagonals = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads))
+    keys[diagonals + 2] = keys[diagonals + 3] = width * width + np.arange(quads)
+    first = first_occurrence(keys, slots=slots)
     begins = first == np.arange(len(first))
     of_side = (np.cumsum(begins) - 1)[first]
     return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))
-
-
-def _ends(triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Return (3m,) and (3m,) the vertices from which and to which the sides run."""
-    stop = np.empty_like(triangles, order="C")
-    stop[:, :2], stop[:, 2] = triangles[:, 1:], triangles[:, 0]
-    return triangles.ravel(), stop.ravel()
-
-
-def edges_from_mesh(surface: Surface, triangles: NDArray[np.integer]) -> Edges | None:
-    """Return the edges as `find_edges` does, without a search, from the mesh's own edges at its corners.
-
-    Each quad's diagonal is one more. None if the mesh names none or not for all triangles, or they do not fit the
-    vertices.
-
-    triangles: all of the surface, as `all_triangles` cuts them, with three different vertices each.
-    """
-    triangle_count, quads = len(surface.triangles), surface.quads
-    corners, edges = surface.corner_vertices, surface.corner_edges
-    if corners is None or edges is None or not len(corners) == len(edges) == 3 * triangle_count + 4 * len(quads):
-        return None
-    if triangle_count and len(quads) and (surface.triangle_faces is None or surface.quad_faces is None):
-        return None
-    edges = edges.astype(np.intp, copy=False)
-    quad_faces, triangle_faces = face_of_each(surface)
-    sizes = np.zeros(triangle_count + len(quads), np.intp)
-    if not len(sizes) > max(quad_faces.max(initial=0), triangle_faces.max(initial=0)):
-        return None
-    sizes[quad_faces], sizes[triangle_faces] = 4, 3
-    count = int(edges.max()) + 1
-    if sizes.sum() != len(corners) or edges.min() < 0 or count > 2 * len(corners):
-        return None
-    begins = np.cumsum(sizes) - sizes
-    diagonal = count + np.arange(len(quads))
-    flipped = triangles[triangle_count::2, 0] != quads[:, 0]
-    around = edges[begins[quad_faces][:, None] + (np.arange(4) + flipped[:, None]) % 4]
-    named = (
-        edges
-        if surface.triangle_faces is None and not len(quads)
-        else np.concatenate(
-            [
-                edges[begins[triangle_faces][:, None] + np.arange(3)].ravel(),
-                np.column_stack([around[:, 0], around[:, 1], diagonal, diagonal, around[:, 2], around[:, 3]]).ravel(),
-            ]
-        )
-    )
-    start, stop = _ends(triangles)
-    first = np.full(count + len(quads), -1)
-    first[named[::-1]] = np.arange(len(named) - 1, -1, -1)  # the last write to equal indices wins
-    begins = np.zeros(len(named), bool)
-    begins[first[first >= 0]] = True
-    of_side = (np.cumsum(begins) - 1)[first[named]]
-    first = np.flatnonzero(begins)
-    mesh_edges = Edges(of_side=of_side, upward=start < stop, first=first, count=np.bincount(of_side))
-    width = int(triangles.max()) + 1
-    ends = np.minimum(start, stop).astype(np.int64) * width + np.maximum(start, stop)
-    if not np.array_equal(ends[first][of_side], ends):
-        return None
-    # A mesh may name an edge twice, and each would pass for a boundary.
-    at_boundary = np.zeros(width, bool)
-    at_boundary[start[mesh_edges.boundary_sides()]] = at_boundary[stop[mesh_edges.boundary_sides()]] = True
-    doubtful = ends[first[at_boundary[start[first]] & at_boundary[stop[first]]]]
-    return mesh_edges if len(np.unique(doubtful)) == len(doubtful) else None
 
 
 def consistent_orientation(
@@ -217,11 +179,10 @@ def consistent_orientation(
     misoriented: NDArray[np.bool_],
     weight: NDArray[np.float64],
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return masks (count,) of the faces to turn so that linked faces agree, and of faces that cannot be made to agree.
+    """Return (count,) masks of the faces to turn so that linked faces agree, and of faces that cannot be made to agree.
 
-    a, b: the linked faces; misoriented: if the two disagree now; weight: (count,) the area of each face. In each part
-    the orientation with less area is turned; a part that is not orientable (a Möbius strip, a Klein bottle) stays as it
-    is.
+    a, b: linked faces; misoriented: if they disagree now; weight: (count,) areas: in each part the smaller area is
+    turned.
     """
     flipped, twisted = np.zeros((2, count), bool)
     if not misoriented.any():
@@ -243,11 +204,11 @@ def consistent_orientation(
 def group_components(
     edges: Edges, part: NDArray[np.intp], parts: int, even: NDArray[np.bool_]
 ) -> tuple[NDArray[np.intp], int]:
-    """Return (m,) the component of each triangle, made of whole parts, and the number of components.
+    """Return (m,) components of triangles, made of whole parts, and their number.
 
-    part: (m,) the part of each triangle, connected across edges with exactly two sides. even: (e,) edges with one side
-    that close otherwise. A part that closes by itself is a component of its own, though it may share edges with others
-    (two boxes that meet in an edge); the other parts belong together if they share an edge (a box with an inner wall).
+    part: (m,) parts connected across edges of two sides; even: (e,) edges of one side that close otherwise. A part that
+    closes by itself is a component, though it may share edges (two boxes that meet in an edge); others that share an
+    edge belong together (a box with an inner wall).
     """
     non_manifold = edges.count > 2
     if not non_manifold.any():

@@ -2,15 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls of points in space, by quickhull with many points at a time and exact decisions.
 
-Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Here each round adds all of
-these that do not touch each other's faces, so that a round is a few operations on arrays. Two points can be added
-together, in either order with the same result, if neither sees a face that the other one sees or that lies across the
-other one's horizon: a face over a horizon's edge is a positive combination of the two faces at that edge, so it is not
-seen either.
+Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds all of
+these, in a few operations on arrays, that see no common face and none across the other's horizon: then their order does
+not matter, as a face over a horizon's edge is a positive combination of the two faces at that edge.
 
-The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it. The side of a face that a point is
-on is then decided by integers without any rounding, so that the result is always a closed convex surface. The points
-themselves stay as they are.
+The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it, on which integers decide without
+rounding on which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
 """
 
 from __future__ import annotations
@@ -20,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_filled, float_array
+from ..numerics.arguments import float_array
 from ..numerics.arrays import batches, segment_ranges
 from ..numerics.vectors import cross
 from ..verdict.finding import MeasureError
@@ -67,17 +64,7 @@ class ConvexHull:
     gap: float
 
     def transform(self, linear: ArrayLike) -> ConvexHull:
-        """Return the hull of the images of the points under `linear @ x`, a map that does not flatten.
-
-        Parameters
-        ----------
-        linear : (3, 3) array_like
-
-        Returns
-        -------
-        ConvexHull
-            With outward faces, even if the map mirrors.
-        """
+        """Return the hull of the images of the points under (3, 3) `linear` @ x, which may mirror, but not flatten."""
         matrix = float_array("linear", linear, 3, 3, finite=True)
         is_mirrored = bool(np.linalg.det(matrix) < 0.0)
         return replace(
@@ -157,10 +144,7 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
-    """Return the index of the largest distance.
-
-    Among distances as large to `least`, take the largest reach: it is at a corner of the hull.
-    """
+    """Return the index of the largest distance; among those equal to `least`, of the largest reach: a corner."""
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
 
@@ -169,7 +153,7 @@ class _GrowingHull:
     """A hull on the grid, and the points that are still outside it, each with one face that it sees.
 
     corners: (m, 3) of its faces. normals: (m, 3) exact integers. outside, seen, height: the points, their faces, and
-    how far they are above them in steps of the grid. reach: of all points, squared distances from the middle.
+    their heights in steps of the grid. reach: of all points, squared distances from the middle.
     """
 
     def __init__(self, grid: NDArray[np.int64], corners: list[int], step: float) -> None:
@@ -190,10 +174,7 @@ class _GrowingHull:
         self.lengths = np.linalg.norm(self.normals.astype(np.float64), axis=1)
 
     def _heights(self, points: NDArray[np.intp], faces: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return (k,) normal · (point - corner), rounded but of the right sign; zero only in the plane.
-
-        The product needs 90 bits: the normal's upper and lower bits are multiplied apart.
-        """
+        """Return (k,) normal · (point - corner), rounded but of the right sign; zero only in the plane."""
         offset = self.grid[points] - self.grid[self.corners[faces, 0]]
         normal = self.normals[faces]
         high = np.einsum("ij,ij->i", normal >> GRID_BITS, offset)
@@ -204,10 +185,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return for each point, of one or more, the face that it is highest above, without points above none.
-
-        The choice is among the `counts` faces of each point, from the face `firsts` on.
-        """
+        """Return points, and the face, of `counts` from `firsts` on, that each is highest above, with the height."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -244,10 +222,7 @@ class _GrowingHull:
     def _visible_faces(
         self, apexes: NDArray[np.intp], faces: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (k, 2) pairs of an apex and a face that it sees, and (l, 3) the border of the visible faces.
-
-        The border is apex, visible face and side beyond which it sees none.
-        """
+        """Return (k, 2) pairs of an apex and a visible face, and (l, 3) borders: apex, visible face and its side."""
         size = len(self.corners)
         front = np.stack([np.arange(len(apexes)), faces], axis=1)
         known = np.sort(front[:, 0] * size + front[:, 1])
@@ -341,29 +316,8 @@ def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float
     return ConvexHull(points[indices], indices, triangles, neighbors, is_flat=True, gap=gap)
 
 
-def convex_polygon(points: ArrayLike, tolerance: float = 0.0) -> NDArray[np.intp]:
-    """Find the corners of the convex polygon around points in the plane.
-
-    Parameters
-    ----------
-    points : (n, 2) array_like
-        At least one, finite.
-    tolerance : float
-        Of the extent: points that are outside by no more are left out.
-
-    Returns
-    -------
-    (k,) integer array
-        Indices, counter-clockwise; two if the points are on a line, one if they are all the same.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import convex_polygon
-    >>> convex_polygon([[0, 0], [2, 0], [1, 0.5], [2, 2], [0, 2], [1, 0]]).tolist()
-    [0, 1, 3, 4]
-    """
-    points = float_array("points", points, "n", 2, finite=True)
-    check_filled("points", points)
+def convex_polygon(points: NDArray[np.float64], tolerance: float = 0.0) -> NDArray[np.intp]:
+    """Return (k,) the counter-clockwise corners around (n, 2) points; two on a line, one if all are the same."""
     ends = np.lexsort((points[:, 1], points[:, 0]))[[0, -1]]
     least = tolerance * float(np.ptp(points, axis=0).max())
     if np.abs(points[ends[1]] - points[ends[0]]).max() <= least:

@@ -3,14 +3,13 @@
 """Faces that are not flat, and faces without area.
 
 A face that is not flat has no volume under it until somebody chooses its diagonals. For a quad the two choices differ
-by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the fan from its first corner differs from the
-fan from its second by the tetrahedra on their common edge and each further one. A face counts as not flat if its
-diagonals pass each other by more than its coordinates' own errors and a millionth of its size, and it has an area.
+by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the fans from its first and its second corner
+differ by the tetrahedra on their common edge and each further one. A face counts as not flat if its diagonals pass each
+other by more than its coordinates' own errors and a millionth of its size, and it has an area.
 
-The sums over the faces have most of that at hand, and show it to a `PlanarityAccumulator`, a block at a time. The
-normal of a quad is the sum of the normals of its two triangles: with their lengths p and q at most p + q, and at least
-0.7 of that unless they face away from each other. Mostly that is enough to decide; the other faces are looked at one by
-one.
+The sums over the faces show most of that, at hand, to a `PlanarityAccumulator`, a block at a time. The normal of a quad
+is the sum of the normals of its triangles: with their lengths p and q at most p + q, and at least 0.7 of that unless
+they face away from each other. Faces that this does not decide are looked at one by one.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from numpy.typing import NDArray
 
 from ..numerics.arrays import segment_ranges, segment_starts, sums_by_index
 from ..numerics.vectors import cross, dot
-from .edges import face_of_each
+from .edges import face_of_each, ring_sizes
 from .surface import Surface
 from .surface_stack import SurfaceStack
 
@@ -39,7 +38,7 @@ QUAD, TRIANGLE = ((2, 0), (3, 1), (1, 0)), ((1, 0), (2, 0))  # corners (i, j) wh
 class Planarity:
     """Planarity of the faces of a surface.
 
-    non_planar_count: how many faces are not planar; volume_spread: the volume that the choice of their diagonals can
+    non_planar_count: faces that are not planar; volume_spread: the volume that the choice of their diagonals can
     change; degenerate_faces: (k,) the faces without area.
     """
 
@@ -50,11 +49,7 @@ class Planarity:
 
 @dataclass(frozen=True, eq=False)
 class _PlanarityPartial:
-    """Results of some quads or triangles.
-
-    In order: the count of faces; the count of faces surely not flat, and 6 times their spread; and the rows of the
-    undecided faces.
-    """
+    """Counts of faces, and of surely not flat ones, 6 times their spread, and the rows of the undecided ones."""
 
     count: int
     non_planar_count: int
@@ -63,14 +58,10 @@ class _PlanarityPartial:
 
 
 class PlanarityAccumulator:
-    """Quads, and polygons if the surface has the mesh's corners to tell their rings from.
+    """The faces' planarity, of quads, and of polygons if the surface has the mesh's corners. Safe in threads.
 
-    Other faces are made of triangles and have no choice.
-
-    error: (length) bound of the distance of points from their intended places. Safe in threads.
-
-    cones: sums of the cones over all faces from the reference point, each counted as positive, and signed; None if not
-    at hand.
+    error: bound of the distance of points from their intended places (unit). cones: sums of the cones over all faces
+    from the reference point, each counted as positive, and signed; None if not at hand.
     """
 
     def __init__(self, surface: Surface, error: float):
@@ -93,9 +84,8 @@ class PlanarityAccumulator:
     def add_quads(self, start: int, lengths: NDArray, volume: NDArray, folded: NDArray[np.intp], room: NDArray) -> None:
         """Add the quads from row `start` on.
 
-        lengths: (2, k) of the normals of both triangles, or 0. volume: (k,) 6 times the volume of the tetrahedron of
-        the corners, to be written over. folded: the columns with triangles that may face away from each other.
-        room: (2, k).
+        lengths: (2, k) of both triangles' normals. volume: (k,) 6 times the corners' tetrahedra, overwritten. folded:
+        columns whose triangles may face away from each other. room: (2, k) scratch.
         """
         volume, normal = np.abs(volume, out=volume), np.add(lengths[0], lengths[1], out=room[0])
         least, most = normal.min(), normal.max()
@@ -153,15 +143,10 @@ class PlanarityAccumulator:
         return _classify_rows(self.surface.points, corners, pairs, self.error, self.exponent)
 
     def _polygon_tetrahedra(self, pieces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-        """Return the tetrahedra of the faces of more than one triangle: (m,) the face of each, and (m, 4) corners.
-
-        pieces: the number of triangles of each mesh face.
-        """
-        ring, quad_faces = self.surface.corner_vertices, face_of_each(self.surface)[0]
+        """Return (m,) faces and (m, 4) corners of the polygons' tetrahedra. pieces: the triangles of each mesh face."""
+        quad_faces, triangle_faces = face_of_each(self.surface)
+        ring, sizes = self.surface.corner_vertices, ring_sizes(triangle_faces, quad_faces)
         polygon = np.flatnonzero(pieces > 1)
-        sizes = np.zeros(max(len(pieces), int(quad_faces.max(initial=-1)) + 1), np.intp)
-        sizes[: len(pieces)] = np.where(pieces > 0, pieces + 2, 0)
-        sizes[quad_faces] = 4
         if ring is None or sizes.sum() != len(ring):
             return NO_FACES, np.empty((0, 4), np.intp)
         return _tetrahedra(ring, (np.cumsum(sizes) - sizes)[polygon], sizes[polygon])
@@ -169,11 +154,7 @@ class PlanarityAccumulator:
 
 @dataclass(frozen=True, eq=False)
 class StackPlanarity:
-    """Flatness of the faces of n surfaces.
-
-    `volume_spread`: as in `Planarity`, of each surface.
-    `has_degenerate`: True if a surface has faces without area.
-    """
+    """Flatness of the faces of n surfaces: `Planarity` of each, and whether it has faces without area."""
 
     non_planar_counts: NDArray[np.intp]
     volume_spread: NDArray[np.float64]
@@ -224,9 +205,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (m,) 6 times the volume of the tetrahedron on the corners of each face, and (m,) whether it has no area.
-
-    The volume is scaled to size 1, and zero if the face is flat.
+    """Return (m,) 6 times the tetrahedron on each face's corners, scaled, 0 if flat, and (m,) whether it has no area.
 
     pairs: of corners, QUAD or TRIANGLE. error, exponent: of the surface, or (m,) of each row.
     """
@@ -252,10 +231,7 @@ def _classify_rows(
 def _tetrahedra(
     ring: NDArray[np.integer], begin: NDArray[np.integer], sizes: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
-    """Return the tetrahedra of polygons with corners that stand in `ring`, from `begin` on.
-
-    They are (m,) the polygon of each, and (m, 4) corners.
-    """
+    """Return (m,) polygons and (m, 4) corners of the tetrahedra of polygons that stand in `ring` from `begin` on."""
     steps = sizes - 3
     row = np.repeat(np.arange(len(sizes)), steps)
     at = begin[row] + 2 + segment_ranges(steps)
@@ -281,8 +257,5 @@ def _merge_blocks(blocks: dict[int, _PlanarityPartial], count: int) -> _Planarit
 
 
 def _degenerate_limit(longest: NDArray | float, error: float | NDArray) -> NDArray | float:
-    """Return the largest square of the normal of a face without area.
-
-    It follows from the square of the face's longest edge or diagonal.
-    """
+    """Return the largest squared normal of a face without area, from its squared longest edge or diagonal."""
     return longest * (error * error + ZERO_AREA_RTOL * ZERO_AREA_RTOL * longest)

@@ -17,8 +17,7 @@ from ..numerics.vectors import cross, dot, subtract
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
     """Return (m,) the distances of (m, 3) points, or of a single one, from (m, 3, 3) triangles, each from its own.
 
-    The distance is from the plane if the point's foot is inside the triangle, else from the nearest edge. Triangles
-    without area are their edges.
+    Triangles without area are their edges.
     """
     point, ends = np.asarray(points, np.float64).T, np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:

@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Crossings of parallel lines with the faces of bodies.
 
-The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, and stand in
-a lattice across it, at whole numbers of rows and columns. As a picture is drawn: a row crosses a triangle between two
-of its edges, and the columns in between meet it. That costs a look at the cell of each vertex, and work only for faces
-with corners in several rows and columns. A row crosses an edge that has one end above it, at a place that is computed
-from the edge's vertex of lower number on: triangles that share the edge see the same, and no line slips through between
-them.
+The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, in a lattice
+of rows and columns across it. As a picture is drawn, a row crosses a triangle between two of its edges, and the columns
+in between meet it: work only for faces with corners in several rows and columns. A row crosses an edge that has one end
+above it, at a place that is computed from the edge's vertex of lower number on: triangles that share the edge see the
+same, and no line slips through between them.
 
-Bodies share a scan, each with lines of its own. If the work would exceed the limit for a body's number of triangles,
-fewer rows are taken. A body gets the same whether it is alone or one of many.
+Bodies share a scan, each with lines of its own, with the result that each has alone. Fewer rows are taken of a body if
+the work would exceed the limit for its number of triangles.
 """
 
 from __future__ import annotations
@@ -38,10 +37,8 @@ MAX_CROSSINGS = 16384, 0.5  # pairs of lines and triangles; likewise
 class LineGrids:
     """The lines through each of b bodies.
 
-    `axes`: (b, 3) the points' axes from row to row, along a row, and along the lines.
-    `center`: (b, 3) a point of the body, in the order of `axes`.
-    `cell`: (b, 2) the height of the rows and the width of the columns (unit).
-    `origin`: (b, 2) the row and the column of the center; the body's first ones are 0.
+    `axes`: (b, 3) the points' axes from row to row, along a row, and along the lines; `center`: (b, 3) in that order.
+    `cell`: (b, 2) height of rows and width of columns; `origin`: (b, 2) row and column of the center, counted from 0.
     `rows`, `columns`: the largest numbers of any body.
     """
 
@@ -74,10 +71,7 @@ class LineGrids:
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
-        """Return (3, n) places of points: in rows, in columns, and along the lines from the center (unit).
-
-        body: (n,) the body of each point, None for a single one.
-        """
+        """Return (3, n) points in rows, in columns, and along the lines. body: (n,), None for a single one."""
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
@@ -105,13 +99,12 @@ class LineGrids:
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """The k crossings of lines with the triangles of b bodies.
+    """The k crossings of lines (`body`, `row`, `column`) with the triangles of b bodies.
 
-    `body`, `row`, `column`: the line.
-    `triangle`: quad q is cut into 2q and 2q + 1; triangle t has the index 2 · (number of quads) + t.
-    `along`: the distance along the line from the body's center (unit).
-    `sign`: 1 if a line enters and -1 if it leaves the body; the opposite for faces that run the other way around.
-    `rows_apart`: (b,) every so many rows of each body were taken.
+    `triangle`: 2q and 2q + 1 for quad q, then the triangles. `along`: the distance along the line from the body's
+    center.
+    `sign`: 1 if a line enters and -1 if it leaves a body that faces outward. `rows_apart`: (b,) every so many rows were
+    taken.
     """
 
     body: NDArray[np.intp]
@@ -129,10 +122,7 @@ def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
 
 
 def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None) -> Crossings:
-    """Find the crossings of lines with the faces of bodies, in no particular order.
-
-    `body` is the (n,) body of each point; None for a single one.
-    """
+    """Find the crossings of lines with faces of bodies, unordered. body: (n,) of each point, None for a single one."""
     triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
     corners, count = triangles.ravel(), triangles.shape[1]
     owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
@@ -196,10 +186,7 @@ def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDAr
 def _crossed_triangles(
     surface: Surface, cells: tuple[NDArray[np.integer], NDArray[np.integer]]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (3, k) corners of the triangles that span several rows and columns, and their indices.
-
-    Both halves of such a quad are included.
-    """
+    """Return (3, k) corners of the triangles, or halves of quads, that span several rows and columns, and indices."""
     triangles, number = [np.empty((3, 0), np.intp)], [np.empty(0, np.intp)]
     quads = surface.quads
     for faces in (quads, surface.triangles):
@@ -236,11 +223,10 @@ def _cross_row(
     higher: NDArray[np.bool_],
     row: NDArray[np.intp],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
-    """Return the points at which a row enters and leaves each triangle, and the sign of the lines' crossings between.
+    """Return the points, (2, k), at which a row enters and leaves each triangle, and the sign of the crossings between.
 
-    The points are (2, k) in columns and (2, k) along the lines. places, corners: (3, 3t) and (3t,) of all first
-    corners, all second and all third ones; which: (k,) the triangles; higher: (3, k) mask of their corners above the
-    row.
+    places, corners: (3, 3t) and (3t,) of all first corners, all second and all third ones; which: (k,) the triangles;
+    higher: (3, k) mask of their corners above the row.
     """
     first, second, third = higher
     single = (first ^ second ^ third) & ~(first & second & third)

@@ -27,11 +27,9 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
-    """Return (n, k) the face across each side of (n, k) faces, if every edge has two opposite sides, else None.
+    """Return (n, k) the face across each side of (n, k) faces, or None unless every edge has two sides, run oppositely.
 
-    Opposite sides run in opposite directions. None also if there are too many for 32 bits.
-
-    vertex_count: of vertices that are all used.
+    None also if there are too many for 32 bits. All of the vertices are used.
     """
     if 2 * vertex_count > faces.size or faces.size % 2:  # a vertex has one face
         return None
@@ -80,10 +78,7 @@ class _Table:
         return self.sides.take(places, mode="clip") - np.int32(1)
 
     def factors_by_distinct_places(self, faces: NDArray[np.integer]) -> list[int]:
-        """Return the hash factors, ordered by the number of distinct places of the sides around some vertices.
-
-        Most come first: in a grid the differences of neighbors are the same few everywhere.
-        """
+        """Return the hash factors, those that give sides around some vertices the most distinct places first."""
         flat = faces.ravel()
         first = len(self.sides) >> self.bits + 1
         number = np.flatnonzero((flat >= first) & (flat < first + SAMPLED_VERTICES))

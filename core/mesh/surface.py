@@ -15,12 +15,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_type, float_array, index_array, number_array
+from ..numerics.arguments import float_array, index_array, number_array
 from ..numerics.vectors import cross, dot
 
-POINTS_PER_ROW = 512  # points whose coordinates are compared as one row
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
+HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
 INDEX_SHAPES = {
     "triangles": ("m", 3),
     "quads": ("q", 4),
@@ -88,14 +88,8 @@ class Surface:
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """(3,) and (3,) the smallest and the largest coordinates of the points, used or not; NaN if any is NaN."""
-        low = high = self.points
-        if len(low) > POINTS_PER_ROW:  # along rows of three numpy is twenty times as slow
-            whole = len(low) // POINTS_PER_ROW * POINTS_PER_ROW
-            wide, rest = self.points[:whole].reshape(-1, 3 * POINTS_PER_ROW), self.points[whole:]
-            low = np.concatenate([rest, np.minimum.reduce(wide).reshape(-1, 3)])
-            high = np.concatenate([rest, np.maximum.reduce(wide).reshape(-1, 3)])
-        low, high = np.ascontiguousarray(low.T), np.ascontiguousarray(high.T)
-        return np.minimum.reduce(low, axis=1).astype(np.float64), np.maximum.reduce(high, axis=1).astype(np.float64)
+        rows = np.ascontiguousarray(self.points.T)  # along rows of three numpy is twenty times as slow
+        return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(rows, axis=1).astype(np.float64)
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
@@ -109,24 +103,12 @@ class Surface:
         if self.points.dtype != np.float32 or not len(self.points):
             return np.zeros(3)
         low, high = self.box
-        # The largest float32 has the ulp of 2^127, although no larger number exists to measure it by.
-        largest = np.minimum(np.maximum(high, -low), 2.0**127)
-        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
+        return half_ulp(np.maximum(high, -low))
 
     def transform(self, linear: ArrayLike, offset: ArrayLike = (0.0, 0.0, 0.0)) -> Surface:
-        """Map the points by `linear @ x + offset` in float64.
+        """Map the points by (3, 3) `linear` @ x + (3,) `offset` in float64; the surface is then one of triangles alone.
 
         A mirroring map reverses the faces, so that outward stays outward; the diagonals stay as Blender drew them.
-
-        Parameters
-        ----------
-        linear : (3, 3) array_like
-        offset : (3,) array_like
-
-        Returns
-        -------
-        Surface
-            Of triangles alone.
         """
         rows, offset = float_array("linear", linear, 3, 3), float_array("offset", offset, 3)
         x, y, z = self.points.T.astype(np.float64)
@@ -146,23 +128,9 @@ class Surface:
 
     @classmethod
     def from_triangles(cls, points: ArrayLike, triangles: ArrayLike) -> Surface:
-        """Make a surface of triangles.
+        """Make a surface of (m, 3) triangles, outward ones counter-clockwise, over (n, 3) points, float32 or 64.
 
-        Parameters
-        ----------
-        points : (n, 3) array_like
-            Real; kept as float32 if they are, otherwise float64.
-        triangles : (m, 3) array_like of int
-            Outward faces counter-clockwise.
-
-        Returns
-        -------
-        Surface
-
-        Raises
-        ------
-        ValueError
-            If the shapes or types differ, or an index has no point.
+        ValueError if the shapes or types differ, or an index has no point.
         """
         points = number_array("points", points, "n", 3)
         return cls(points, index_array("triangles", triangles, "m", 3, count=len(points)))
@@ -172,59 +140,21 @@ class Surface:
         faces = np.arange(len(self.triangles)) if self.triangle_faces is None else self.triangle_faces
         if not len(self.quads):
             return self.triangles, faces
-        quads = np.where(flipped_quads(self.points, self.quads)[:, None], np.roll(self.quads, -1, axis=1), self.quads)
-        cut = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-        quad_faces = np.arange(len(quads)) if self.quad_faces is None else self.quad_faces
+        cut = turned_quads(self.points, self.quads)[:, HALVES].reshape(-1, 3)
+        quad_faces = np.arange(len(self.quads)) if self.quad_faces is None else self.quad_faces
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
 
 
-def normals(points: ArrayLike, triangles: ArrayLike) -> NDArray[np.float64]:
-    """Return the normals of triangles, each twice as long as its triangle's area.
-
-    Parameters
-    ----------
-    points : (n, 3) array_like
-    triangles : (m, 3) array_like of int
-
-    Returns
-    -------
-    (m, 3) array
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import normals
-    >>> normals(np.eye(4, 3, -1), np.array([[0, 1, 2]])).tolist()
-    [[0.0, 0.0, 1.0]]
-    """
-    points, triangles = number_array("points", points, "n", 3), index_array("triangles", triangles, "m", 3)
+def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
     return np.cross(b - a, c - a)
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
-    """Join several surfaces, in the same coordinates, into one of triangles in float64.
-
-    Parameters
-    ----------
-    surfaces : sequence of Surface
-        At least one.
-
-    Returns
-    -------
-    Surface
-        Its faces are numbered one surface after the other.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface, join_surfaces
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> joined = join_surfaces([surface, surface.transform(np.eye(3), (2.0, 0.0, 0.0))])
-    >>> len(joined.triangles), joined.box[1].tolist()
-    (8, [3.0, 1.0, 1.0])
-    """
+    """Join surfaces, in the same coordinates, into one of float64 triangles; faces are numbered on."""
     points, triangles, faces, start, face = [], [], [], 0, 0
     for surface in surfaces:
-        check_type("surfaces", surface, Surface)
         cut, source_face = surface.all_triangles()
         points.append(surface.points.astype(np.float64))
         triangles.append(cut + start)
@@ -238,11 +168,21 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
     )
 
 
+def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return half an ulp of float32 numbers; the largest one has the ulp of 2^127, though no number is above it."""
+    return np.spacing(np.minimum(largest, 2.0**127).astype(np.float32)).astype(np.float64) / 2.0
+
+
+def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
+    """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third, as `HALVES`."""
+    return np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
+
+
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
     """Return (q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
 
-    Blender's own rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): it flips
-    if the normals of the two triangles at the first diagonal face away from each other.
+    Blender's rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): it flips if
+    the normals of the two triangles at the first diagonal face away from each other.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)

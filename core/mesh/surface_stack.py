@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 
 from ..numerics.arrays import indices_in_range
 from ..numerics.graph import connected_components
-from .surface import Surface, flipped_quads
+from .edges import face_of_each, ring_sizes
+from .surface import HALVES, Surface, half_ulp, turned_quads
 
 
 @dataclass(frozen=True, eq=False)
 class TriangleStack:
-    """The triangles of n surfaces, each with its indices moved behind the points of the surfaces before it.
+    """The triangles of n surfaces, with indices moved behind the points of the surfaces before. None lacks any.
 
-    `points` are (p, 3), float32 or float64, `triangles` (t, 3), the counts (n,). No surface lacks points or triangles.
+    `points` are (p, 3), float32 or float64, `triangles` (t, 3), the counts (n,).
     """
 
     points: NDArray[np.floating]
@@ -73,15 +74,13 @@ class TriangleStack:
     def coordinate_error(self) -> NDArray[np.float64]:
         """(n, 3) as `Surface.coordinate_error` of each."""
         low, high = self.box
-        largest = np.minimum(np.maximum(high, -low), 2.0**127)
-        return np.spacing(largest.astype(np.float32)).astype(np.float64) / 2.0
+        return half_ulp(np.maximum(high, -low))
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceStack(TriangleStack):
-    """The arrays of n surfaces.
+    """The arrays of n surfaces, by `from_surfaces`. Faces are the meshes' own, numbered on from surface to surface.
 
-    Make them by `of`. Faces are the meshes' own, numbered one surface after the other.
     `triangles`: (t, 3) all faces, quads cut as drawn; of each surface first its triangles, then its quads.
     `triangle_faces`, `quad_faces`: the face of each triangle, (t,), and of each of the (q, 4) quads.
     `corner_vertices`, `corner_edges`: (c,) the meshes' corners and the edges that start there.
@@ -125,7 +124,8 @@ class SurfaceStack(TriangleStack):
             ]
         ).T
         edge_counts = np.array([int(edges.max()) + 1 for edges in corner_edges])
-        face_counts = np.array([_face_count(surface) for surface in surfaces])
+        numbers = [face_of_each(surface) for surface in surfaces]
+        face_counts = np.array([max(int(faces.max(initial=-1)) for faces in pair) + 1 for pair in numbers])
         points = np.concatenate([surface.points for surface in surfaces])
         first_point, first_face = np.cumsum(point_counts) - point_counts, np.cumsum(face_counts) - face_counts
         first_edge = np.cumsum(edge_counts) - edge_counts
@@ -133,22 +133,20 @@ class SurfaceStack(TriangleStack):
         quads = np.concatenate([surface.quads for surface in surfaces]).astype(np.intp)
         triangles += np.repeat(first_point, single)[:, None]
         quads += np.repeat(first_point, quad_counts)[:, None]
-        faces = [
-            np.concatenate([_faces(surface, name) for surface in surfaces]) + np.repeat(first_face, counts)
-            for name, counts in (("triangles", single), ("quads", quad_counts))
-        ]
+        quad_faces, triangle_faces = (
+            np.concatenate(faces).astype(np.intp) + np.repeat(first_face, counts)
+            for faces, counts in zip(zip(*numbers), (quad_counts, single))
+        )
         corners = np.concatenate(corner_vertices).astype(np.intp)
         corners += np.repeat(first_point, corner_counts)
         edges = np.concatenate(corner_edges).astype(np.intp)
         edges += np.repeat(first_edge, corner_counts)
-        faces = [numbers.astype(np.intp) for numbers in faces]
-        cut, cut_faces = triangles, faces[0]
+        cut, cut_faces = triangles, triangle_faces
         if len(quads):
-            turned = np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
             owner = np.repeat(np.tile(np.arange(len(surfaces)), 2), np.concatenate([single, 2 * quad_counts]))
             order = owner.argsort(kind="stable")
-            cut = np.concatenate([triangles, turned[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)])[order]
-            cut_faces = np.concatenate([faces[0], np.repeat(faces[1], 2)])[order]
+            cut = np.concatenate([triangles, turned_quads(points, quads)[:, HALVES].reshape(-1, 3)])[order]
+            cut_faces = np.concatenate([triangle_faces, np.repeat(quad_faces, 2)])[order]
         return cls(
             points,
             cut,
@@ -156,7 +154,7 @@ class SurfaceStack(TriangleStack):
             single + 2 * quad_counts,
             cut_faces,
             quads,
-            faces[1],
+            quad_faces,
             corners,
             edges,
             quad_counts,
@@ -173,11 +171,7 @@ class SurfaceStack(TriangleStack):
     @cached_property
     def face_sizes(self) -> NDArray[np.intp]:
         """(f,) the number of corners of each face, by its triangles and quads; 0 if it has none."""
-        count = int(self.face_counts.sum())
-        is_quad = np.zeros(count, bool)
-        is_quad[self.quad_faces] = True
-        pieces = np.bincount(self.triangle_faces, minlength=count)
-        return np.where(is_quad, 4, np.where(pieces > 0, pieces + 2, 0))
+        return ring_sizes(self.triangle_faces, self.quad_faces, int(self.face_counts.sum()))
 
     def uses_all_points(self) -> NDArray[np.bool_]:
         """Return (n,) mask of the surfaces with all points used as corners of faces."""
@@ -231,10 +225,8 @@ class SurfaceStack(TriangleStack):
 class Connections:
     """Connections of the faces of n surfaces, by their meshes' own edges.
 
-    `is_closed`: True if every edge that has faces has two, which run along it in opposite directions.
-    `is_open`: True if that is so but for some edges with one face.
-    `component_counts`: (n,) components of each closed or open surface; meaningless for the others.
-    `component`: (f,) the component of each face, numbered in the order of their first faces.
+    `is_closed`: every edge with faces has two, which run oppositely; `is_open`: all but some with a single face.
+    `component_counts`: (n,); meaningless unless closed or open. `component`: (f,) of each face, by first faces.
     `open_sides`: (2, k) start and end vertices of the sides with no other side, for the open surfaces.
     """
 
@@ -243,18 +235,3 @@ class Connections:
     component_counts: NDArray[np.intp]
     component: NDArray[np.intp]
     open_sides: NDArray[np.intp]
-
-
-def _faces(surface: Surface, name: str) -> NDArray[np.integer]:
-    """Return the mesh faces of a surface's triangles or quads."""
-    faces = surface.triangle_faces if name == "triangles" else surface.quad_faces
-    return np.arange(len(getattr(surface, name))) if faces is None else faces
-
-
-def _face_count(surface: Surface) -> int:
-    """Return the number of faces of the mesh of a surface."""
-    counts = [
-        len(rows) if faces is None else int(faces.max(initial=-1)) + 1
-        for rows, faces in ((surface.triangles, surface.triangle_faces), (surface.quads, surface.quad_faces))
-    ]
-    return max(counts)

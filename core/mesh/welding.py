@@ -31,10 +31,7 @@ def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
 def may_have_neighbor(
     points: NDArray[np.floating], reach: float | NDArray[np.float64], owner: NDArray[np.integer] | None = None
 ) -> NDArray[np.bool_]:
-    """Return (n,) whether a point may have another one of the same owner within reach; surely true for all that have.
-
-    reach: for all points, or for each, equal for all points of an owner.
-    """
+    """Return (n,) True for points with another of their owner within reach (for all, or each), and for some more."""
     x, y, z = points.T.astype(np.float64)
     along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
     order = along.argsort() if owner is None else np.lexsort((along, owner))
@@ -49,10 +46,10 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return (n,) the first point of each point's cluster: of points nearer to each other than their tolerances (n,).
+    """Return (n,) the first point of each cluster of points nearer to each other than their tolerances, (n,).
 
-    Clusters that stand apart by more than `CELL_DIAGONAL` of the largest tolerance are found whole and apart. Some
-    points of a row, each near to the next, may be left out: their order decides.
+    Clusters that stand apart by over `CELL_DIAGONAL` of the largest tolerance are found whole; of a row of points, each
+    near to the next, some may be left out.
     """
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
@@ -85,11 +82,7 @@ def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64
 def vertex_tolerance(
     points: NDArray[np.floating], triangles: NDArray[np.integer], vertices: NDArray[np.integer], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (k,) the distance that each of `vertices` may move.
-
-    It is `tolerance`, less if the triangles around the vertex are small. A part much smaller than the body must not be
-    welded away.
-    """
+    """Return (k,) the distance that `vertices` may move: `tolerance`, less if the triangles around them are small."""
     requested = np.zeros(len(points), bool)
     requested[vertices] = True
     triangles = triangles[requested[triangles].any(axis=1)]
@@ -101,10 +94,7 @@ def vertex_tolerance(
 
 
 def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return (m,) for each triangle a number that it shares with the triangles of all mesh faces on the same vertices.
-
-    faces: (m,) the mesh face of each triangle. The number is the first such face.
-    """
+    """Return (m,) for each triangle, of the (m,) mesh faces, the first face on the same vertices as its face."""
     width = int(faces.max()) + 1
     pieces = np.bincount(faces)
     single = pieces[faces] == 1

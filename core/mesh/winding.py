@@ -11,42 +11,16 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike
-
-from ..numerics.arguments import float_array, index_array
+from numpy.typing import NDArray
 
 TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
-def winding_number(points: ArrayLike, triangles: ArrayLike, point: ArrayLike) -> float:
-    """Return how often triangles surround a point: the sum of their solid angles divided by 4 π.
+def winding_number(points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray) -> float:
+    """Return how often (m, 3) triangles over (n, 3) points surround a point: their solid angles divided by 4 π.
 
-    Parameters
-    ----------
-    points : (n, 3) array_like
-    triangles : (m, 3) array_like of int
-        Outward faces counter-clockwise; they need not close.
-    point : (3,) array_like
-
-    Returns
-    -------
-    float
-        1 inside a closed outward surface, 0 outside.
-
-    Notes
-    -----
-    A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import winding_number
-    >>> triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> round(winding_number(np.eye(4, 3, -1), triangles, (0.1, 0.1, 0.1)), 9)
-    1.0
+    A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983. The triangles need not close.
     """
-    points = float_array("points", points, "n", 3)
-    triangles = index_array("triangles", triangles, "m", 3, count=len(points))
-    point = float_array("point", point, 3)
     total = 0.0
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         a, b, c = (points[triangles[start : start + TRIANGLES_PER_BLOCK, k]] - point for k in range(3))

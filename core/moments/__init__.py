@@ -8,11 +8,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     Measure="moments",
     Moments="moments",
-    complex_moments="complex_form",
-    monomial_count="exponents",
-    monomial_index="exponents",
     monomials="exponents",
     normalize="normalized",
     sum_moments="moments",
-    sum_of_images="images",
 )

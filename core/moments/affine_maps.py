@@ -47,11 +47,7 @@ def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
 
 
 def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
-    """Return (K, k): (l0^p l1^q l2^r F)[0,0,0] for all p+q+r ≤ order.
-
-    F is the functional, (K, 1) or (K, k), and l_i are the linear forms of the k maps, linear (3, 3, k) and offset (3,
-    k).
-    """
+    """Return (K, k) (l0^p l1^q l2^r F)[0,0,0] of (K, 1) or (K, k) F and k maps, (3, 3, k) linear and (3, k) offset."""
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
     by_p = np.broadcast_to(values, out.shape)
@@ -82,10 +78,7 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
 
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """Map functionals F, (..., m, K), by linear maps (..., 3, 3): the first of the m as it is, the others by |map|.
-
-    The image's monomials as polynomials of the old ones are the polynomials of one degree less times a form.
-    """
+    """Map functionals (..., m, K): the first of the m by the map (..., 3, 3), the others by its absolute value."""
     forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
     table = np.ones((*forms.shape[:-2], 1, 1))
     for degree in range(1, order + 1):
@@ -109,10 +102,7 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
-    """Return the images of the monomials of a degree as polynomials of the old ones, (..., rows, rows).
-
-    table: the same for one degree less. forms: (..., 3, 3) the images of x, y, z.
-    """
+    """Return (..., rows, rows) images of the monomials as polynomials, from those, `table`, of one degree less."""
     count, below = count_of_degree(degree), count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
@@ -132,11 +122,7 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 
 @lru_cache
 def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
-    """Return the terms of all monomials, one after the other, once one of x, y, z is moved by t.
-
-    They are (k,) the old monomial of each term, the power of t, and the binomial; and (K,) the first term of each
-    monomial.
-    """
+    """Return, by axis, each term of all moved monomials: old monomial, power, binomial; and (K,) first terms."""
     powers, tables = monomials(order), []
     for axis in range(3):
         count = powers[:, axis] + 1
@@ -188,10 +174,8 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
 def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
     """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) without negative density.
 
-    They come from the moments. For an even degree n the bound is the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and
-    geometric mean), for an odd one the root of the product of its neighbors (Cauchy and Schwarz). The highest odd
-    degree has no upper neighbor: its bound is an estimate, from the lower degrees (to first order alone nothing but the
-    moment itself).
+    Of an even degree n the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), of an odd one the root of
+    the product of its neighbors (Cauchy and Schwarz), of the highest, if odd, an estimate from the lower ones.
     """
     out = np.abs(raw)
     largest = [
@@ -217,10 +201,7 @@ def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """Return (k,) the relative excess of the stretch of each of the (3, 3, k) maps in one direction over another.
-
-    It is infinite for a flat map.
-    """
+    """Return (k,) relative excesses of the stretch of (3, 3, k) maps in a direction over another; infinite if flat."""
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
     ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]

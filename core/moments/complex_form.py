@@ -16,9 +16,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ..numerics.arguments import check_type, float_array
 from .exponents import monomial_index
 from .moments import Moments, U
 from .solid_harmonics import circular_coefficients
@@ -52,10 +51,9 @@ class ComplexBound:
 
 @dataclass(frozen=True)
 class Invariant:
-    """A number that does not change when a shape is turned.
+    """A number that does not change when a shape is turned, from moments to `degree`.
 
-    It has a `name`, the largest `degree` of its moments, `value`, `is_complex`, and bounds of the changes by rounding,
-    and by storing coordinates as float32.
+    The bounds are of changes by rounding, and by storing coordinates as float32.
     """
 
     name: str
@@ -66,30 +64,9 @@ class Invariant:
     is_complex: bool = False
 
 
-def complex_moments(moments: Moments, bounds: ArrayLike | None = None) -> dict[tuple[int, int], ComplexBound]:
-    """Return c_pq for p ≥ q of a plane shape.
-
-    Parameters
-    ----------
-    moments : Moments
-        Of a shape in the plane z = 0, about a point of it.
-    bounds : (K,) array_like, optional
-        Bounds of their errors, by default of rounding.
-
-    Returns
-    -------
-    dict of (p, q) to ComplexBound
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import Moments, complex_moments
-    >>> square = Moments(np.array([4.0, 0, 0, 0, 4 / 3, 0, 0, 4 / 3, 0, 0]), np.zeros(3), "area")
-    >>> found = complex_moments(square)
-    >>> found[2, 0].value, round(found[1, 1].value.real, 9)
-    (0j, 2.666666667)
-    """
-    check_type("moments", moments, Moments)
-    bounds = moments.rounding_error if bounds is None else float_array("bounds", bounds, len(moments))
+def complex_moments(moments: Moments, bounds: NDArray[np.float64] | None = None) -> dict[tuple[int, int], ComplexBound]:
+    """Return {(p, q): c_pq}, p ≥ q, of a plane shape (z = 0) about its point. bounds: (K,), by default of rounding."""
+    bounds = moments.rounding_error if bounds is None else bounds
     found = {}
     for (p, q), positions, factors in _expansions(moments.order):
         terms = factors * moments.raw[positions]
@@ -115,15 +92,6 @@ def hu_invariants(moments: Moments) -> list[Invariant]:
     """Return Hu's seven invariants, φ1 to φ7; the last has the opposite sign for a mirror image.
 
     The moments are a plane shape's, normalized (`normalize`), to third order at least.
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import normalize
-    >>> from body_moments.core.moments.complex_form import hu_invariants
-    >>> from body_moments.core.flat import directed_edges, region_moments
-    >>> square = region_moments([[0, 0], [3, 0], [3, 3], [0, 3]], directed_edges([range(4)]), 3)
-    >>> [round(one.value.real, 9) for one in hu_invariants(normalize(square))][:2]
-    [0.166666667, 0.0]
     """
 
     def products(bounds: NDArray) -> list[ComplexBound]:
@@ -145,17 +113,8 @@ def hu_invariants(moments: Moments) -> list[Invariant]:
 def flusser_invariants(moments: Moments) -> list[Invariant]:
     """Return Flusser's basis c_pq c_12^(p-q), p ≥ q, by degree from second order on; a mirror image has its conjugates.
 
-    The moments are a plane shape's, normalized (`normalize`), to third order at least. If the shape has a rotational
-    symmetry, c_12 is zero, and with it every invariant except those with p = q.
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import normalize
-    >>> from body_moments.core.moments.complex_form import flusser_invariants
-    >>> from body_moments.core.flat import directed_edges, region_moments
-    >>> square = region_moments([[0, 0], [3, 0], [3, 3], [0, 3]], directed_edges([range(4)]), 3)
-    >>> flusser_invariants(normalize(square))[0].name
-    'c20 c12²'
+    The moments are a plane shape's, normalized, to third order at least. If it has a rotational symmetry, c_12 is zero,
+    and with it every invariant except those with p = q.
     """
     names = [(p, q) for (p, q), *_ in _expansions(moments.order) if p + q > 1]
 

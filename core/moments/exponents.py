@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from math import factorial, prod
 from typing import TypeVar
 
 import numpy as np
@@ -17,22 +18,7 @@ Index = TypeVar("Index", int, NDArray[np.int64])  # one, or an array of them
 
 @lru_cache
 def monomial_count(order: int) -> int:
-    """Return the number of monomials in x, y, z of degree at most `order`.
-
-    Parameters
-    ----------
-    order : int
-
-    Returns
-    -------
-    int
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import monomial_count
-    >>> monomial_count(3), monomial_count(20)
-    (20, 1771)
-    """
+    """Return the number of monomials in x, y, z of degree at most `order`."""
     return int((order + 1) * (order + 2) * (order + 3) // 6)
 
 
@@ -46,10 +32,7 @@ def order_from_count(count: int) -> int:
 
 
 def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int, ...]:
-    """Return the exponents of one moment.
-
-    TypeError if they are not `dimension` integers, IndexError if no moment to this order has them.
-    """
+    """Return the exponents. TypeError if they are not `dimension` integers, IndexError if beyond the order."""
     powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
     if len(powers) != dimension or not all(isinstance(power, (int, np.integer)) for power in powers):
         raise TypeError("not {:d} integer exponents: {!r}".format(dimension, exponents))
@@ -61,25 +44,7 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
     """Return the index of raw[p, q, r]: graded by degree, within a degree by (q + r, r).
 
-    Parameters
-    ----------
-    p, q, r : int
-        The exponents of x, y and z.
-
-    Returns
-    -------
-    int
-
-    Raises
-    ------
-    IndexError
-        If an exponent is negative.
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import monomial_index
-    >>> monomial_index(1, 0, 0), monomial_index(2, 0, 0), monomial_index(0, 0, 2)
-    (1, 4, 9)
+    IndexError if an exponent is negative.
     """
     negative = (p | q | r) < 0
     if negative if isinstance(negative, bool) else negative.any():
@@ -114,6 +79,11 @@ def monomials(order: int) -> NDArray[np.int64]:
     return table
 
 
+def factorial_ratios(exponents: NDArray[np.integer], more: int) -> NDArray[np.float64]:
+    """Return (K,) α! / (|α| + `more`)! of (K, n) exponents, correctly rounded."""
+    return np.array([prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()])
+
+
 @lru_cache
 def count_of_degree(degree: int) -> int:
     """Return the number of monomials of exactly this degree."""
@@ -122,10 +92,7 @@ def count_of_degree(degree: int) -> int:
 
 @lru_cache
 def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
-    """Return (3, rows) the indices of x^α without one factor x, y or z among the monomials one degree lower.
-
-    It is `missing` if x^α has no such factor.
-    """
+    """Return (3, rows) indices, one degree lower, of x^α without a factor x, y or z; `missing` if it has none."""
     table = monomials(degree)[-count_of_degree(degree) :]
     r, s = table[:, 2], table[:, 1] + table[:, 2]
     lower = s * (s - 1) // 2

@@ -9,7 +9,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import check_filled, check_type, float_array
+from ..numerics.arguments import check_filled, float_array
 from .affine_maps import absolute_moments, to_trailing_axis, transform_by_horner
 from .exponents import monomial_count, monomials
 from .moments import Moments, U, image, measure_scale_factors
@@ -18,35 +18,11 @@ MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their 
 
 
 def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None = None) -> Moments:
-    """Add the images of one body under several affine maps: instances.
+    """Add the images of one body under (k, 4, 4) affine maps, at least one: instances.
 
-    They are about the mean of the images of `moments.about`, unless `about` says otherwise.
-
-    Parameters
-    ----------
-    moments : Moments
-    matrices : (k, 4, 4) array_like
-        As for `Moments.transform`.
-    about : (3,) array_like, optional
-        The reference point.
-
-    Returns
-    -------
-    Moments
-
-    Raises
-    ------
-    ValueError
-        If the matrices are none or not finite (k, 4, 4), or not similarities although areas or lengths need them.
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import Moments, sum_of_images
-    >>> matrices = np.stack([np.eye(4), np.diag([2.0, 2.0, 2.0, 1.0])])
-    >>> round(sum_of_images(Moments(np.array([1.0, 0.0, 0.0, 0.0]), np.zeros(3)), matrices).total, 9)
-    9.0
+    They are about the mean of the images of `moments.about`, unless `about` says otherwise. ValueError if matrices are
+    no similarities although areas or lengths need them.
     """
-    check_type("moments", moments, Moments)
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
     check_filled("matrices", matrices)
     linear, offsets = to_trailing_axis(matrices)

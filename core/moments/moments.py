@@ -137,10 +137,7 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments` has it.
-
-        It is 0 beyond the order.
-        """
+        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments`; 0 beyond the order."""
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
         return dense
@@ -206,22 +203,7 @@ class Moments:
         return sum_moments([self, other.about_point(self.about)])
 
     def about_point(self, point: ArrayLike) -> Moments:
-        """Return the moments of the same body about another point, by the binomial theorem.
-
-        Parameters
-        ----------
-        point : (3,) array_like
-            In the coordinates of `about`.
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the point is not three finite numbers.
-        """
+        """Return the moments of the same body about another point, (3,) finite, by the binomial theorem."""
         point = float_array("point", point, *self.about.shape, finite=True)
         if np.array_equal(point, self.about):
             return self
@@ -240,22 +222,10 @@ class Moments:
         return self.about_point(self.center)
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> Moments:
-        """Return the moments in another frame, about its origin.
+        """Return the moments in another frame, about its origin, (3,).
 
-        Parameters
-        ----------
-        rotation : (3, 3) array_like
-            The frame's axes as columns, determinant 1.
-        origin : (3,) array_like
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the matrix is no rotation, or the origin is not finite.
+        rotation: (3, 3) the frame's axes as columns, determinant 1. ValueError if it is no rotation, or the origin not
+        finite.
         """
         inverse = rotation_array("rotation", rotation).swapaxes(-1, -2)
         origin = float_array("origin", origin, *self.about.shape, finite=True)
@@ -266,26 +236,12 @@ class Moments:
         )
 
     def transform(self, matrix: ArrayLike) -> Moments:
-        """Return the moments of the body's image under an affine map, about the image of `about`.
+        """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
 
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        the deviation of a float32 rotation from one goes into `input_error`.
-
-        Parameters
-        ----------
-        matrix : (4, 4) array_like
-            new = matrix[:3, :3] @ old + matrix[:3, 3].
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the matrix is not finite (4, 4), or no similarity although one is needed.
-        MeasureError
-            If the image is too small for its volume, area or length to be a number.
+        the deviation of a float32 rotation from one goes into `input_error`. ValueError if the matrix is not finite (4,
+        4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
+        number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
         return image(self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3])
@@ -340,10 +296,7 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
 
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
-    """Stack the moments of bodies along a leading axis, to the lowest of their orders, each about its own point.
-
-    There is at least one body, and all have one measure.
-    """
+    """Stack at least one body's moments, of one measure, along a leading axis, each about its own point."""
     count = min([part.raw.shape[-1] for part in parts])
     raw, rounding, inputs = (
         np.array([getattr(part, name)[:count] for part in parts]) for name in ("raw", "rounding_error", "input_error")
@@ -393,10 +346,7 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (k,) the factors by which (3, 3, k) maps change the measure, their rounding bounds, and the deviations.
-
-    The deviation is that of the map from one factor.
-    """
+    """Return (k,) factors of (3, 3, k) maps on the measure, bounds of rounding, and deviations from a factor."""
     exact = np.zeros(linear.shape[2])
     if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact

@@ -51,10 +51,7 @@ def with_negative_orders(half: NDArray[np.complex128]) -> NDArray[np.complex128]
 
 
 def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """Return the scalar made of three multiplets (2l+1, …): (…) Σ (l l' l''; m m' m'') a_m b_m' c_m''.
-
-    A reflection changes its sign if l + l' + l'' is odd.
-    """
+    """Return (…) Σ (l l' l''; m m' m'') a_m b_m' c_m'' of multiplets (2l+1, …); a pseudoscalar for odd l + l' + l''."""
     l, k, n = ((len(multiplet) - 1) // 2 for multiplet in (a, b, c))
     symbols, (i, j, m) = _nonzero_three_j(l, k, n)
     value = np.add.reduce(along_first(symbols, a) * a[i] * b[j] * c[m])

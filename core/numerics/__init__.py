@@ -8,10 +8,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     SplineSpace="bspline",
     clamped_space="bspline",
-    connected_components="graph",
-    gauss_legendre="quadrature",
     quaternion="rotations",
-    rotation_matrix="rotations",
-    shortest_decimal="float32",
-    triangle_rule="quadrature",
 )

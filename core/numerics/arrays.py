@@ -40,10 +40,7 @@ def segment_starts(counts: NDArray) -> NDArray[np.intp]:
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:
-    """Return (count or more,) the sum of the weights of each index.
-
-    numpy's types allow `bincount` only without weights.
-    """
+    """Return (count or more,) sums of the weights of each index: `bincount`, typed."""
     return cast("NDArray[np.float64]", np.bincount(indices, weights, count))
 
 
@@ -68,41 +65,38 @@ def batches(weights: NDArray, size: float) -> Iterator[slice]:
 def following_pairs(
     order: NDArray[np.intp], counts: NDArray[np.intp], size: int
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """Yield the pairs of each item of a sequence with the next ones, in pieces of about `size` pairs.
-
-    order: (n,) the sequence. counts: (n,) the number of following items that each one is paired with.
-    """
+    """Yield pairs of each item of `order`, (n,), with the next `counts`, (n,), items, about `size` at a time."""
     for part in batches(counts, size):
         row = np.repeat(np.arange(part.start, part.stop), counts[part])
         if len(row):
             yield order[row], order[row + 1 + segment_ranges(counts[part])]
 
 
-def first_occurrence(*columns: NDArray) -> NDArray[np.intp]:
+def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None) -> NDArray[np.intp]:
     """Return (n,) the first row that equals each row in all columns: 64-bit values, compared by their bits.
 
     The rows are hashed into a table in which the lowest row of a slot wins. Rows equal to the winner are done; the
-    others go into the next round.
+    others go into the next round. slots: (n,) for the first round, the same for equal rows.
     """
-    bits_of = [column.view(np.uint64) for column in columns]
-    key = bits_of[0]
-    for column in bits_of[1:]:
-        key = hash_uint64(key) + column
-    key = hash_uint64(key)
-    first = np.arange(len(key), dtype=np.min_scalar_type(-len(key)))
+    bits_of, salt = [column.view(np.uint64) for column in columns], 0
+    first = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
     rest = first.copy()
     while len(rest):
-        bits = int(2 * len(rest)).bit_length()
-        slot = (key >> np.uint64(64 - bits)).view(np.intp)
-        winner = np.empty(1 << bits, first.dtype)
-        winner[slot[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # the last write wins
-        winner = winner[slot].astype(np.intp)
+        size = 1 << (2 * len(rest)).bit_length() if slots is None else int(slots.max()) + 1
+        if slots is None:
+            key = np.zeros(len(rest), np.uint64) + np.uint64(salt)
+            for column in bits_of:
+                key = hash_uint64(key + column)
+            slots = (key & np.uint64(size - 1)).view(np.intp)
+        winner = np.empty(size, first.dtype)
+        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # the last write wins
+        winner = winner[slots].astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:
             lost |= column != column[winner]
-        first[rest] = rest[winner]
+        first[rest] = rest[winner] if len(rest) < len(first) else winner
         lost = np.flatnonzero(lost)
-        rest, key, bits_of = rest[lost], hash_uint64(key[lost]), [column[lost] for column in bits_of]
+        rest, bits_of, slots, salt = rest[lost], [column[lost] for column in bits_of], None, salt + 1
     return first.astype(np.intp)
 
 

@@ -119,8 +119,8 @@ class SplineSpace:
     def bezier_weights(self, spans: NDArray[np.integer], intervals: ArrayLike) -> NDArray[np.float64]:
         """Return (s, order, order) weights of the acting control points in the Bézier control points of intervals.
 
-        There is an interval (s, 2) within each span (s,). This is the recursion of Cox and de Boor with a parameter for
-        each of its steps, the interval's beginning or its end: Bézier's b-th point takes b ends.
+        There is an interval (s, 2) within each span (s,). The recursion of Cox and de Boor takes the interval's
+        beginning or its end in each of its steps: Bézier's b-th point takes b ends.
         """
         knots = np.asarray(self.knots)
         near = knots[np.asarray(spans)[:, None] + np.arange(2 - self.order, self.order)]
@@ -147,9 +147,9 @@ class SplineSpace:
         return self.spans[np.searchsorted(inner, parameters, side="right")]
 
     def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, highest: int) -> list[NDArray[np.float64]]:
-        """Return the basis functions that act in the given spans and their derivatives, at most to order `highest`.
+        """Return the functions that act in spans, and derivatives to an order: arrays (..., order).
 
-        spans, parameters: broadcast against each other to some shape (...). Returns most + 1 arrays (..., order).
+        spans, parameters: broadcast against each other to some shape (...).
         """
         knots = np.asarray(self.knots)
         t = np.asarray(parameters, np.float64)
@@ -183,7 +183,7 @@ class SplineSpace:
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
-        """Return (n, count) the weights of the control points at each of n parameters, or in a derivative there.
+        """Return (n, count) weights of the control points at each of n parameters, or in a derivative there.
 
         spans: (n,) the span of each parameter, needed if a knot may end one or begin the next.
         """

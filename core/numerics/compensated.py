@@ -32,10 +32,7 @@ def _split(a: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def compensated_normals(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
-    """Return (3, k) (b-a) x (c-a) for corners (3, k), with components to a relative accuracy of about u.
-
-    That holds however thin the triangle is.
-    """
+    """Return (3, k) (b-a) x (c-a) for corners (3, k), relatively accurate to about u however thin the triangles are."""
     (u, ul), (v, vl) = two_sum(b, -a), two_sum(c, -a)
     coordinates = []
     for y, z in ((1, 2), (2, 0), (0, 1)):

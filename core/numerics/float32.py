@@ -1,32 +1,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers that Blender stores as float32 and a person typed as decimals."""
-
-from __future__ import annotations
+"""Numbers that Blender stores as float32 and a person typed as decimals. Read while panels draw: without numpy."""
 
 from functools import lru_cache
+from struct import pack
 
-import numpy as np
+FLOAT32_MAX = 3e38  # larger numbers, rounded to fewer digits, may leave the range of float32
 
 
 @lru_cache(maxsize=1024)  # settings, read at every redraw
 def shortest_decimal(value: float) -> float:
-    """Return the shortest decimal that is stored as this float32.
-
-    Parameters
-    ----------
-    value : float
-        A number that was stored as float32, such as a Blender property.
-
-    Returns
-    -------
-    float
-        0.001 if float32 has 0.0010000000474974513.
-
-    Examples
-    --------
-    >>> from body_moments.core.numerics import shortest_decimal
-    >>> shortest_decimal(0.0010000000474974513)
-    0.001
-    """
-    return float(str(np.float32(value)))
+    """Return the shortest decimal that is stored as this float32: 0.001 for 0.0010000000474974513."""
+    if abs(value) < FLOAT32_MAX:
+        stored = pack("f", value)
+        for digits in range(1, 9):
+            decimal = float("{:.{}g}".format(value, digits))
+            if pack("f", decimal) == stored:
+                return decimal
+    return float("{:.9g}".format(value))

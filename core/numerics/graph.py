@@ -12,41 +12,15 @@ in place of the lowest, a star could take as many rounds as it has links.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-from .arguments import index_array
+from numpy.typing import NDArray
 
 # corners at a time: large enough for threads to help. A multiple of 3 and 4, so that no face is split
 EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
-def connected_components(count: int, a: ArrayLike, b: ArrayLike) -> tuple[NDArray[np.intp], int]:
-    """Find the connected components of a graph, numbered.
-
-    Parameters
-    ----------
-    count : int
-        Nodes.
-    a, b : (k,) array_like of int
-        The two ends of each link.
-
-    Returns
-    -------
-    component : (count,) integer array
-        The component of each node, numbered in the order of their first nodes.
-    number : int
-        Components.
-
-    Examples
-    --------
-    >>> from body_moments.core.numerics import connected_components
-    >>> component, number = connected_components(4, np.array([0, 2]), np.array([1, 3]))
-    >>> component.tolist(), number
-    ([0, 0, 1, 1], 2)
-    """
-    a = index_array("a", a, "k")
-    b = index_array("b", b, len(a))
+def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
+    """Return (count,) components of nodes with links (k,), by their first nodes, and the number of components."""
     label, number = None, count
     while True:
         blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]
@@ -73,12 +47,7 @@ def connected_components(count: int, a: ArrayLike, b: ArrayLike) -> tuple[NDArra
 
 
 def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """Find connected components like `connected_components`, if all nodes have equally many links.
-
-    Each link is seen from both ends.
-
-    neighbors: (n, k) the other ends of each node's links.
-    """
+    """Return `connected_components` of nodes with (n, k) neighbors, each link seen from both ends."""
     count = len(neighbors)
     parent = np.arange(count, dtype=neighbors.dtype)
     for column in neighbors.T:
@@ -98,9 +67,7 @@ def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp
 
 
 def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """Return the tree of each node, numbered in the order of their roots, and the number of trees.
-
-    parent: no higher than the node; is overwritten.
+    """Return the tree of each node, by its root, and the number of trees. parent: no higher than the node; overwritten.
 
     Paths are halved by pointer jumping, block by block: a path out of a block ends at a root at once.
     """

@@ -13,25 +13,7 @@ from numpy.typing import NDArray
 
 @lru_cache
 def gauss_legendre(points: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the Gauss-Legendre rule on [0, 1], exact to degree 2 points - 1.
-
-    Parameters
-    ----------
-    points : int
-        Nodes, at least 1.
-
-    Returns
-    -------
-    nodes, weights : (points,) arrays
-        Read-only; the weights add up to 1.
-
-    Examples
-    --------
-    >>> from body_moments.core.numerics import gauss_legendre
-    >>> nodes, weights = gauss_legendre(2)
-    >>> round(float(weights @ nodes**3), 12)
-    0.25
-    """
+    """Return read-only nodes and weights, (points,), of the rule on [0, 1] that is exact to degree 2 points - 1."""
     nodes, weights = leggauss(points)
     nodes, weights = (nodes + 1.0) / 2.0, weights / 2.0
     nodes.flags.writeable = weights.flags.writeable = False
@@ -49,31 +31,10 @@ def gauss_legendre_with_ends(points: int) -> tuple[NDArray[np.float64], NDArray[
 
 @lru_cache
 def triangle_rule(n: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return a rule of positive weights over a triangle, exact to degree 2n - 1.
+    """Return (3, k) barycentric points and (k,) weights, of sum 1/2, of a rule exact to degree 2n - 1 over a triangle.
 
-    Parameters
-    ----------
-    n : int
-        Points along a side: the rule has n² points, for n = 3 the seven of Radon (1948).
-
-    Returns
-    -------
-    barycentric : (3, k) array
-        Barycentric coordinates of the points.
-    weights : (k,) array
-        Their sum is 1/2.
-
-    Notes
-    -----
-    The Gauss-Legendre rule across the triangle times the Gauss-Jacobi rule towards its tip, for the weight 1 - u by
-    which the triangle narrows (nodes by Golub and Welsch, 1969).
-
-    Examples
-    --------
-    >>> from body_moments.core.numerics import triangle_rule
-    >>> (a, b, c), weights = triangle_rule(3)
-    >>> round(float(weights @ (a * b)) * 24, 12)
-    1.0
+    It has n² points, for n = 3 the seven of Radon (1948): the Gauss-Legendre rule across the triangle times the Gauss-
+    Jacobi rule towards its tip, for the weight 1 - u by which it narrows (nodes by Golub and Welsch, 1969).
     """
     if n == 3:
         root = np.sqrt(15.0)

@@ -22,23 +22,7 @@ def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
 
 
 def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
-    """Convert a quaternion to a rotation matrix, orthonormal to float64.
-
-    Parameters
-    ----------
-    quaternion : (..., 4) array_like
-        w, x, y, z, of any length but zero.
-
-    Returns
-    -------
-    (..., 3, 3) array
-
-    Examples
-    --------
-    >>> from body_moments.core.numerics import rotation_matrix
-    >>> np.round(rotation_matrix([1, 0, 0, 1]), 6).tolist()
-    [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-    """
+    """Convert quaternions (..., 4), w, x, y, z of any length but zero, to rotation matrices (..., 3, 3)."""
     q = float_array("quaternion", quaternion, ..., 4)  # before the norm: mathutils returns float32
     w, x, y, z = np.moveaxis(q / np.sqrt(np.add.reduce(q * q, axis=-1))[..., None], -1, 0)
     rows = (
@@ -92,10 +76,10 @@ MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show
 
 
 def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (k, 3, 3) right-angled unit axes, as columns, of (k, 4, 4) maps; and (k,) whether a map shears.
+    """Return (k, 3, 3) right-angled unit axes, as columns, of (k, 4, 4) maps, and (k,) whether a map shears.
 
-    With shear the axes are only the nearest ones. They are the polar factor of the map with its columns at unit length
-    (N. J. Higham, SIAM J. Sci. Stat. Comput. 7, 1986): without shear, the columns themselves, mirrored ones too.
+    The polar factor of the map with columns of length 1 (Higham, SIAM J. Sci. Stat. Comput. 7, 1986): mirrored if it
+    is.
     """
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt((linear * linear).sum(axis=1, keepdims=True))

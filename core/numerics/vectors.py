@@ -8,10 +8,7 @@ from typing import Any, Protocol
 
 
 class Number(Protocol):
-    """The operations of a number type that generic formulas need: int, float, Fraction, mpmath's or an array.
-
-    Python cannot name the common type of two such numbers, so results are unchecked.
-    """
+    """Operations of numbers in formulas: int, float, Fraction, mpmath's or an array; results are unchecked."""
 
     def __add__(self, other: Any, /) -> Any: ...
     def __radd__(self, other: Any, /) -> Any: ...

@@ -9,10 +9,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     Curve="curve",
     Patch="patch",
     TrackedSolid="tracked_solid",
-    bezier_patches="bezier_form",
     blender_space="blender_knots",
     length_moments="curve_moments",
     measure_patches="solid",
-    measure_sheet="solid",
-    planar_region="planar_regions",
 )

@@ -71,10 +71,7 @@ class BezierCells:
         ).about_anchor()
 
     def about_anchor(self) -> BezierCells:
-        """Return the cells about their own first control points.
-
-        The summed numbers, and their rounding, are as small as the cell then.
-        """
+        """Return the cells about their own first control points, so that summed numbers are as small as the cell."""
         net, first = np.empty_like(self.net), self.net[:3, 0, :, 0]
         if len(net) == 4:
             net[3] = self.net[3]
@@ -87,9 +84,8 @@ class BezierCells:
     def evaluate(self, rule: Rule, most: int = 1, ends: bool = False) -> tuple[list[NDArray[np.float64]], Weights]:
         """Return the patches and their derivatives at the points of Gauss rules, and the points' weights.
 
-        most: the highest derivative, 1 or 2. ends: the sides too, without weight.
-        Returns S, S_s, S_t and with most = 2 S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and
-        (n, 1 or 2), for each rule a column.
+        most: the highest derivative, 1 or 2. ends: the sides too, without weight. Returns S, S_s, S_t and with most = 2
+        S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and (n, 1 or 2), for each rule a column.
         """
         d, k, c, kk = self.net.shape
         s_basis, s_weights = bernstein(k, rule[0], most, ends)
@@ -154,14 +150,13 @@ def cells_of_nets(
     nets: NDArray,
     anchor: NDArray,
     spaces: tuple[SplineSpace, SplineSpace],
-    spans: tuple[slice, slice],
+    spans: tuple[slice | NDArray[np.intp], slice | NDArray[np.intp]],
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
     """Return the Bézier patches of g control nets (g, count_s, count_t, 3 or 4), for some spans of s and t.
 
-    anchor: (g, 3) points near the nets; the patches are about them. They are in the order of nets, spans of s, spans of
-    t.
+    anchor: (g, 3) points near the nets, which the patches are about; in the order of nets, spans of s, spans of t.
     """
     s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
     t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
@@ -189,10 +184,7 @@ def _join(parts: Sequence[BezierCells]) -> BezierCells:
 def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return Bernstein polynomials and derivatives (most + 1, n, order) at Gauss points, and weights (n, rules).
-
-    The points are those of one Gauss rule or of several side by side. The arrays are read-only.
-    """
+    """Return Bernstein polynomials' derivatives (most + 1, n, order) at Gauss points, and weights (n, rules)."""
     parts = [gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule]
     nodes = np.concatenate([nodes for nodes, _ in parts])
     weights, start = np.zeros((len(nodes), len(parts))), 0

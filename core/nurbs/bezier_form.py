@@ -15,8 +15,8 @@ from typing import cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arguments import check_type
 from ..numerics.bspline import SplineSpace
+from .bezier import homogeneous
 from .blender_knots import blender_space
 from .patch import Patch
 
@@ -24,50 +24,22 @@ SAME_KNOT_RTOL = 1e-12  # Relative to the domain: allowed distance of a part's e
 
 
 def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]) -> list[Patch]:
-    """Return the patches with Blender's flags *Bézier* and *Endpoint* that are the same surface.
+    """Return the patches with Blender's flags *Bézier* and *Endpoint* that are the surface of a patch with any knots.
 
-    Parameters
-    ----------
-    patch : Patch
-        Of any knots, of order 2 at least.
-    domain : pair of (low, high) or None
-        The part of s and of t that is meant; None for all of it.
+    They are several if the patch may jump, at knots repeated as often as the order says. domain: (low, high) of s and
+    of t, the part that is meant; None for all of it. ValueError if the part is not in the domain, or an order is 1.
 
-    Returns
-    -------
-    list of Patch
-        One, or several if the patch may jump, at knots repeated as often as the order says.
-
-    Raises
-    ------
-    ValueError
-        If the part is not in the domain, or an order is 1.
-
-    Notes
-    -----
-    Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones if the knots
-    are inserted one at a time or at once.
-
-    Examples
-    --------
-    >>> from body_moments.core.numerics import SplineSpace, clamped_space
-    >>> from body_moments.core.nurbs import Patch, bezier_patches
-    >>> points = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
-    >>> (part,) = bezier_patches(Patch((clamped_space(2), clamped_space(2)), points), ((0.25, 1.0), None))
-    >>> part.points[0, 0].tolist()
-    [0.25, 0.0, 0.0]
+    By Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones if the
+    knots are inserted one at a time or at once.
     """
-    check_type("patch", patch, Patch)
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
-    homogeneous = patch.points if patch.weights is None else patch.points * patch.weights[..., None]
-    if patch.weights is not None:
-        homogeneous = np.concatenate([homogeneous, patch.weights[..., None]], axis=2)
+    old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)
     found = []
     for s_matrix in pieces[0]:
         for t_matrix in pieces[1]:
             s_space, t_space = patch.spaces
             spaces = _bezier_space(len(s_matrix), s_space.order), _bezier_space(len(t_matrix), t_space.order)
-            net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, homogeneous))
+            net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, old_net))
             weights = None if patch.weights is None else net[..., 3]
             found.append(Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights))
     return found

@@ -78,10 +78,7 @@ def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
 
 
 def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float64]:
-    """Return (count * resolution,) the parameters of Blender's display mesh along a direction.
-
-    They are in its own float32 steps, which drift.
-    """
+    """Return (count * resolution,) the parameters of Blender's display mesh, in its own float32 steps, which drift."""
     cyclic = space.function_count > space.count
     total = space.count * resolution
     low, high = np.float32(space.domain[0]), np.float32(space.domain[1])

@@ -18,9 +18,7 @@ from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 def checked_points(
     points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Return control points (*shape, 3) and weights (*shape), float64; equal weights become None.
-
-    They are copies that cannot be written to, so that cached results stay true.
+    """Return read-only copies of control points (*shape, 3) and weights (*shape), float64; equal weights become None.
 
     ValueError for another shape; MeasureError for points that are not finite, and weights that are not positive.
     """

@@ -78,12 +78,10 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
 
 
 def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
-    """Return the area moments of the region in a plane that closed curves bound.
+    """Return the area moments of the plane region that closed curves bound, seen from the normal holes clockwise.
 
-    The curves run counter-clockwise seen from the normal's tip.
-
-    normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. A curve that runs
-    clockwise bounds a hole. Of polynomial curves the moments are exact and `rounding_error` is rounding.
+    normal: (3,) unit. about: (3,) a point of the plane, by default the mean of the control points. Of polynomial curves
+    the moments are exact and `rounding_error` is rounding.
     """
     center: NDArray[np.float64] = (
         np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
@@ -124,12 +122,10 @@ def _integrate(
     tolerance: float,
     kinks: bool = False,
 ) -> tuple[NDArray, float, float]:
-    """Return the integral of density times monomials, the estimate of its truncation, and the curves' length.
+    """Return ∫ density times monomials, its truncation by unit of reach to the degree, and the curves' length.
 
-    The estimate is by unit of reach to the degree. largest: the bound of the density, for each unit of length. kinks:
-    True if it has kinks at turns back.
-
-    A piece is done when two rules agree to the tolerance of its own length, or of its share of the curve's.
+    largest: the bound of the density, for each unit of length. kinks: True if it has kinks at turns back. A piece is
+    done when two rules agree to the tolerance of its own length, or of its share of the curve's.
     """
     degree = monomials(order).sum(axis=1)
     unit = reach ** degree.astype(np.float64)
@@ -160,11 +156,7 @@ def _integrate(
 
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return control points of the Bézier curves of a curve, (c, order, 3 or 4), and anchors (c, 3).
-
-    The points are about their anchors, the anchors about the point `about`. With four columns they are points times
-    weights, and the weights.
-    """
+    """Return control points (c, order, 3 or 4) of Bézier curves about anchors (c, 3), these about `about`."""
     space, origin = curve.space, curve.points[0]
     net = curve.points - origin
     if curve.weights is not None:
@@ -189,10 +181,7 @@ def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
 
 
 def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
-    """Return (c,) upper bounds of the lengths of pieces drawn to a point but for their ends; 0 for others.
-
-    Heavy weights draw them there.
-    """
+    """Return (c,) bounds of the lengths of pieces that heavy weights draw to a point but for their ends; else 0."""
     if net.shape[2] == 3:
         return np.zeros(len(net))
     weights, points = net[..., 3], net[..., :3] / net[..., 3:]

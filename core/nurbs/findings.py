@@ -27,15 +27,14 @@ CURVE_TOO_SMALL = error(
 CURVES_CROSS = error(
     "curves_cross", "The curves cross or touch, so the region is ambiguous. Separate them, or set Kind to Wire."
 )
-NO_PATCHES = error("no_patches", "No NURBS patches. Add a surface with enough points.")
 NO_EXTENT = error("no_extent", "All control points coincide. Move them apart.")
 DISCONTINUOUS_PATCH = error(
     "discontinuous_patch",
     "A patch can be discontinuous at a knot repeated as often as its order. Split the patch there.",
 )
-AREA_ERROR_ESTIMATE_LARGE = warning("area_error_estimate_large", "The estimated error of the area is above the target.")
-VOLUME_ERROR_ESTIMATE_LARGE = warning(
-    "volume_error_estimate_large", "The estimated error of the volume is above rounding, because of extreme weights."
+ERROR_ESTIMATE_LARGE = warning(
+    "error_estimate_large",
+    "The estimated error of the {quantity:word} is above the target; extreme weights or folds are the cause.",
 )
 FLIPPED_PATCHES = warning(
     "flipped_patches",
@@ -57,14 +56,10 @@ OPEN_PATCH_SIDES = warning(
     "depend on "
     "the reference point. Close the surface, or set Kind to Shell.",
 )
-FLAT_PATCH_HOLES_CAPPED = warning(
-    "flat_patch_holes_capped", "Flat holes capped exactly: {count} ({share:percent} of the area). Close the surface."
-)
-CURVED_PATCH_HOLES_CAPPED = warning(
-    "curved_patch_holes_capped",
-    "Non-planar holes capped by a cone: {count} ({out_of_plane:percent} of the size out of plane, "
-    "{share:percent} of "
-    "the area). Close the surface.",
+PATCH_HOLES_CAPPED = warning(
+    "patch_holes_capped",
+    "Holes capped: {flat} flat, exactly, and {curved} curved, by a cone ({share:percent} of the area). Close the "
+    "surface.",
 )
 PATCH_BOUNDARY_CROSSES_ITSELF = warning(
     "patch_boundary_crosses_itself",

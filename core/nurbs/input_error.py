@@ -25,11 +25,7 @@ def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
 
 
 def with_area_error(area: Moments, slope: float, stored: float, reach: float) -> Moments:
-    """Return area moments with the bounds of moving each control point by at most `stored`.
-
-    slope: from `area_slope`. stored: in the points' unit. reach: largest distance of the patches from the reference
-    point.
-    """
+    """Return area moments with bounds of moving each control point by at most `stored`; slope: from `area_slope`."""
     if reach == 0.0:
         return area  # The patches are one point, without any digits in their stored coordinates.
     return with_swept_error(area, stored * (slope + area.total / reach), reach)
@@ -38,9 +34,6 @@ def with_area_error(area: Moments, slope: float, stored: float, reach: float) ->
 def stored_area_moments(
     patches: Sequence[Patch], order: int, about: NDArray[np.float64] | None = None, *, stored: float
 ) -> Moments:
-    """Return the area moments of patches with the bounds of changes by storing their control points.
-
-    about: (3,) a point in the box of the control points, by default its center. stored: as for `measure_patches`.
-    """
+    """Return the area moments of patches, by default about their box's center, with bounds of storing the points."""
     area = area_moments(patches, order, about)[0]
     return with_area_error(area, area_slope(patches), stored, patches_size(patches) + 4.0 * stored)

@@ -56,11 +56,7 @@ Integrand = Callable[[BezierCells, Rule], NDArray]
 
 @dataclass(frozen=True, eq=False)
 class Integral:
-    """Values of an integral over cells.
-
-    values: (K,). estimate: of their truncation, and size: of all cells, both by the unit of each moment. converged:
-    True if the estimate is below the tolerance.
-    """
+    """Values (K,) of an integral over cells; estimate of their truncation, and the cells' size, by their units."""
 
     values: NDArray[np.float64]
     estimate: float
@@ -71,11 +67,10 @@ class Integral:
 def volume_moments(
     patches: Sequence[Patch], order: int = 3, about: NDArray | None = None, tolerance: float = VOLUME_RTOL
 ) -> tuple[Moments, bool]:
-    """Return the volume moments of the body that closed, outward patches bound.
+    """Return the volume moments of the body that closed, outward patches bound, and whether they converged.
 
     about: (3,), by default the middle of their box. Patches that do not close are closed by the cone from there.
-    Returns the moments, with an estimate of truncation (zero for polynomial patches) and rounding as `rounding_error`,
-    and True if the truncation is below `tolerance`.
+    `rounding_error` holds an estimate of truncation (zero for polynomial patches) and rounding.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
     degree, flux = _degrees(order), partial(flux_sums, order=order)
@@ -100,21 +95,16 @@ def volume_moments(
 
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
-    """Return (rules, K + 1, c) the flux of monomials times the place, and a size: the area, or ∫ |S_s| |S_t|.
-
-    The latter is a bound of the area.
-    """
+    """Return (rules, K + 1, c) the flux of monomials times the place; and the area, or its bound ∫ |S_s| |S_t|."""
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
     terms = weighted_monomials(s, dot(s, normal), order, 1)
-    np.sqrt(dot(normal, normal) if area else _square(along) * _square(across), out=terms[-1])
+    np.sqrt(dot(normal, normal) if area else dot(along, along) * dot(across, across), out=terms[-1])
     return sum_over_points(terms, weights)
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """Return the area moments of patches by quadrature; `rounding_error` is an estimate.
-
-    Otherwise as `volume_moments`.
+    """Return the area moments of patches by quadrature, otherwise as `volume_moments`.
 
     If a patch turns over between two neighboring points, or a cell's side and its first point, the area between them
     counts as error, so that such a cell is cut.
@@ -139,10 +129,9 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """Return (c,) the areas between neighboring points of cells at which the patch turns over.
+    """Return (c,) the areas between neighboring points at which the patch turns over: rules may miss such kinks.
 
-    Its area has a kink there, which two rules may miss alike. normal: (3, m, c, n), weights: (m, 1) and (n, 1), with
-    the ends of both directions.
+    normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both directions.
     """
     total = np.zeros(normal.shape[2])
     for (points,), other_weights in zip(rule, weights[::-1]):
@@ -157,10 +146,7 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
 
 
 def area_slope(patches: Sequence[Patch]) -> float:
-    """Return the largest change of the area, to first order, for each unit that every control point moves.
-
-    It is the sum of the lengths of the area's gradients by the points. By a fixed rule: an estimate.
-    """
+    """Estimate, by a fixed rule, the largest change of the area for each unit that every control point moves."""
     total = 0.0
     for patch in patches:
         net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
@@ -180,10 +166,7 @@ def area_slope(patches: Sequence[Patch]) -> float:
 
 @lru_cache(maxsize=64)
 def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
-    """Return values and slopes (m, k) of control points (k,) and the steps (m,), a few spans at a time.
-
-    The control points are those that act in these spans. The arrays are read-only.
-    """
+    """Return values and slopes (m, k) of acting control points (k,), and the steps (m,), a few spans at a time."""
     nodes, weights = gauss_legendre(SLOPE_POINTS)
     tiles = []
     for start in range(0, len(space.spans), SLOPE_SPANS):
@@ -233,9 +216,7 @@ def _slope_of_tile(
 def sheet_moments(
     patches: Sequence[Patch], inner: float, outer: float, order: int = 3, about: NDArray | None = None
 ) -> tuple[Moments, bool]:
-    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, a sheet with real thickness.
-
-    n is the patches' unit normal.
+    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, a sheet with real thickness; n is the unit normal.
 
     Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
     MeasureError if the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
@@ -276,10 +257,7 @@ def sheet_moments(
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """Return (3,) the integral of the unit normals: of a flat patch its area along its normal.
-
-    Exact along directions in which the weights are the same, by a fixed rule along others.
-    """
+    """Return (3,) the integral of the unit normals: exact along directions of constant weights, else estimated."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
         s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.constant_weights))
@@ -301,13 +279,11 @@ def integrate_adaptively(
     degree: int | None = None,
     thickness: float = 1.0,
 ) -> Integral:
-    """Integrate over patches, cell by cell, by the first rule that suffices.
+    """Integrate over patches, cell by cell, by the first rule that suffices: two agree to a cell's, or its mean, share.
 
     integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
-    count as error. unit: (K,) factors from a cell's size to bounds of its moments. degree: degree of a moment's
-    integrand, if a polynomial, along a direction of constant weights, so that fewer points are exact there; else None.
-    thickness: the factor of an area. A cell is done when two rules agree to the tolerance of its own scale, or of its
-    share of the whole one.
+    count as error. unit: (K,) factors from a cell's size to bounds of its moments. degree: of a moment's integrand, if
+    a polynomial, along a direction of constant weights, so that fewer points are exact there. thickness: of a sheet.
     """
     k = len(unit)
     values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
@@ -358,10 +334,9 @@ def integrate_adaptively(
 
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """Return (c,) the area that may lie between the points of all rules.
+    """Return (c,) areas that all rules may miss, of cells with weights that differ by more than the factor `steep`.
 
-    For cells with weights that differ by more than the factor `steep`, so that all but their margin is drawn to a
-    point, it is the squared diagonal of their control points' box.
+    It is the squared diagonal of the control points' box of a cell that is drawn to a point but for its margin.
     """
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
@@ -377,10 +352,7 @@ def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]
 def _rules(
     orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
 ) -> tuple[Rule, ...]:
-    """Return two rules to compare, of so many points along each direction, or fewer if exact.
-
-    They are joined into one if they differ along one direction only, which takes no more points.
-    """
+    """Return two rules to compare, of so many points or fewer if exact; joined if they differ one way only."""
     coarse, fine = (
         tuple(
             min(number, exact_points(order, degree)) if same and degree is not None else number
@@ -406,10 +378,7 @@ def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) ->
 
 
 def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
-    """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros to be filled.
-
-    The former are in the order of `monomials`.
-    """
+    """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros to be filled."""
     terms = np.empty((monomial_count(order) + more, *density.shape))
     terms[monomial_count(order) :] = 0.0
     terms[0] = density
@@ -427,10 +396,7 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
 
 
 def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """Return (rules, K, c) sums of (K, m, c, n) over each cell's points, by weights (m, rules) and (n, rules).
-
-    One of the weights has one column.
-    """
+    """Return (rules, K, c) sums of (K, m, c, n) over the points, by weights (m, 1 or rules) and (n, 1 or rules)."""
     count, m, c, n = terms.shape
     s_weights, t_weights = weights
     half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
@@ -444,10 +410,6 @@ def _degrees(order: int) -> NDArray[np.float64]:
     return monomials(order).sum(axis=1).astype(np.float64)
 
 
-def _square(a: NDArray) -> NDArray[np.float64]:
-    return np.add.reduce(a * a, axis=0)
-
-
 def _length(a: NDArray) -> NDArray[np.float64]:
     return np.sqrt(dot(a, a))
 
@@ -457,8 +419,5 @@ def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
 
 
 def _offset_jacobian(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:
-    """Return the jacobian of the sheet at a height, |S_s x S_t| (1 - 2 H h + K h²).
-
-    It is computed by the offset surface's derivatives.
-    """
+    """Return the sheet's jacobian |S_s x S_t| (1 - 2 H h + K h²) by the offset surface's derivatives."""
     return dot(cross(along + height * turning[0], across + height * turning[1]), unit)

@@ -42,32 +42,18 @@ SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held
 
 
 @dataclass(frozen=True, eq=False)
-class Side:
-    """One side of a patch.
-
-    forward: True if the patch's boundary runs the way of its curve.
-    """
-
-    patch: int
-    curve: Curve
-    forward: bool
-
-
-@dataclass(frozen=True, eq=False)
 class BoundaryLoop:
     """Open sides that run round a hole.
 
-    caps: the patches that close it and face as theirs do. patch: one of theirs. is_planar: True if it lies in a plane;
-    out_of_plane: its distance from one. zero_area: True if it has no area, so that it is closed already. area: of the
-    cap, an estimate. self_intersecting: True if it is flat and crosses itself.
+    caps: the patches that close it and face as theirs do. component: that of the sides. zero_area: closed
+    already. area: of the cap, an estimate. self_intersecting: flat, and crossing itself.
     """
 
     caps: tuple[Patch, ...]
-    patch: int
+    component: int
     is_planar: bool
     zero_area: bool
     area: float
-    out_of_plane: float
     self_intersecting: bool
 
 
@@ -96,23 +82,21 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
-    """Find the seams, orientation and holes of patches.
-
-    tolerance: the distance within which points are the same.
+    """Find the seams, orientation and holes of patches; points within the tolerance are the same.
 
     MeasureError if knots may tear one: a gap within a patch is not one of its sides.
     """
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
-    sides = [Side(i, patch.side(axis, end), forward) for i, patch in enumerate(patches) for axis, end, forward in SIDES]
-    count = max([SAMPLES_PER_SIDE] + [2 * len(side.curve.space.spans) + 1 for side in sides])
-    points = np.array([side.curve.apply_weights(_uniform_table(side.curve.space, count)) for side in sides])
+    curves = [patch.side(axis, end) for patch in patches for axis, end, _ in SIDES]
+    count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
+    points = np.array([curve.apply_weights(_uniform_table(curve.space, count)) for curve in curves])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
-    owner = np.array([side.patch for side in sides])
-    forward = np.array([side.forward for side in sides])
+    owner = np.repeat(np.arange(len(patches)), len(SIDES))
+    forward = np.tile([forward for *_, forward in SIDES], len(patches))
     left, right, same, gap, non_manifold_sides = _pair_sides(
-        _coincident_sides(sides, points, np.flatnonzero(wide), tolerance), points, owner, forward
+        _coincident_sides(curves, points, np.flatnonzero(wide), tolerance), points, owner, forward
     )
 
     # Two sides fit where one runs against the other; else one of their patches must turn.
@@ -126,16 +110,13 @@ def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
 
     free = wide.copy()
     free[left] = free[right] = False
-    loops = []
-    for loop_sides, complete in _find_loops(points, np.flatnonzero(free), forward ^ flipped[owner], tolerance):
+    loops, forward = [], forward ^ flipped[owner]
+    for loop_sides, complete in _find_loops(points, np.flatnonzero(free), forward, tolerance):
         if not complete:
             unclosable[component[owner[loop_sides]]] = True
             continue
-        loops.append(
-            _cap_loop(
-                [sides[k] for k in loop_sides], points[loop_sides], (forward ^ flipped[owner])[loop_sides], tolerance
-            )
-        )
+        loop_curves, part = [curves[k] for k in loop_sides], int(component[owner[loop_sides[0]]])
+        loops.append(_cap_loop(loop_curves, part, points[loop_sides], forward[loop_sides], tolerance))
     return PatchTopology(
         component,
         number,
@@ -158,12 +139,9 @@ def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
 
 
 def _coincident_sides(
-    sides: Sequence[Side], points: NDArray, wide: NDArray[np.intp], tolerance: float
+    curves: Sequence[Curve], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Return pairs of coinciding sides, the nearest first: distance, the two indices, and True for equal direction.
-
-    The direction is that of the sides' curves.
-    """
+    """Return coinciding sides, the nearest first: distance, two indices, and whether their curves run alike."""
     middle = points.shape[1] // 2
     side_points = points[wide]
     first, last = side_points[:, 0], side_points[:, -1]
@@ -180,7 +158,7 @@ def _coincident_sides(
     )[:2]
     candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
     for i, j in wide[candidates.T].tolist():
-        coincident += _overlapping_sides(sides[i].curve, sides[j].curve, points[i], points[j], i, j, tolerance)
+        coincident += _overlapping_sides(curves[i], curves[j], points[i], points[j], i, j, tolerance)
     return sorted(coincident)
 
 
@@ -190,10 +168,7 @@ def _pair_sides(
     owner: NDArray[np.intp],
     forward: NDArray[np.bool_],
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
-    """Return the joined pairs of coinciding sides, masks, distances, and the number of non-manifold sides.
-
-    The pairs are (k,) and (k,). The masks are of curves that run the same way. Non-manifold sides coincide with more
-    than one other.
+    """Return joined sides (k,) and (k,), whether their curves run alike, distances; and non-manifold sides' number.
 
     If more than two meet, as for touching bodies, sides of patches already joined by other sides come first, then a
     patch by itself to one that it fits as it faces, then any that fit as they face: so no patch is turned needlessly.
@@ -259,10 +234,7 @@ def _pair_sides(
 
 
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return pairs of rows i < j of (n, d) that differ by no more than a limit in any column.
-
-    Their projections on a line that is parallel to nothing are neighbors.
-    """
+    """Return pairs of rows i < j of (n, d) that differ by no more than a limit: neighbors along a slanted line."""
     keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
@@ -375,7 +347,9 @@ def _find_loops(
     return loops
 
 
-def _cap_loop(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_], tolerance: float) -> BoundaryLoop:
+def _cap_loop(
+    curves: Sequence[Curve], component: int, points: NDArray, forward: NDArray[np.bool_], tolerance: float
+) -> BoundaryLoop:
     """Return the cone from a loop's centroid."""
     run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
     steps = np.diff(np.concatenate([run, run[:1]]), axis=0)
@@ -383,17 +357,15 @@ def _cap_loop(sides: Sequence[Side], points: NDArray, forward: NDArray[np.bool_]
     center = ((run + steps / 2.0) * weigh[:, None]).sum(axis=0) / weigh.sum()
     arms = run - center
     _, _, axes = np.linalg.svd(arms, full_matrices=False)
-    off = float(np.abs(arms @ axes[2]).max())
     width = np.linalg.norm(np.cross(arms, steps), axis=1).sum() / 2.0
     caps = []
-    for side, ahead in zip(sides, forward):
-        curve = side.curve
+    for curve, ahead in zip(curves, forward):
         ends = (np.broadcast_to(center, curve.points.shape), curve.points)[:: 1 if ahead else -1]
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         caps.append(Patch((curve.space, clamped_space(2)), np.stack(ends, axis=1), weights))
-    flat = off <= tolerance
+    flat = bool(np.abs(arms @ axes[2]).max() <= tolerance)
     # A way there and back has no net area; of a loop in space only its cone's area shows that.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
     slim = area <= tolerance * weigh.sum()
     crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)
-    return BoundaryLoop(tuple(caps), sides[0].patch, flat, slim, area, off, crossing)
+    return BoundaryLoop(tuple(caps), component, flat, slim, area, crossing)

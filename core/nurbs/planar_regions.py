@@ -22,35 +22,11 @@ MAX_CHORD_PAIRS = 4_000_000  # Pairs compared at a time.
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
-    """Return the curves that bound a plane region, oriented, and the region's normal.
+    """Return the closed curves around a plane region, outer ones counter-clockwise, holes clockwise, and its normal.
 
-    Parameters
-    ----------
-    curves : sequence of Curve
-        Closed, in one plane. Every second curve inside others is a hole, as Blender fills them.
-    stored : float
-        How far storing their points may have moved them.
-
-    Returns
-    -------
-    oriented : list of Curve
-        Outer ones counter-clockwise about the normal, holes clockwise.
-    normal : (3,) array
-        Of unit length, pointing most along +z, then +y, then +x.
-
-    Raises
-    ------
-    MeasureError
-        If the curves are not closed, not in one plane, or cross.
-
-    Examples
-    --------
-    >>> from body_moments.core.nurbs import Curve, planar_region
-    >>> from body_moments.core.numerics import clamped_space
-    >>> corners = np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]])
-    >>> (curve,), normal = planar_region([Curve(clamped_space(2, (0.3, 0.6)), corners)])
-    >>> np.round(normal, 9).tolist(), np.round(curve.points[1], 9).tolist()
-    ([0.0, 0.0, 1.0], [1.0, 1.0, 0.0])
+    Every second curve inside others is a hole, as Blender fills them. The unit normal (3,) points most along +z, then
+    +y, then +x. stored: how far storing the points may have moved them. MeasureError if the curves are not closed, not
+    in one plane, or cross.
     """
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
@@ -114,10 +90,7 @@ def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
 
 
 def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
-    """Return whether chords of polygons (n, 2) cross by more than a tolerance.
-
-    touch: count coinciding corners too.
-    """
+    """Return whether chords of polygons (n, 2) cross by more than a tolerance, or corners coincide if `touch`."""
     a = np.concatenate(loops)
     b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
     step = max(1, MAX_CHORD_PAIRS // len(a))

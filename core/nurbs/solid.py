@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
 from ..moments.moments import Moments, sum_moments
+from ..numerics.arguments import check_filled
 from ..solid.findings import (
     CAVITIES_BREAK_THROUGH,
     CAVITIES_SUBTRACTED,
@@ -35,16 +36,13 @@ from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE, welding_tolerance
 from .findings import (
     AMBIGUOUS_PATCH_SIDES,
-    AREA_ERROR_ESTIMATE_LARGE,
-    CURVED_PATCH_HOLES_CAPPED,
-    FLAT_PATCH_HOLES_CAPPED,
+    ERROR_ESTIMATE_LARGE,
     FLIPPED_PATCHES,
     INVERTED_PATCH_COMPONENTS,
     NO_EXTENT,
-    NO_PATCHES,
     OPEN_PATCH_SIDES,
     PATCH_BOUNDARY_CROSSES_ITSELF,
-    VOLUME_ERROR_ESTIMATE_LARGE,
+    PATCH_HOLES_CAPPED,
 )
 from .input_error import with_area_error, with_swept_error
 from .patch import Patch, patches_center, patches_size
@@ -77,11 +75,7 @@ class PatchIntegrals:
 
 @dataclass(frozen=True, eq=False)
 class _PatchVerdict:
-    """Decisions about parts.
-
-    solid, flipped, counted: (c,) masks of parts with a volume, to turn, and in the sum. caps: (c, 3) numbers of capped
-    flat and curved holes of each, and the caps' area. comparison: for several parts.
-    """
+    """Decisions about parts: (c,) masks of those with a volume, to turn, and in the sum; cap areas; comparison."""
 
     solid: NDArray[np.bool_]
     flipped: NDArray[np.bool_]
@@ -130,15 +124,14 @@ def measure_patches(
     >>> str(body.method), round(body.volume.total, 9)
     ('capped', 1.0)
     """
-    if not patches:
-        raise MeasureError(NO_PATCHES)
+    check_filled("patches", patches)
     size = patches_size(patches)
     if not size > 0.0:
         raise MeasureError(NO_EXTENT)
     about = patches_center(patches)
     topology = find_topology(patches, welding_tolerance(size, stored))
     area, converged = area_moments(patches, area_order, about)
-    findings = () if converged else (finding(AREA_ERROR_ESTIMATE_LARGE),)
+    findings = () if converged else (finding(ERROR_ESTIMATE_LARGE, quantity="area"),)
     parts = oriented_parts(patches, topology)
     measured = [volume_moments(part, order, about) for part in parts]
     return assess(patches, topology, parts, measured, area, area_slope(patches), stored, findings)
@@ -150,7 +143,7 @@ def oriented_parts(patches: Sequence[Patch], topology: PatchTopology) -> list[li
     for patch, turn, part in zip(patches, topology.flipped, topology.component):
         parts[part].append(patch.reverse_orientation() if turn else patch)
     for loop in topology.loops:
-        parts[topology.component[loop.patch]] += loop.caps
+        parts[loop.component] += loop.caps
     return parts
 
 
@@ -166,7 +159,7 @@ def assess(
 ) -> PatchIntegrals:
     """Judge the moments of parts, as they face.
 
-    parts: from `oriented_parts`. measured: of each part, from `volume_moments`. area: of all patches. slope: from
+    parts: from `oriented_parts`, measured: of each, from `volume_moments`. area: of all patches, slope: from
     `area_slope`. stored: as for `measure_patches`. findings: further ones.
     """
     size = patches_size(patches)
@@ -189,7 +182,7 @@ def assess(
     misoriented = np.flatnonzero(topology.flipped).tolist()
     further = list(findings)
     if not all(converged for *_, converged, _ in turned_parts):
-        further.append(finding(VOLUME_ERROR_ESTIMATE_LARGE))
+        further.append(finding(ERROR_ESTIMATE_LARGE, quantity="volume"))
     outward = tuple(
         patch.reverse_orientation() if whole_sign * sign < 0.0 else patch
         for part, *_, sign in turned_parts
@@ -204,11 +197,7 @@ def assess(
         _method(is_open, verdict, len(misoriented)),
         (
             *_orientation_findings(
-                topology,
-                len(misoriented),
-                verdict.flipped,
-                slight_patches=_are_slight([[patches[k]] for k in misoriented], size, volume.total),
-                slight_parts=_are_slight([parts[k] for k in turned], size, volume.total),
+                topology, [[patches[k]] for k in misoriented], [parts[k] for k in turned], size, volume.total
             ),
             *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
             *_component_findings(verdict.comparison, size),
@@ -229,22 +218,18 @@ def _judge_parts(
     stored: float,
 ) -> _PatchVerdict:
     """Find the parts with a volume, and the ones inside out."""
-    caps = np.zeros((topology.number, 3))
+    caps = np.zeros(topology.number)
     for loop in topology.loops:
-        if not loop.zero_area:
-            caps[topology.component[loop.patch]] += (loop.is_planar, not loop.is_planar, loop.area)
+        caps[loop.component] += 0.0 if loop.zero_area else loop.area
     total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area, caps.any(axis=1), stored))
+    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area, caps > 0.0, stored))
     comparison = _compare_parts(parts, total, solid, welding_tolerance(size, stored))
     flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
     return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)
 
 
 def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
-    """Return the verdict's method.
-
-    misoriented: the number of patches that face against the rest of their part.
-    """
+    """Return the verdict's method, given the number of patches that face against the rest of their part."""
     if is_open:
         return Verdict.OPEN
     if verdict.caps[verdict.solid].any():
@@ -260,7 +245,7 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
         inconsistent_edges=topology.misoriented_sides,
         components=topology.number,
         inverted_components=int(verdict.flipped.sum()),
-        cap_area_share=float(verdict.caps[verdict.solid, 2].sum() / area) if area > 0.0 else 0.0,
+        cap_area_share=float(verdict.caps[verdict.solid].sum() / area) if area > 0.0 else 0.0,
     )
     return report if verdict.comparison is None else verdict.comparison.add_to(report)
 
@@ -268,40 +253,11 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
 def measure_sheet(
     patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
-    """Measure a sheet of real thickness along patches.
+    """Measure a sheet of real thickness along patches, about the middle of the control points' bounding box.
 
-    Its moments are about the middle of the control points' bounding box.
-
-    Parameters
-    ----------
-    patches : sequence of Patch
-    inner, outer : float
-        The heights along the patches' normals between which the sheet lies.
-    stored : float
-        As for `measure_patches`.
-
-    Returns
-    -------
-    sheet : Moments
-        Of the sheet's volume, to order 3.
-    area : Moments
-        Of the patches, to order 3.
-    precise : bool
-        True if both error estimates are below the tolerance.
-
-    Raises
-    ------
-    MeasureError
-        If the sheet would run through itself.
-
-    Examples
-    --------
-    >>> from body_moments.core.nurbs import Patch, measure_sheet
-    >>> from body_moments.core.numerics import clamped_space
-    >>> square = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
-    >>> sheet, area, precise = measure_sheet([Patch((clamped_space(2), clamped_space(2)), square)], 0.0, 0.1)
-    >>> round(sheet.total, 9), round(area.total, 9), precise
-    (0.1, 1.0, True)
+    inner, outer: the heights along the patches' normals between which it lies. stored: as for `measure_patches`. Return
+    the moments of its volume and of the patches' area, to order 3, and whether both error estimates are below the
+    tolerance. MeasureError if the sheet would run through itself.
     """
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
@@ -395,39 +351,29 @@ def _sagitta(grid: NDArray, each: int) -> float:
     return float(bend.max())
 
 
-def _are_slight(groups: Sequence[Sequence[Patch]], size: float, volume: float) -> bool:
-    """Return whether patches are too small to matter, as `_is_slight` of meshes.
-
-    The area is taken from the box around the control points of each group, at most twice the square of its diagonal.
-    """
-    return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
-
-
 def _orientation_findings(
-    closure: PatchTopology, mixed: int, turn: NDArray[np.bool_], *, slight_patches: bool, slight_parts: bool
+    topology: PatchTopology, mixed: list[list[Patch]], turned: list[list[Patch]], size: float, volume: float
 ) -> list[Finding]:
-    """Return findings about patches, and whole parts, that were turned.
+    """Return findings about single patches turned to agree with their part, and about whole parts turned."""
 
-    mixed: patches that face against the rest of their part.
-    """
+    def are_slight(groups: list[list[Patch]]) -> bool:  # an area is at most twice the square of a box's diagonal
+        return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
+
     findings = []
     if mixed:
-        findings.append(finding(FLIPPED_PATCHES, slight=slight_patches, count=mixed))
-        if closure.non_manifold_sides:
-            findings.append(finding(AMBIGUOUS_PATCH_SIDES, count=int(closure.non_manifold_sides)))
-    if turn.any():
-        values = {"count": int(turn.sum()), "total": int(closure.number)}
-        findings.append(finding(INVERTED_PATCH_COMPONENTS, slight=slight_parts, **values))
+        findings.append(finding(FLIPPED_PATCHES, slight=are_slight(mixed), count=len(mixed)))
+        if topology.non_manifold_sides:
+            findings.append(finding(AMBIGUOUS_PATCH_SIDES, count=int(topology.non_manifold_sides)))
+    if turned:
+        values = {"count": len(turned), "total": int(topology.number)}
+        findings.append(finding(INVERTED_PATCH_COMPONENTS, slight=are_slight(turned), **values))
     return findings
 
 
 def _closing_findings(
     closure: PatchTopology, solid: NDArray[np.bool_], area: float, volume: float, size: float
 ) -> list[Finding]:
-    """Return findings about open, flat and capped parts.
-
-    solid: (c,) the parts with a volume.
-    """
+    """Return findings about open, flat and capped parts; solid: (c,) the parts with a volume."""
     findings = []
     if closure.unclosable.any():
         findings.append(finding(OPEN_PATCH_SIDES))
@@ -436,19 +382,13 @@ def _closing_findings(
     flattened = int((~solid & ~closure.unclosable).sum())
     if flattened:
         findings.append(finding(FLAT_COMPONENTS, count=flattened, total=int(closure.number)))
-    loops = [loop for loop in closure.loops if solid[closure.component[loop.patch]]]
-    flat, curved = (
-        [loop for loop in loops if not loop.zero_area and loop.is_planar == level] for level in (True, False)
-    )
-    if flat:
-        capped = sum(loop.area for loop in flat)
-        slight = capped * size < NEGLIGIBLE * volume
-        findings.append(finding(FLAT_PATCH_HOLES_CAPPED, slight=slight, count=len(flat), share=float(capped / area)))
-    crossing = sum(bool(loop.self_intersecting) for loop in loops)
+    loops = [loop for loop in closure.loops if solid[loop.component]]
+    caps = [loop for loop in loops if not loop.zero_area]
+    if caps:
+        capped, flat = sum(loop.area for loop in caps), sum(loop.is_planar for loop in caps)
+        values = {"flat": flat, "curved": len(caps) - flat, "share": float(capped / area)}
+        findings.append(finding(PATCH_HOLES_CAPPED, slight=capped * size < NEGLIGIBLE * volume, **values))
+    crossing = sum(loop.self_intersecting for loop in loops)
     if crossing:
         findings.append(finding(PATCH_BOUNDARY_CROSSES_ITSELF, count=crossing))
-    if curved:
-        capped, worst = sum(loop.area for loop in curved), max(loop.out_of_plane for loop in curved)
-        values = {"count": len(curved), "share": float(capped / area), "out_of_plane": float(worst / size)}
-        findings.append(finding(CURVED_PATCH_HOLES_CAPPED, slight=capped * size < NEGLIGIBLE * volume, **values))
     return findings

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-Orientation and caps are decided anew each time, as in measuring. Only the moments follow, from tables (`incremental`),
-and if few control points have moved only the spans that they act on. The tables' rule for rational patches is fixed and
+Orientation and caps are decided anew each time, as in measuring. Only the moments follow, from tables (`incremental`).
+The tables' rule for rational patches is fixed and
 has no estimate of its own: its error depends on the weights, so it is compared with measured moments, of the body and
 of patches with its weights and random points, as a flat body says little about later shapes. Other weights are measured
 anew. So is a body that has gone far from the point about which its moments are taken.
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.moments import Measure, Moments, monomials, sum_moments
+from ..numerics.bspline import SplineSpace
 from ..verdict.method import Verdict
 from ..verdict.tolerances import welding_tolerance
 from .incremental import IncrementalPatchMoments
@@ -26,7 +27,6 @@ from .patch_moments import area_slope, volume_moments
 from .patch_topology import PatchTopology, find_topology
 from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
 
-MAX_SINGLE_UPDATES = 6  # moved control points that are updated one by one
 MAX_RULE_ERROR = 1e-10  # Relative to the largest possible moment: rules with larger errors are not used.
 RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's error grow: an estimate
 
@@ -68,11 +68,9 @@ class TrackedSolid:
             return
         volume, area = self.measure.volume, self.measure.area
         self._slope = area_slope(patches)
-        self._patches = list(patches)
+        self._fixed = _fixed_part(patches)
         self._evaluators = [IncrementalPatchMoments(patch, 3, volume.about) for patch in patches]
-        self._fluxes = [
-            evaluator.moments(patch.points, patch.weights) for evaluator, patch in zip(self._evaluators, patches)
-        ]
+        self._fluxes = [evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)]
         largest = self._largest(patches, area.total)
         self._error, self._area_error = volume.rounding_error / largest, area.rounding_error[:1] / area.total
         if any(patch.weights is not None for patch in patches):
@@ -90,27 +88,16 @@ class TrackedSolid:
         return area * reach ** (monomials(3).sum(axis=1) + 1.0)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now.
-
-        Parameters
-        ----------
-        patches : sequence of Patch
-        stored : float
-            As for `measure_patches`.
-
-        Returns
-        -------
-        bool
-            True if tables were enough; otherwise everything was measured anew.
-        """
+        """Measure the patches as they are now; return True if tables were enough, else all is measured anew."""
         size, about = patches_size(patches), self.measure.volume.about
         if not (
-            self._is_tracking and self._same_spaces(patches) and np.linalg.norm(patches_center(patches) - about) <= size
+            self._is_tracking
+            and _fixed_part(patches) == self._fixed
+            and np.linalg.norm(patches_center(patches) - about) <= size
         ):
             self._measure_anew(patches, stored)
             return False
-        self._fluxes = [self._flux(k, patch) for k, patch in enumerate(patches)]
-        self._patches = list(patches)
+        self._fluxes = [evaluator.moments(patch.points) for evaluator, patch in zip(self._evaluators, patches)]
         measure = self._assess(patches, find_topology(patches, welding_tolerance(size, stored)), stored)
         if measure.method is Verdict.OPEN:
             self._measure_anew(patches, stored)
@@ -127,7 +114,7 @@ class TrackedSolid:
         for flux, turn, part in zip(self._fluxes, topology.flipped, topology.component):
             fluxes[part].append(flux * -1.0 if turn else flux)
         for loop in topology.loops:
-            fluxes[topology.component[loop.patch]].append(volume_moments(loop.caps, 3, about)[0])
+            fluxes[loop.component].append(volume_moments(loop.caps, 3, about)[0])
         measure = assess(
             patches,
             topology,
@@ -141,27 +128,10 @@ class TrackedSolid:
             measure, volume=replace(measure.volume, rounding_error=self._error * self._largest(patches, total))
         )
 
-    def _same_spaces(self, patches: Sequence[Patch]) -> bool:
-        """Return whether function spaces, and the weights of rational patches, are unchanged."""
-        return len(patches) == len(self._patches) and all(
-            new.spaces == old.spaces
-            and (
-                new.weights is None
-                if old.weights is None
-                else new.weights is not None and np.array_equal(new.weights, old.weights)
-            )
-            for new, old in zip(patches, self._patches)
-        )
 
-    def _flux(self, k: int, patch: Patch) -> Moments:
-        old = self._patches[k]
-        moved_controls = np.argwhere((patch.points != old.points).any(axis=2))
-        flux = self._fluxes[k]
-        if len(moved_controls) > MAX_SINGLE_UPDATES:
-            return self._evaluators[k].moments(patch.points)
-        for i, j in moved_controls:
-            flux = self._evaluators[k].move_control_point(int(i), int(j), patch.points[i, j])
-        return flux
+def _fixed_part(patches: Sequence[Patch]) -> list[tuple[tuple[SplineSpace, SplineSpace], bytes]]:
+    """Return the function spaces and the weights of patches, which must stay as they are."""
+    return [(patch.spaces, b"" if patch.weights is None else patch.weights.tobytes()) for patch in patches]
 
 
 def _rule_error_at_random(patch: Patch) -> float:
@@ -169,6 +139,6 @@ def _rule_error_at_random(patch: Patch) -> float:
     points = np.random.default_rng(0).uniform(-1.0, 1.0, patch.points.shape)
     perturbed, about = replace(patch, points=points), np.zeros(3)
     evaluator = IncrementalPatchMoments(perturbed, 3, about)
-    off = np.abs(evaluator.moments(points, patch.weights).raw - volume_moments([perturbed], 3, about)[0].raw)
+    off = np.abs(evaluator.moments(points).raw - volume_moments([perturbed], 3, about)[0].raw)
     reach = float(np.sqrt((points**2).sum(axis=2).max()))
     return float((off / (evaluator.area * reach ** (monomials(3).sum(axis=1) + 1.0))).max())

@@ -22,13 +22,14 @@ References, generic over the number type: `fractions.Fraction` in, exact rationa
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 from math import factorial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.vectors import Number, Vector, cross, dot
-from .sheynin_tuzikov_2001 import exponents_to, sigma
+from .sheynin_tuzikov_2001 import _exponents_to, sigma
 
 # (divisor of the sum of c_j (p⊥·n) times these products; the products: a is p_j, b is p_{j+1}, p is p⊥, with an integer
 # multiple each). The paper's fractions are brought to one denominator: 1/5 · 1/12 · {1, 1/2}, 1/6 · 1/20 · {1, 1/3,
@@ -36,38 +37,7 @@ from .sheynin_tuzikov_2001 import exponents_to, sigma
 ZEROTH = (6, {"": 1})
 FIRST = (24, {"a": 1, "b": 1, "p": 1})
 SECOND = (120, {"aa": 2, "ab": 1, "ba": 1, "bb": 2, "ap": 1, "pa": 1, "pp": 2, "bp": 1, "pb": 1})
-THIRD = (
-    720,
-    {
-        "aaa": 6,
-        "bbb": 6,
-        "ppp": 6,
-        "aab": 2,
-        "aba": 2,
-        "baa": 2,
-        "abb": 2,
-        "bab": 2,
-        "bba": 2,
-        "aap": 2,
-        "apa": 2,
-        "paa": 2,
-        "bbp": 2,
-        "bpb": 2,
-        "pbb": 2,
-        "app": 2,
-        "pap": 2,
-        "ppa": 2,
-        "bpp": 2,
-        "pbp": 2,
-        "ppb": 2,
-        "abp": 1,
-        "apb": 1,
-        "pab": 1,
-        "bap": 1,
-        "bpa": 1,
-        "pba": 1,
-    },
-)
+THIRD = (720, {"".join(word): (6, 2, 1)[len(set(word)) - 1] for word in product("abp", repeat=3)})
 THIRD_AS_PRINTED = (720, {**THIRD[1], "baa": 0, "bab": 4})
 FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
@@ -112,21 +82,25 @@ def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tu
             letters = {"a": np.array(a, object), "b": np.array(b, object), "p": np.array(foot, object)}
             weight = dot(cross(a, b), normal) * height / square  # c_j (p⊥·n), with n not normalized
             for word, multiple in products.items():
-                product = np.array(weight * multiple, object)
+                term = np.array(weight * multiple, object)
                 for letter in word:
-                    product = np.multiply.outer(product, letters[letter])
-                total = total + product
+                    term = np.multiply.outer(term, letters[letter])
+                total = total + term
     return total / divisor
 
 
-def moments(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int) -> list[Number]:
-    """Return ∫ x^p y^q z^r dV to any order: a fan over each face from an apex in its plane, here its first corner.
+def moments(
+    points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int, apexes: Sequence[Vector] | None = None
+) -> list[Number]:
+    """Return ∫ x^p y^q z^r dV to any order, by a fan over each face from an apex in its plane.
 
     Parameters
     ----------
     points, faces
         As for `tensor`.
     order : int
+    apexes : sequence of (x, y, z), optional
+        One for each face: any point of its plane, p⊥ among them; by default its first corner.
 
     Returns
     -------
@@ -135,39 +109,13 @@ def moments(points: Sequence[Vector], faces: Sequence[Sequence[int]], order: int
 
     Examples
     --------
-    >>> from body_moments.core.papers.durso_2005 import moments
+    >>> from body_moments.core.papers.durso_2005 import moments, perpendicular_feet
     >>> points, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    >>> round(moments(points, faces, 2)[4] * 60, 12)
-    1.0
+    >>> [round(moments(points, faces, 2, apexes)[4] * 60, 12) for apexes in (None, perpendicular_feet(points, faces))]
+    [1.0, 1.0]
     """
-    return moments_from_apexes(points, faces, [points[face[0]] for face in faces], order)
-
-
-def moments_from_apexes(
-    points: Sequence[Vector], faces: Sequence[Sequence[int]], apexes: Sequence[Vector], order: int
-) -> list[Number]:
-    """Return the moments as `moments` does, with an apex for each face: any point of its plane, p⊥ among them.
-
-    Parameters
-    ----------
-    points, faces, order
-        As for `moments`.
-    apexes : sequence of (x, y, z)
-        One for each face.
-
-    Returns
-    -------
-    list of numbers
-        In the order of `monomials`.
-
-    Examples
-    --------
-    >>> from body_moments.core.papers.durso_2005 import moments_from_apexes, perpendicular_feet
-    >>> points, faces = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    >>> round(moments_from_apexes(points, faces, perpendicular_feet(points, faces), 0)[0] * 6, 12)
-    1.0
-    """
-    exponents = exponents_to(order)
+    apexes = [points[face[0]] for face in faces] if apexes is None else apexes
+    exponents = _exponents_to(order)
     sums: list[Number] = [0] * len(exponents)
     for face, apex in zip(faces, apexes):
         corners = [points[i] for i in face]
@@ -179,7 +127,7 @@ def moments_from_apexes(
 
 
 def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]]) -> list[Vector]:
-    """Return p⊥ of each face: the apexes with which `moments_from_apexes` is D'Urso's own sum.
+    """Return p⊥ of each face: the apexes with which `moments` is D'Urso's own sum.
 
     Parameters
     ----------
@@ -200,10 +148,7 @@ def perpendicular_feet(points: Sequence[Vector], faces: Sequence[Sequence[int]])
 
 
 def _plane(corners: Sequence[Vector]) -> tuple[Vector, Vector]:
-    """Return Newell's normal, twice the area long, and the foot of the perpendicular from the origin.
-
-    A face that is not flat has its mean plane.
-    """
+    """Return Newell's normal, twice the area long, and the perpendicular's foot from the origin, of the mean plane."""
     normal = (0, 0, 0)
     for a, b in zip(corners, [*corners[1:], corners[0]]):
         normal = tuple(n + c for n, c in zip(normal, cross(a, b)))

@@ -89,7 +89,7 @@ def volume_moments(
     Fraction(1, 24)
     """
     sums = _sum_over_faces(points, faces, order, about, lambda a, b, c: dot(a, cross(b, c)))
-    return [total / factorial(sum(m) + 3) for m, total in zip(exponents_to(order), sums)]
+    return [total / factorial(sum(m) + 3) for m, total in zip(_exponents_to(order), sums)]
 
 
 def surface_moments(
@@ -125,7 +125,7 @@ def surface_moments(
         return root(dot(normal, normal))
 
     sums = _sum_over_faces(points, faces, order, about, double_area)
-    return [total / factorial(sum(m) + 2) for m, total in zip(exponents_to(order), sums)]
+    return [total / factorial(sum(m) + 2) for m, total in zip(_exponents_to(order), sums)]
 
 
 def triangle_moments(
@@ -156,8 +156,8 @@ def triangle_moments(
     a, b, c = (corners[np.asarray(triangles)[:, i]].T for i in range(3))
     normal = cross(subtract(b, a), subtract(c, a))
     det, double = dot(a, normal), np.sqrt(dot(normal, normal))
-    means = [sigma(m, a, b, c) for m in exponents_to(order)]
-    degrees = [sum(m) for m in exponents_to(order)]
+    means = [sigma(m, a, b, c) for m in _exponents_to(order)]
+    degrees = [sum(m) for m in _exponents_to(order)]
     volume = [float(np.sum(det * mean)) / factorial(n + 3) for n, mean in zip(degrees, means)]
     surface = [float(np.sum(double * mean)) / factorial(n + 2) for n, mean in zip(degrees, means)]
     return np.array(volume), np.array(surface)
@@ -171,33 +171,18 @@ def _sum_over_faces(
     weight: Callable[[Vector, Vector, Vector], Number],
 ) -> list[Number]:
     points = [subtract(point, about) for point in points]
-    sums: list[Number] = [0] * len(exponents_to(order))
+    sums: list[Number] = [0] * len(_exponents_to(order))
     for face in faces:
         for j in range(1, len(face) - 1):
             a, b, c = points[face[0]], points[face[j]], points[face[j + 1]]
             factor = weight(a, b, c)
             if factor:
-                sums = [total + factor * sigma(m, a, b, c) for total, m in zip(sums, exponents_to(order))]
+                sums = [total + factor * sigma(m, a, b, c) for total, m in zip(sums, _exponents_to(order))]
     return sums
 
 
-def exponents_to(order: int) -> list[tuple[int, int, int]]:
-    """Return (p, q, r) of all monomials to an order, in the order of `monomials`.
-
-    Parameters
-    ----------
-    order : int
-
-    Returns
-    -------
-    list of (p, q, r)
-
-    Examples
-    --------
-    >>> from body_moments.core.papers.sheynin_tuzikov_2001 import exponents_to
-    >>> exponents_to(1)
-    [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
-    """
+def _exponents_to(order: int) -> list[tuple[int, int, int]]:
+    """Return (p, q, r) of all monomials to an order, in the order of `monomials`."""
     return [tuple(row) for row in monomials(order).tolist()]
 
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre
-from .sheynin_tuzikov_2001 import exponents_to
+from .sheynin_tuzikov_2001 import _exponents_to
 
 MAX_ENTRIES = 2e6
 
@@ -85,7 +85,7 @@ def phi_moments(points: NDArray, tensors: tuple[NDArray, ...]) -> dict[tuple[int
     """
     x, y, z = points.reshape(-1, 3).T
     moments = {}
-    for p, q, r in exponents_to(len(tensors) - 1):
+    for p, q, r in _exponents_to(len(tensors) - 1):
         product = tensors[p + q + r]
         for coordinate in (x, y, *[x] * p, *[y] * q, *[z] * (r + 1)):
             product = np.tensordot(coordinate, product, 1)

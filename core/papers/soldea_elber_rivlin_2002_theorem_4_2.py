@@ -58,38 +58,19 @@ def integral_of_basis(knots: Sequence[Number], i: int, k: int, power: int, t: Nu
 
     total, derivative = 0, 1
     for j in range(power + 1):
-        inner = sum(basis(knots, s, k + j + 1, t) * nested(s, k + j) for s in range(i, m + 1))
+        inner = sum(_basis(knots, s, k + j + 1, t) * nested(s, k + j) for s in range(i, m + 1))
         total += (-1) ** j * derivative * t ** (power - j) * inner
         derivative *= power - j
     return delta(i, k) * total
 
 
-def basis(knots: Sequence[Number], i: int, k: int, t: Number) -> Number:
-    """Return B_{i,k}(t) by the recursion of Cox and de Boor.
-
-    Parameters
-    ----------
-    knots : sequence of numbers
-    i, k : int
-        The function and its order.
-    t : number
-
-    Returns
-    -------
-    number
-
-    Examples
-    --------
-    >>> from fractions import Fraction
-    >>> from body_moments.core.papers.soldea_elber_rivlin_2002_theorem_4_2 import basis
-    >>> basis([0, 1, 2], 0, 2, Fraction(1, 2))
-    Fraction(1, 2)
-    """
+def _basis(knots: Sequence[Number], i: int, k: int, t: Number) -> Number:
+    """Return B_{i,k}(t) by the recursion of Cox and de Boor."""
     if k == 1:
         return 1 if knots[i] <= t < knots[i + 1] else 0
     value = 0
     if knots[i + k - 1] > knots[i]:
-        value += (t - knots[i]) / (knots[i + k - 1] - knots[i]) * basis(knots, i, k - 1, t)
+        value += (t - knots[i]) / (knots[i + k - 1] - knots[i]) * _basis(knots, i, k - 1, t)
     if knots[i + k] > knots[i + 1]:
-        value += (knots[i + k] - t) / (knots[i + k] - knots[i + 1]) * basis(knots, i + 1, k - 1, t)
+        value += (knots[i + k] - t) / (knots[i + k] - knots[i + 1]) * _basis(knots, i + 1, k - 1, t)
     return value

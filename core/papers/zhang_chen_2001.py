@@ -105,29 +105,12 @@ def mesh_moments(
         corners = [points[i] for i in shape]
         size = measure(*corners)
         total = total + size
-        sums = [value + size * elementary_mean(row, corners) for value, row in zip(sums, exponents)]
+        sums = [value + size * _elementary_mean(row, corners) for value, row in zip(sums, exponents)]
     return [-value for value in sums] if total < 0 else sums
 
 
-def elementary_mean(exponents: Sequence[int], corners: Sequence[Vector]) -> Number:
-    """Return the mean of a monomial over the triangle or tetrahedron of the origin and d corners.
-
-    Parameters
-    ----------
-    exponents : sequence of int
-    corners : sequence of sequence of numbers
-        d corners with d coordinates each.
-
-    Returns
-    -------
-    number
-
-    Examples
-    --------
-    >>> from body_moments.core.papers.zhang_chen_2001 import elementary_mean
-    >>> elementary_mean((1, 0), [(1, 0), (0, 1)])
-    Fraction(1, 3)
-    """
+def _elementary_mean(exponents: Sequence[int], corners: Sequence[Vector]) -> Number:
+    """Return the mean of a monomial over the triangle or tetrahedron of the origin and d corners."""
     dimension = len(corners)
     axes = [axis for axis, n in enumerate(exponents) for _ in range(n)]
     total = 0

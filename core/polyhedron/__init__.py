@@ -6,9 +6,7 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    MAX_ORDER="integration",
     SimplexMoments="n_dimensions",
-    area_of_images="sheared_areas",
     enclosed_moments="n_dimensions",
     facet_moments="n_dimensions",
     facets_of="simplices",

@@ -19,18 +19,18 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import InitVar, dataclass
 from functools import lru_cache
 from itertools import chain, islice
-from math import factorial, frexp
-from typing import cast
+from math import frexp
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.findings import MOMENTS_OVERFLOW
-from ..mesh.surface import Surface, flipped_quads
-from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
+from ..mesh.surface import Surface, turned_quads
+from ..moments.exponents import count_of_degree, factorial_ratios, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
 from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
@@ -48,14 +48,9 @@ MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 
 
 @lru_cache
-def _factors(order: int) -> NDArray[np.float64]:
+def area_factors(order: int) -> NDArray[np.float64]:
     """Return (K,) the factors p! q! r! / (p+q+r+2)! of the monomials."""
-    return np.array(
-        [
-            float(factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + 2))
-            for p, q, r in monomials(order).tolist()
-        ]
-    )
+    return factorial_ratios(monomials(order), 2)
 
 
 def _exponent(reach: float) -> int:
@@ -75,10 +70,7 @@ class _FaceBatch:
 
 
 class _CompensatedSum:
-    """A running sum of arrays, with the rounding errors of the additions (Neumaier) and the sums for its bounds.
-
-    faces: number of faces added.
-    """
+    """A running sum of arrays, with the rounding errors of the additions (Neumaier), and the sums for its bounds."""
 
     def __init__(self, order: int, weights: int):
         self.order, self.weights = order, weights
@@ -109,35 +101,19 @@ class _CompensatedSum:
             self.pending = []
 
 
-def integrate(
-    stream: Iterable[Surface],
-    order: int,
-    area: bool,
-    threads: int,
-    progress: Callable[[int], None] | None,
-    about: NDArray | None,
-    reach: float | None,
-) -> tuple[Moments, Moments | None]:
-    """Return the moments of the volume and, if wanted, of the area; arguments as for `polyhedron_moments`."""
-    return _StreamIntegrator(order, area, threads, progress, about, reach).integrate(stream)
+@dataclass(eq=False)
+class StreamIntegrator:
+    """One body being measured, piece by piece: `center` and `exponent` are those of its first piece unless given."""
 
+    order: int
+    area: bool
+    threads: int
+    progress: Callable[[int], None] | None
+    center: NDArray[np.float64] | Any
+    reach: InitVar[float | None]
 
-class _StreamIntegrator:
-    """One body being measured, piece by piece."""
-
-    def __init__(
-        self,
-        order: int,
-        area: bool,
-        threads: int,
-        progress: Callable[[int], None] | None,
-        about: NDArray | None,
-        reach: float | None,
-    ):
-        self.order, self.area, self.threads, self.progress = order, area, max(1, threads), progress
-        # None until the first piece is seen, where nobody has given them
-        self.center = cast("NDArray[np.float64]", about)
-        self.exponent = cast("int", None if reach is None else _exponent(reach))
+    def __post_init__(self, reach: float | None) -> None:
+        self.exponent: int | Any = None if reach is None else _exponent(reach)
         self.idle: list[AnyOrderKernel] = []
         self.half_ulp = np.zeros(3)
 
@@ -192,10 +168,7 @@ class _StreamIntegrator:
                     yield _FaceBatch(points, faces[start : start + step], size, half_ulp)
 
     def _size(self, faces: NDArray) -> int:
-        """Return the number of faces in a block: blocks are of even length, and as many for each of 2 or 4 threads.
-
-        The blocks, and so their sum, do not depend on the number of threads.
-        """
+        """Return the number of faces in a block: even, equal for each of 2 or 4 threads."""
         corners = faces.shape[1]
         # 2 if two triangles make one face here
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
@@ -233,15 +206,11 @@ class _StreamIntegrator:
 
     @staticmethod
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """Yield the corners of faces, a block at a time, and the number of faces in a full block.
-
-        The faces are quads as Blender cuts them, pairs of triangles, or triangles. Each block is judged by itself, so
-        that it does not depend on its neighbors.
-        """
+        """Yield corners of blocks of faces, quads as cut, pairs of triangles or triangles, and a full size."""
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
-                faces = np.where(flipped_quads(task.points, faces)[:, None], np.roll(faces, -1, axis=1), faces)
+                faces = turned_quads(task.points, faces)
             halves = quad_corners(faces) if faces.shape[1] == 3 else None
             yield (faces.T, task.size) if halves is None else (halves, task.size // 2)
 
@@ -249,7 +218,7 @@ class _StreamIntegrator:
         """Return the moments in the body's own unit, with their bounds, from the sums."""
         degree = monomials(self.order).sum(axis=1)
         row, dimension = (0, 3) if of == Measure.VOLUME else (1, 2)
-        factors = _factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
+        factors = area_factors(self.order) / ((degree + 3.0) if of == Measure.VOLUME else 1.0)
         sizes = total.sizes[3 * row : 3 * row + 3]
         raw = (total.high[row] + total.low[row]) * factors
         mean = 2.0 * ((degree + 3.0) if of == Measure.VOLUME else 1.0)  # ∫ |x^α| is at most weight reach^α / this
@@ -270,11 +239,7 @@ class _StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """Return the change if the vertices move by their half ulps.
-
-        It is integrated over the volume that they sweep; for areas, over the added area, and with the change of the
-        integrand.
-        """
+        """Return the change if vertices move by half ulps, over the volume that they sweep, or added area."""
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept

@@ -57,9 +57,8 @@ class Sums:
     """Sums over a block of faces, in the unit in which their coordinates are at most about 256.
 
     sums: (weights, K) Σ over faces of determinant S_α, and of doubled area S_α. chunks: (3 + 3 + weights + c-1, m), for
-    each chunk of FACES_PER_CHUNK faces the largest and the least coordinates, Σ |weight|
-    and the squares of its longest edges from the first corner.
-    half_ulp: (3,) of the coordinates.
+    each chunk of FACES_PER_CHUNK faces the largest and the least coordinates, Σ |weight| and the squares of its longest
+    edges from the first corner. half_ulp: (3,) of the coordinates.
     """
 
     sums: NDArray[np.float64]
@@ -69,10 +68,7 @@ class Sums:
 
 @lru_cache
 def scratch_layout(count: int, order: int, weights: int) -> tuple[dict[str, tuple[int, ...]], ...]:
-    """Return the row shapes of the arrays of `_Block` for faces of `count` corners.
-
-    They are the lasting ones, the ones for weighing, and the ones for summing, which share memory with the second.
-    """
+    """Return the row shapes of the arrays of `_Block`: lasting ones, and two groups that share memory."""
     ends, fans, lower = count - 1, count - 2, count_of_degree(order - 1)
     return (
         {"heavy": (weights, 3, count), "tips": (weights, fans), "both": (weights,)},
@@ -91,10 +87,7 @@ def row_count(count: int, order: int, weights: int) -> int:
 
 
 class _Block:
-    """Rows of a block of faces, k columns, and the calls on them.
-
-    The calls are `steps`, in their order, to be made once the corners' coordinates and the edges from the first corner
-    are there.
+    """Rows of a block of faces, k columns, and the calls on them, `steps`, once corners and edges are there.
 
     corners: (3, c, k). edges: (3, c-1, k). apex_vectors: (w, c-2, k), the weights of the triangles a, b, c and a, c, d;
     both: (w, k), their sums. powers: (R, k) and levels: (c-1, R, k), C, and S, D and S, of one degree.
@@ -178,9 +171,7 @@ class _Block:
             self._append_call(np.add, self.levels[1, part], grown, self.levels[1, part])
 
     def _append_raise(self, degree: int, vectors: NDArray) -> None:
-        """Append the calls that put Σ_i v_i L_{α-e_i} in place of all levels L, (c-1, R, k), one degree lower.
-
-        vectors: (3, c-1, 1, k).
+        """Append the calls that put Σ_i v_i L_{α-e_i}, v (3, c-1, 1, k), in place of all levels L, one degree lower.
 
         Without a factor x, a row keeps its place; without y or z, it is in the run of rows with one less q+r.
         """
@@ -208,10 +199,7 @@ class _Block:
             end = first - 1
 
     def _append_last_degree(self) -> None:
-        """Append the calls for the sums of the last degree.
-
-        They sum products of the rows one degree lower and weighted coordinates.
-        """
+        """Append the calls for sums of the last degree, of rows one degree lower and weighted coordinates."""
         degree, weighted_products, powers = self.order, self.weighted_products, self.powers
         count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
         # in place of the corners at last
@@ -241,10 +229,7 @@ class _Block:
 
 
 class AnyOrderKernel:
-    """The loop body, with its scratch. Not to be shared by threads.
-
-    order: of the moments, at least 3. area: True for sums weighted with doubled areas beside the volume's.
-    """
+    """The loop body to an order, at least 3, perhaps with areas, and its scratch. Not to be shared by threads."""
 
     def __init__(self, order: int, area: bool):
         self.order, self.weights = order, 2 if area else 1
@@ -261,9 +246,8 @@ class AnyOrderKernel:
     ) -> Sums:
         """Return the sums over a block of faces, all triangles or all pairs. size: number of faces in a full block.
 
-        points: (n, 3) contiguous float32 or float64. center: (3,) is subtracted. scale: a power of two, which
-        multiplies the difference. half_ulp: (3,) before that. faces: their vertices a, b, c (and d), (k,) each,
-        checked: triangles a, b, c and a, c, d.
+        Contiguous points, their center, (3,), subtracted, are multiplied by `scale`, a power of two. faces: checked
+        vertices a, b, c (and d), (k,) each: triangles a, b, c and a, c, d.
         """
         k = len(faces[0])
         shape = len(faces), -(-(size if k > 0.9 * size else k) // FACES_PER_CHUNK) * FACES_PER_CHUNK
@@ -293,9 +277,8 @@ class AnyOrderKernel:
 def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np.float64]:
     """Return (sets, K) Σ weight reach^α over the chunks of blocks of one kind, for each set of weights.
 
-    The weights are |determinant| with its rounding, that rounding alone, the volume that moving every vertex by its
-    half ulp sweeps; and with areas: doubled area with its rounding, that alone, and the area that moving the vertices
-    adds.
+    The weights are |determinant| with its rounding, that rounding alone, the volume that moving vertices by half ulps
+    sweeps; and with areas: doubled area with its rounding, that alone, and the area that moving the vertices adds.
     """
     chunks, half_ulp = np.concatenate([part.chunks for part in parts], axis=1), parts[0].half_ulp
     high, low, weight_sums, squares = np.split(chunks, (3, 6, 6 + weights))
@@ -321,11 +304,7 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
-    """Compute row by row x^α of one degree from the degree below, perhaps in its place.
-
-    Powers without x are computed from the last rows below. do: calls a function with these arguments, or notes the call
-    for later.
-    """
+    """Compute, or note by `do`, x^α of one degree from the degree below, row by row, perhaps in its place."""
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])
     do(np.multiply, old[count - 1], vector[2], powers[count + degree])

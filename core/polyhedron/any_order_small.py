@@ -8,15 +8,14 @@ segment of the rows.
 
 from __future__ import annotations
 
-from functools import lru_cache
-from math import factorial
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
 from ..moments.moments import Measure, Moments, U
+from ..numerics.arrays import batches
 from ..numerics.vectors import cross, dot
+from .any_order import area_factors
 
 TRIANGLES_PER_BLOCK = 256  # whose levels stay in the cache
 
@@ -29,26 +28,23 @@ def extend_small_moments(
     counts: NDArray[np.integer],
     reach: NDArray,
 ) -> Moments:
-    """Return the moments of n bodies to a higher order.
+    """Return the moments of n bodies, `volume` (n, 20), each about a point in its body, to a higher order.
 
-    `volume` has third order, (n, 20), each about a point in its body; the triangles are sorted by body, at least one
-    each. `reach`, (n, 3), bounds the distances of its points from that point, with their possible shifts by storing.
+    Triangles are sorted by body. reach: (n, 3) of the points from there, with their possible shifts by storing.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
-    powers, degree, factors = _new_monomials(known, order)
-    coordinates, first, sums, sizes = np.ascontiguousarray(points.T), 0, [], []
-    while first < len(counts):
-        start = ends[first] - counts[first]
-        last = max(first + 1, int(np.searchsorted(ends, start + TRIANGLES_PER_BLOCK, "right")))
-        part, own = slice(first, last), counts[first:last]
-        corners = coordinates.take(triangles[start : ends[last - 1]].T, axis=1).astype(np.float64, copy=False)
-        corners = corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]
-        a, b, c = corners.transpose(1, 0, 2)
+    powers = monomials(order)[known:]
+    degree = powers.sum(axis=1)
+    factors = area_factors(order)[known:] / (degree + 3.0)
+    coordinates, sums, sizes = np.ascontiguousarray(points.T), [], []
+    for part in batches(counts, TRIANGLES_PER_BLOCK):
+        rows, own = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]], counts[part]
+        corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
+        a, b, c = (corners - np.repeat(volume.about[part].T, own, axis=1)[:, None]).transpose(1, 0, 2)
         det = dot(a, cross(b - a, c - a))
         starts = np.cumsum(own) - own
         sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
         sizes.append(np.add.reduceat(np.abs(det), starts))
-        first = last
     raw = np.concatenate(sums) * factors
     largest = np.multiply.reduce(reach[:, None] ** powers, axis=2)
     # a coefficient is off by (6 n + 8) u, a determinant by what the known total is, and the sums by their lengths
@@ -62,15 +58,6 @@ def extend_small_moments(
         np.concatenate([volume.rounding_error, error], axis=1),
         np.concatenate([volume.input_error, volume.input_error[:, :1] * largest], axis=1),
     )
-
-
-@lru_cache
-def _new_monomials(known: int, order: int) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return exponents and degrees of the monomials after so many, and their factors from coefficients to moments."""
-    powers = monomials(order)[known:]
-    degree = powers.sum(axis=1)
-    factors = [np.prod([float(factorial(p)) for p in row]) / factorial(sum(row) + 2) for row in powers.tolist()]
-    return powers, degree, np.array(factors) / (degree + 3.0)
 
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:

@@ -8,26 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
+from ..numerics.vectors import cross, dot
 
 FACES_PER_BLOCK = 1 << 13  # so that what is computed of them stays in the cache
 
 
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
-    """Return the volume that a closed, outward surface encloses, and its (3,) centroid.
-
-    Quads are cut as Blender draws them. The volume is negative if the surface is inside out; the center is not
-    finite if there is no volume.
+    """Return the volume that a closed surface encloses, negative if inside out, and its (3,) centroid, if finite.
 
     Sum over the tetrahedra from a point near the middle (Zhang and Chen 2001, eq. 6 and 7). Of a quad abcd that is cut
     along ac, both have the face of a, c and that point: with w = a × c six times their volumes are -b·w and d·w.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> volume, center = volume_and_center(surface)
-    >>> round(6.0 * volume, 9), center.tolist()
-    (1.0, [0.25, 0.25, 0.25])
     """
     points = np.ascontiguousarray(surface.points.T, np.float64)
     middle = points.mean(axis=1)
@@ -44,34 +34,23 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
 def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
     """Return (4,) six volumes and 24 first moments. points: (3, n)."""
     a, b, c = (points.take(corner, axis=1) for corner in triangles.T)
-    return _sums(_dot(_cross(b, c), a), a + b + c)
+    return _sums((dot(cross(b, c), a), a + b + c))
 
 
 def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[np.float64]:
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
     u, v, diagonal = b - a, d - a, c - a
     # if the normals of the two triangles along ac face away from each other, by Lagrange's identity
-    flipped = _dot(u, v) * _dot(diagonal, diagonal) > _dot(u, diagonal) * _dot(v, diagonal)
+    flipped = dot(u, v) * dot(diagonal, diagonal) > dot(u, diagonal) * dot(v, diagonal)
     if flipped.any():  # cut from b to d
         a, b, c, d = (np.where(flipped, other, corner) for corner, other in ((a, b), (b, c), (c, d), (d, a)))
-    w = _cross(a, c)
-    first, second = -_dot(b, w), _dot(d, w)
-    return _sums(first, b) + _sums(second, d) + _moments(first + second, a + c)
+    w = cross(a, c)
+    first, second = -dot(b, w), dot(d, w)
+    return _sums((first, a + b + c), (second, a + c + d))
 
 
-def _sums(volumes: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.concatenate([[volumes.sum()], np.einsum("ij,j->i", corners, volumes)])
-
-
-def _moments(volumes: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.concatenate([[0.0], np.einsum("ij,j->i", corners, volumes)])
-
-
-def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.einsum("ij,ij->j", a, b)
-
-
-def _cross(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    product = a[[1, 2, 0]] * b[[2, 0, 1]]
-    product -= a[[2, 0, 1]] * b[[1, 2, 0]]
-    return product
+def _sums(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Return (4,) the sums of volumes, and of volumes times sums of corners, (3, k)."""
+    return sum(
+        [np.append(volumes.sum(), np.einsum("ij,j->i", corners, volumes)) for volumes, corners in parts], np.zeros(4)
+    )

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from math import isfinite
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,45 +24,13 @@ from ..moments.moments import Moments
 from ..numerics.arguments import check_order, check_type, float_array, number_array
 from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
-from . import any_order, third_order
+from . import third_order
+from .any_order import StreamIntegrator
 from .findings import SURFACE_NOT_CLOSED
 from .third_order import box_center, finite_box, nothing
 from .third_order_kernel import NO_VERTEX
 
-MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 THIRD = 3  # orders up to this one have their own kernel
-
-
-@overload
-def polyhedron_moments(
-    body: Surface | Iterable[Surface | NDArray],
-    order: int = THIRD,
-    *,
-    area_order: None = None,
-    about: ArrayLike | None = None,
-    reach: float | None = None,
-    exact: bool = False,
-    allow_open: bool = False,
-    threads: int = 1,
-    progress: Callable[[int], None] | None = None,
-    planarity: PlanarityAccumulator | None = None,
-) -> tuple[Moments, None]: ...
-
-
-@overload
-def polyhedron_moments(
-    body: Surface | Iterable[Surface | NDArray],
-    order: int = THIRD,
-    *,
-    area_order: int,
-    about: ArrayLike | None = None,
-    reach: float | None = None,
-    exact: bool = False,
-    allow_open: bool = False,
-    threads: int = 1,
-    progress: Callable[[int], None] | None = None,
-    planarity: PlanarityAccumulator | None = None,
-) -> tuple[Moments, Moments]: ...
 
 
 def polyhedron_moments(
@@ -77,7 +45,7 @@ def polyhedron_moments(
     threads: int = 1,
     progress: Callable[[int], None] | None = None,
     planarity: PlanarityAccumulator | None = None,
-) -> tuple[Moments, Moments | None]:
+) -> tuple[Moments, Moments | Any]:
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
     They are about the center of the bounding box, unless `about` says otherwise. The volume's are positive for outward
@@ -167,7 +135,9 @@ def polyhedron_moments(
         if not isfinite(np.add.reduce(volume.rounding_error[: monomial_count(highest)])):
             raise MeasureError(MOMENTS_OVERFLOW, order=int(order))
     else:
-        volume, area = any_order.integrate(stream, highest, area_order is not None, threads, progress, about, reach)
+        volume, area = StreamIntegrator(
+            highest, area_order is not None, max(1, threads), progress, about, reach
+        ).integrate(stream)
     if not boundary.is_zero:
         raise MeasureError(SURFACE_NOT_CLOSED)
     if area_order is None or area is None:
@@ -213,10 +183,7 @@ def _sum_to_third_order(
     progress: Callable[[int], None] | None,
     **options: Any,
 ) -> tuple[Moments, Moments]:
-    """Return volume and area of all pieces, about the first one's point if no other is given.
-
-    Not finite beyond the range of numbers. options: of `third_order.integrate`.
-    """
+    """Return volume and area of all pieces, about the first one's point if no other is given; perhaps not finite."""
     total: tuple[Moments, Moments] | None = None
     done = 0
     for surface in stream:

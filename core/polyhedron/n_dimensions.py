@@ -19,13 +19,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 from itertools import combinations
-from math import comb, factorial, isfinite
+from math import comb, isfinite
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..inertia.findings import MOMENTS_OVERFLOW
-from ..moments.exponents import check_exponents
+from ..moments.exponents import check_exponents, factorial_ratios
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, U
 from ..numerics.arguments import check_order, float_array
 from ..verdict.finding import MeasureError
@@ -75,10 +75,7 @@ class SimplexMoments:
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
-    """Return (K, n) all exponents of degree at most `order`, by degree, the first exponents largest first; read-only.
-
-    In three dimensions it is the order of `monomials`.
-    """
+    """Return (K, n) all exponents to an order, by degree, the first ones largest first; read-only."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
@@ -229,7 +226,7 @@ def _measure(
         + 4
     )
     error = 1.01 * steps * U * size + len(simplices) * UNDERFLOW
-    factor = np.array([_factor(row, measure) for row in indices.tolist()])
+    factor = factorial_ratios(indices, measure)
     power = (exponent * (degree + measure)).astype(np.int32)
     with np.errstate(over="ignore"):
         raw, error = np.ldexp(raw * factor, power), np.ldexp(error * factor, power)
@@ -264,10 +261,7 @@ def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[
 
 
 def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
-    """Return the n components of the generalized cross product of n-1 edges, and the same with every term positive.
-
-    edges: (n-1, n, k). Minors by Laplace's expansion along the last row, smaller ones shared.
-    """
+    """Return n components of the generalized cross products of n-1 edges, (n-1, n, k), and with all terms positive."""
     dimension = len(edges) + 1
     ones = np.ones(edges.shape[2])
     minors: dict[tuple[int, ...], tuple[NDArray, NDArray]] = {(): (ones, ones)}
@@ -287,20 +281,9 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
 
 
 def _weight_steps(dimension: int) -> int:
-    """Count the roundings on the way of one product to det or |N|.
-
-    There are two of each edge, a product and all sums of each minor.
-    """
+    """Count the roundings of one product on the way to det or |N|."""
     minors = sum(2 + 1 + size for size in range(1, dimension))
     return minors + 2 * dimension + 6
-
-
-def _factor(exponents: list[int], measure: int) -> float:
-    """Return α! / (|α| + measure)!, correctly rounded but for the last division."""
-    product = 1
-    for n in exponents:
-        product *= factorial(n)
-    return product / factorial(sum(exponents) + measure)
 
 
 def _exponents_of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:
@@ -320,10 +303,7 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 
 @lru_cache
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
-    """Return the start of each degree, and for each degree and axis the indices of products.
-
-    The indices are, in the next degree, of the monomials' products with that coordinate.
-    """
+    """Return the starts of degrees, and by degree and axis the indices, in the next degree, of products with it."""
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()
     raised = []

@@ -51,17 +51,7 @@ def simplex_arrays(
 
 
 def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> bool:
-    """Return whether every ridge is used as often one way as the other. Points at the same place are one.
-
-    `points` are (m, n), `simplices` (k, n), `signs` (k,) as for `enclosed_moments`.
-
-    Examples
-    --------
-    >>> from body_moments.core.polyhedron.simplices import closes
-    >>> triangle = [[0, 0], [2, 0], [0, 2]]
-    >>> closes(triangle, [[0, 1], [1, 2], [2, 0]]), closes(triangle, [[0, 1], [1, 2]])
-    (True, False)
-    """
+    """Return whether every ridge is used as often one way as the other. Points at the same place are one."""
     _, corners, parity = _sorted_corners(points, simplices, signs)
     if not len(corners):
         return True
@@ -72,19 +62,7 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
 
 
 def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> NDArray[np.intp]:
-    """Return the (j, n) facets except those between two simplices, which are used as often one way as the other.
-
-    `points` are (m, n), `simplices` (k, n), `signs` (k,) as for `enclosed_moments`.
-
-    Examples
-    --------
-    >>> from body_moments.core.polyhedron import facets_of
-    >>> from body_moments.core.polyhedron.simplices import outer_facets
-    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    >>> facets, signs = facets_of(square, [[0, 1, 2], [0, 2, 3]])
-    >>> len(facets), len(outer_facets(square, facets, signs))
-    (6, 4)
-    """
+    """Return the (j, n) facets except those between two simplices, used as often one way as the other."""
     facets, corners, parity = _sorted_corners(points, simplices, signs)
     _, first, which = np.unique(corners, axis=0, return_index=True, return_inverse=True)
     uses = np.abs(np.bincount(which.reshape(-1), parity, len(first))).astype(np.intp)
@@ -94,10 +72,7 @@ def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | Non
 def _sorted_corners(
     points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return all facets that have an extent, their corners' places, sorted, and their orientations, 1 or -1.
-
-    Points at the same place are one.
-    """
+    """Return the facets with an extent, their sorted corners, points of a place as one, and orientations, 1 or -1."""
     simplices = np.asarray(simplices)
     _, place = np.unique(np.asarray(points, np.float64) + 0.0, axis=0, return_inverse=True)
     corners = place.reshape(-1)[simplices]

@@ -29,7 +29,7 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
-from math import hypot, isfinite
+from math import isfinite
 from operator import itemgetter
 
 import numpy as np
@@ -52,12 +52,10 @@ from .third_order_kernel import (
 )
 from .third_order_small import (
     AREA_FACTORS,
+    AXIS_PAIRS,
     CONE_DIVISORS,
     DEGREE,
-    EXPONENTS,
-    PRODUCT_ROUNDINGS,
-    THIRD_ORDER_SHARE,
-    monomial_bounds,
+    error_bounds,
     small_moments,
 )
 
@@ -90,8 +88,7 @@ def integrate(
 ) -> tuple[Moments, Moments]:
     """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`.
 
-    exact: the third order to rounding for every size of mesh. about: (3,), by default the center of the bounding box.
-    planarity: is shown the faces, if that costs little.
+    exact: to rounding for every size of mesh. about: (3,), by default the box's center. planarity: is shown the faces.
     """
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
@@ -149,10 +146,7 @@ def finite_box(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.float6
 
 
 def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float64]:
-    """Return the center of a bounding box of points of this type.
-
-    For float32 it is rounded so that subtracting it is exact.
-    """
+    """Return the center of a box of points, rounded for float32 ones so that subtracting it is exact."""
     center = low / 2.0 + high / 2.0
     return center.astype(np.float32).astype(np.float64) if dtype == np.float32 else center
 
@@ -280,25 +274,21 @@ class _Integration:
 
 
 def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Return bounds, from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
+    """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20) `input_error`.
 
-    They are the sum of the |determinants| and the sum of the doubled areas; (2, 20) the errors of Σ w E[f], w the
-    determinants and the doubled areas; and (2, 20) the `input_error` of the moments.
+    They are bounds from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
     """
-    sizes, count = np.add.reduce(sums.sizes, axis=1).tolist(), int(np.add.reduce(sums.counts))
+    sizes, count = np.add.reduce(sums.sizes, axis=1), np.array([[np.add.reduce(sums.counts)]])
     # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
-    products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts).tolist()
-    tau = [products[i][j] + products[j][i] for i, j in ((1, 2), (2, 0), (0, 1))]  # the sum of each τ
-    reach, half_ulp, step = job.reach, job.half_ulp, hypot(*job.half_ulp.tolist())
-    powers, displaced = monomial_bounds(np.array([reach, reach + half_ulp]))  # (20,) and (20,)
-    x, y, z = reach.tolist()
-    # The weights are off by so much in all.
-    weight = np.array([[9.0 * U * (x * tau[0] + y * tau[1] + z * tau[2])], [9.0 * U * sum(tau)]])
-    size = np.array(sizes)[:, None] * (1.0 + 1e-9)
-    # Then come their products with the nodes, the sums, and what underflow may lose.
-    steps = PRODUCT_ROUNDINGS + PAIRWISE_SUM_ROUNDINGS + sums.blocks
-    rounding = (weight + 1e-290 * count + (U * (size + weight)) * steps) * powers
-    rounding *= THIRD_ORDER_SHARE
+    products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts)
+    tau = np.array([[products[i, j] + products[j, i] for i, j in AXIS_PAIRS]])
+    lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
+    edges = np.array([[np.add.reduce(lengths * sums.counts)]])  # bounds their sum, at the triangles' first corners
+    roundings = PAIRWISE_SUM_ROUNDINGS + sums.blocks
+    bounds = error_bounds(
+        job.reach[None], job.half_ulp[None], tau, edges, sizes[None], count, float(roundings), job.area
+    )
+    rounding, inputs = bounds[0][:, 0], bounds[1][:, 0]
     if not job.exact:  # and the rest of the third order
         e, f = sums.base, sums.side + sums.base / 2.0
         rest = [
@@ -307,26 +297,13 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
         ]
         for which in range(2):
             rounding[which, 10:] += (1.0 + 1e-9) * np.add.reduce(rest * sums.sizes[which], axis=1)
-    inputs = np.zeros((2, 20))
-    if step:
-        double = sizes[1] * (1.0 + 1e-9) if job.area else hypot(*tau)
-        lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
-        edges = float(np.add.reduce(lengths * sums.counts))  # bounds their sum, at the triangles' first corners
-        # the volume that a closed surface sweeps where float32 has moved its points
-        swept = step * (double / 2.0 + step * edges + 2.0 * step**2 * count)
-        tilted = step * (edges + 2.0 * step * count)
-        moved_reach = reach + half_ulp
-        share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # 1 for an axis without extent
-        inputs[0] = swept * displaced
-        inputs[1] = displaced * (tilted + EXPONENTS @ share * (swept / step))
-    return sizes, rounding, inputs
+    return sizes.tolist(), rounding, inputs
 
 
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
     """Return the four corners, (k/2,) each, of quads if triangles 2i and 2i+1 are halves of one for every i; else None.
 
-    Meshes that were triangulated from quads are like that, and two triangles that share an edge cost less than two
-    loose ones. The first pair shows which of their corners meet.
+    Two triangles that share an edge cost less than two loose ones. The first pair shows which of their corners meet.
     """
     return _quad_corners_of(triangles[0::2], triangles[1::2])
 

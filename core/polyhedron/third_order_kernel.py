@@ -2,22 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inner loop of `third_order`: triangles and pairs of triangles, a block at a time, in scratch that is made once.
 
-A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and
-a, c, d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),
+A face is a base a-c with a corner b on one side, and perhaps a corner d on the other: the triangles a, b, c and a, c,
+d. With their determinants v and w, u = v + w, q = a + c and Z = u q + 2 (v b + w d),
 
     H = u (a a' + c c') + 2 (v b b' + w d d')
     120 ∫ x x'     = H + (q Z' + Z q') / 2
     288 ∫ x x' x'' = q H + the same for the other two orders of the indices, but for the third moments about q / 2.
 
 These are, of one triangle with e = c - a and f = 2 b - q, v / 2880 (f (f f' + e e') + the other two orders), of the
-order of an edge cubed. They are added on request. No sum cancels: all its weights are positive.
+order of an edge cubed, and added on request. No sum cancels: all its weights are positive. If no areas are wanted, the
+determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
 
-If no areas are wanted, the determinants share a product: with m = (c-a) x a, v = (b-a)·m and w = (a-d)·m.
-
-Corners are gathered by component, so that every numpy call runs along contiguous rows. A call costs as much as some
-thousand additions, and threads gain only if calls are long: hence long blocks, few calls, results written over rows
-that are no longer needed, and steps on a few numbers only are taken once, for all blocks. Products are summed over
-slices of their rows, not along them: einsum then multiplies and adds in one pass, into rows that stay in the cache.
+Corners are gathered by component, so that numpy runs along contiguous rows. A call costs as much as some thousand
+additions, and threads gain only if calls are long: hence long blocks, few calls, results over rows that are no longer
+needed. einsum sums products over slices of their rows: in one pass, into rows that stay in the cache.
 """
 
 from __future__ import annotations
@@ -54,9 +52,9 @@ class BlockSums:
     """Sums over some blocks.
 
     sums, areas: (20,) Σ weight, 48, 120 and 2880 ∫ of the monomials of first to third order in the order of
-    `monomials`, over the cones, and over their faces as if they were cones of unit height.
-    side, base: (3, n) the largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n)
-    Σ |determinant| and Σ doubled area. counts: (n,) triangles. blocks: their number.
+    `monomials`, over the cones, and over their faces as if they were cones of unit height. side, base: (3, n) the
+    largest components of b-a (or d-a) and c-a in each chunk of triangles. sizes: (2, n) Σ |determinant| and Σ doubled
+    area. counts: (n,) triangles. blocks: their number.
     """
 
     sums: NDArray[np.float64]
@@ -164,10 +162,9 @@ BlockResult = tuple[int, NDArray, NDArray, list, list]
 
 
 class BlockAccumulator:
-    """The loop body for blocks of faces. results: the sums of each block so far.
+    """The loop body for blocks of faces over contiguous points. results: the sums of each block so far.
 
-    points: (n, 3) contiguous float32 or float64. center: (3,) the reference point. area: True for doubled areas,
-    area_moments: also for their moments. exact: True for the exact third order.
+    area: True for doubled areas, area_moments: also for their moments. exact: True for the exact third order.
     """
 
     def __init__(self, points: NDArray, center: NDArray, *, area: bool, area_moments: bool, exact: bool):
@@ -181,13 +178,11 @@ class BlockAccumulator:
     def add_faces(
         self, faces: Sequence[NDArray] | NDArray, quads: bool = False, observe: Callable | None = None
     ) -> None:
-        """Add some faces.
+        """Add faces, the vertices a, b, c and perhaps d, (k,) each. ValueError if an index names no point.
 
-        faces: the vertices a, b, c and perhaps d, (k,) each. quads: leave out the quads that Blender cuts along the
-        other diagonal, and append them to `flipped`, turned by one corner; otherwise the first diagonal is taken.
-        observe: is shown the doubled areas, (c - 2, k); of quads also 6 times the volumes of the tetrahedra of their
-        corners, (k,), the columns with triangles that may face away from each other, and gets room, (2, k). ValueError
-        if an index names no point.
+        quads: the ones that Blender cuts along the other diagonal are left out, and appended to `flipped`, turned by
+        one corner. observe: is shown the doubled areas, (c - 2, k); of quads also 6 times the corners' tetrahedra,
+        (k,), the columns with triangles that may face away from each other, and gets room, (2, k).
         """
         k = len(faces[0])
         shape = (len(faces), *chunk_shape(k), self.area or quads)
@@ -227,12 +222,10 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the first k columns with quads that Blender may cut along their other diagonal, and the ones it does.
-
-        The latter are appended to `flipped` first.
+        """Return the columns below k with quads that Blender may cut along their other diagonal, and those it does.
 
         The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
-        product is within float32's rounding of zero.
+        product is within float32's rounding of zero. The quads are appended to `flipped`.
         """
         cosine = np.einsum("dk,dk->k", workspace.normals[:, 0], workspace.normals[:, 1], out=workspace.cosine)
         cosine[k:] = np.inf  # the filling of the block

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ..moments.exponents import monomials
 from ..moments.moments import Measure, Moments, U
+from ..numerics.arrays import batches
 from .third_order_kernel import PAIR_INDEX, TRIPLES
 
 EXPONENTS = monomials(3)
@@ -33,6 +34,7 @@ AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2,
 TRIANGLES_PER_BLOCK = 2048  # whose products stay in the cache
 ROWS, COLUMNS = np.triu_indices(3)
 NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
+AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
 # Indices of the three terms of each symmetric product in a table of x, y, z times xx, xy, xz, yy, yz, zz.
 CUBE = np.array(
     [[6 * i + PAIR_INDEX[j, k], 6 * j + PAIR_INDEX[i, k], 6 * k + PAIR_INDEX[i, j]] for i, j, k in TRIPLES]
@@ -50,29 +52,22 @@ def small_moments(
     area: bool,
     area_moments: bool,
 ) -> tuple[Moments, Moments, NDArray[np.float64]]:
-    """Return the volume's moments of n bodies and their areas, stacked, and their cones' sums.
+    """Return stacked volumes and areas of n bodies, and (n, 2) sums of the cones over faces, positive and signed.
 
-    The sums are (n, 2), of the cones over the faces of each body, all counted as positive, and signed. The triangles
-    are sorted by body, at least one each. `reach` and `half_ulp`, (n, 3), bound the distances of a body's points from
-    its `center` and their shifts by storing. Without `area` the areas are zero, and the `input_error` is larger.
+    Triangles are sorted by body, at least one each. reach, half_ulp: (n, 3) of points from `center`, and their shifts
+    by storing. Without `area` the areas are zero, and the `input_error` is larger.
     """
-    ends, sums = np.cumsum(counts), []
-    coordinates, first = np.ascontiguousarray(points.T), 0
-    while first < len(counts):
-        start = ends[first] - counts[first]
-        last = max(first + 1, int(np.searchsorted(ends, start + TRIANGLES_PER_BLOCK, "right")))
-        sums.append(
-            _segment_sums(
-                coordinates.take(triangles[start : ends[last - 1]].T, axis=1).astype(np.float64, copy=False),
-                counts[first:last],
-                center[first:last],
-                area,
-                area_moments,
-            )
-        )
-        first = last
+    coordinates, ends, sums = np.ascontiguousarray(points.T), np.cumsum(counts), []
+    for part in batches(counts, TRIANGLES_PER_BLOCK):
+        rows = triangles[ends[part.start] - counts[part.start] : ends[part.stop - 1]]
+        corners = coordinates.take(rows.T, axis=1).astype(np.float64, copy=False)
+        sums.append(_segment_sums(corners, counts[part], center[part], area, area_moments))
     of_volume, of_area, side, base, sizes = sums[0] if len(sums) == 1 else map(np.concatenate, zip(*sums))
-    rounding, inputs = _error_bounds(reach, half_ulp, side, base, sizes, counts[:, None], area)
+    products, number = side[:, :, None] * base[:, None] * counts[:, None, None], counts[:, None]
+    tau = np.stack([products[:, i, j] + products[:, j, i] for i, j in AXIS_PAIRS], axis=1)
+    lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(np.add.reduce(base * base, axis=1))
+    edges = lengths[:, None] * number  # bounds their sum, at the triangles' first corners
+    rounding, inputs = error_bounds(reach, half_ulp, tau, edges, sizes, number, 3.0 * number, area)
     raw, cones = of_volume / DIVISORS, np.stack([sizes[:, 0], of_volume[:, 0]], axis=1)
     volume = Moments(raw, center, Measure.VOLUME, rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw), inputs[0])
     if not area:
@@ -88,8 +83,8 @@ def _segment_sums(
 ) -> tuple[NDArray, ...]:
     """Return the sums of some bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
 
-    They are (n, 20) Σ w f, made moments by `DIVISORS`; the same with doubled areas as weights, or (n, 0); the largest
-    components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
+    They are (n, 20) Σ w f, made moments by `DIVISORS`; the same with doubled areas, or (n, 0); the largest components
+    of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
@@ -125,30 +120,32 @@ def _segment_sums(
     )
 
 
-def _error_bounds(
-    reach: NDArray, half_ulp: NDArray, side: NDArray, base: NDArray, sizes: NDArray, counts: NDArray, area: bool
+def error_bounds(
+    reach: NDArray,
+    half_ulp: NDArray,
+    tau: NDArray,
+    edges: NDArray,
+    sizes: NDArray,
+    counts: NDArray,
+    sum_roundings: NDArray | float,
+    area: bool,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the errors of Σ w E[f], (2, n, 20), and the `input_error` of the moments, (2, n, 20).
+    """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled areas as weights w.
 
-    w are the determinants and the doubled areas; see `third_order`.
-
-    side, base: (n, 3) the largest edges. sizes: (n, 2). counts: (n, 1).
+    tau: (n, 3) the sums of τ (see `third_order`). edges: (n, 1) the sum of two edges of each triangle. sizes: (n, 2)
+    Σ |w|. counts: (n, 1) triangles. sum_roundings: u, of the sums.
     """
-    products = side[:, :, None] * base[:, None] * counts[:, None]
-    tau = np.stack([products[:, i, j] + products[:, j, i] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
     moved_reach = reach + half_ulp
     powers, displaced = monomial_bounds(reach), monomial_bounds(moved_reach)
     weight = 9.0 * U * np.stack([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
     size = sizes.T[:, :, None] * (1.0 + 1e-9)
-    # Then come their products with the nodes, the sums one by one, and what underflow may lose.
-    steps = PRODUCT_ROUNDINGS + 3.0 * counts
+    # Then come their products with the nodes, the sums, and what underflow may lose.
+    steps = PRODUCT_ROUNDINGS + sum_roundings
     rounding = (weight + 1e-290 * counts + (U * (size + weight)) * steps) * powers * THIRD_ORDER_SHARE
     inputs = np.zeros((2, len(reach), 20))
     if half_ulp.any():
         step = np.sqrt(np.add.reduce(half_ulp * half_ulp, axis=1))[:, None]
         double = size[1] if area else np.sqrt(np.add.reduce(tau * tau, axis=1))[:, None]
-        lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(np.add.reduce(base * base, axis=1))
-        edges = lengths[:, None] * counts  # bounds their sum, at the triangles' first corners
         # the volume that a closed surface sweeps where float32 has moved its points
         swept = double / 2.0 + step * edges + 2.0 * step * step * counts
         tilted = step * (edges + 2.0 * step * counts)

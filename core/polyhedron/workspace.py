@@ -22,10 +22,7 @@ Block = TypeVar("Block")
 
 
 class Workspace(Generic[Block]):
-    """Memory of a kernel for blocks of one shape, kept until another shape is asked for.
-
-    make: (workspace, *shape) → a block, whose arrays it gets from `take` and `overlay`.
-    """
+    """Memory for blocks of one shape, `make(workspace, *shape)`, with arrays from `take` and `overlay`."""
 
     def __init__(self, make: Callable[..., Block]):
         self._make = make
@@ -67,12 +64,7 @@ class Workspace(Generic[Block]):
 
 
 def gather(points: NDArray, index: NDArray[np.intp], single: NDArray[np.float32], corners: NDArray[np.float64]) -> None:
-    """Gather the coordinates of points, one row for each axis: into `corners`, (3, ...).
-
-    Float32 coordinates go by way of `single`.
-
-    points: (n, 3) contiguous. index: checked; it is multiplied by 3.
-    """
+    """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked; multiplied by 3."""
     flat, target = points.reshape(-1), single if points.dtype == np.float32 else corners
     np.multiply(index, 3, index)
     for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least

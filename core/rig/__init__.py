@@ -6,9 +6,6 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    BonePiece="cuts",
-    VertexWeights="dominance",
-    bone_pieces="cuts",
-    bones_of_caps="cuts",
-    dominant_bones="dominance",
+    cuts="cuts",
+    dominance="dominance",
 )

@@ -13,11 +13,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
+from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
-from ..numerics.arguments import float_array, index_array, number_array
 from ..numerics.graph import connected_components
 from ..polyhedron.integration import polyhedron_moments
 
@@ -26,26 +26,9 @@ NO_BONE = -1
 
 @dataclass(frozen=True, eq=False)
 class BonePiece:
-    """The closed surface that goes with one bone.
+    """The closed surface, in float64, that goes with one bone: its faces, and the cones that close it.
 
-    Attributes
-    ----------
-    bone : int
-    surface : Surface
-        Its faces, and the cones that close it, in float64.
-    face_count : int
-        Number of its triangles, the first ones, that are faces.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface
-    >>> from body_moments.core.rig import bone_pieces
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> pieces = bone_pieces(surface.points, surface.triangles, np.array([0, 1, 1, 1]))
-    >>> [(piece.bone, piece.face_count, len(piece.surface.triangles)) for piece in pieces]
-    [(0, 1, 4), (1, 3, 6)]
-    >>> round(sum(piece.moments().total for piece in pieces) * 6, 12)
-    1.0
+    face_count: number of its triangles, the first ones, that are faces.
     """
 
     bone: int
@@ -58,38 +41,16 @@ class BonePiece:
 
 
 def bone_pieces(
-    points: ArrayLike,
-    triangles: ArrayLike,
-    bone: ArrayLike,
+    points: NDArray[np.floating],
+    triangles: NDArray[np.integer],
+    bone: NDArray[np.integer],
     displacement: NDArray | None = None,
 ) -> list[BonePiece]:
-    """Cut a closed surface into closed pieces.
+    """Cut a closed surface, outward (t, 3) triangles with (t,) bones, into closed pieces, one for each such bone.
 
-    Parameters
-    ----------
-    points : (n, 3) array_like
-    triangles : (t, 3) array_like of int
-        Outward faces counter-clockwise.
-    bone : (t,) array_like of int
-        The bone of each, not negative.
-    displacement : (3,) array, optional
-        Largest displacement by storing the coordinates.
-
-    Returns
-    -------
-    list of BonePiece
-        By bone, for bones that have triangles.
-
-    Examples
-    --------
-    >>> from body_moments.core.rig import bone_pieces
-    >>> points, triangles = np.eye(4, 3, -1), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> len(bone_pieces(points, triangles, np.zeros(4, int)))
-    1
+    displacement: (3,) largest displacement by storing the coordinates.
     """
-    points = float_array("points", points, "n", 3)
-    triangles = index_array("triangles", triangles, "t", 3, count=len(points))
-    bone = index_array("bone", bone, len(triangles))
+    points = points.astype(np.float64)
     owner, start, stop = _cut_edges(len(points), triangles, bone)
     cut, apexes = _apexes(points, start, stop)
     corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])
@@ -106,36 +67,12 @@ def bone_pieces(
     return pieces
 
 
-def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> NDArray[np.intp]:
-    """Give the triangles that close holes the bones of the faces beside them.
-
-    Parameters
-    ----------
-    triangles : (t, 3) array_like of int
-    is_cap : (t,) array_like of bool
-    bone : (t,) array_like of int
-        The bone of each face; values at caps are not used.
-
-    Returns
-    -------
-    (t,) integer array
-        The bone of each triangle.
-
-    Examples
-    --------
-    >>> from body_moments.core.rig import bones_of_caps
-    >>> triangles = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> bones_of_caps(triangles, np.array([False, False, False, True]), np.array([5, 5, 5, 0])).tolist()
-    [5, 5, 5, 5]
-    """
-    triangles = index_array("triangles", triangles, "t", 3)
-    is_cap = number_array("is_cap", is_cap, len(triangles)).astype(bool)
-    bone = index_array("bone", bone, len(triangles))
+def bones_of_caps(
+    triangles: NDArray[np.integer], is_cap: NDArray[np.bool_], bone: NDArray[np.integer]
+) -> NDArray[np.intp]:
+    """Return (t,) bones of triangles: caps, which close holes, get the bones of the faces beside them."""
     result = np.where(is_cap, NO_BONE, bone)
-    side_start, side_stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    sides = np.minimum(side_start, side_stop), np.maximum(side_start, side_stop)
-    key = np.ravel_multi_index(sides, (int(triangles.max(initial=0)) + 1,) * 2)
-    edge = np.unique(key, return_inverse=True)[1].reshape(-1, 3)
+    edge = find_edges(triangles).of_side.reshape(-1, 3)
     while (result == NO_BONE).any():
         known = result != NO_BONE
         of_edge = np.full(int(edge.max()) + 1, NO_BONE)
@@ -150,10 +87,7 @@ def bones_of_caps(triangles: ArrayLike, is_cap: ArrayLike, bone: ArrayLike) -> N
 def _cut_edges(
     count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return the boundary of each bone's triangles: (k,) bones, and the start and end vertices of the edges.
-
-    Each edge occurs as often as it is left over.
-    """
+    """Return the boundary of each bone's triangles, as often as it is left over: (k,) bones, starts and ends."""
     start = triangles.ravel().astype(np.int64)
     stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     shape = int(bone.max(initial=0)) + 1, count, count

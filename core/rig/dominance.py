@@ -11,9 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ..numerics.arguments import check_type, float_array, index_array
 from ..numerics.arrays import sums_by_index
 
 TIE_RTOL = 1e-5  # weights are float32, and a mirrored face adds them up in another order
@@ -23,32 +22,14 @@ PAIRS_PER_BLOCK = 1 << 20  # faces times bones whose distances are in memory at 
 
 @dataclass(frozen=True, eq=False)
 class VertexWeights:
-    """Weights of bones on vertices, each of which may have several; a vertex and a bone appear together once.
-
-    Parameters
-    ----------
-    vertex : (w,) integer array
-        Sorted.
-    bone : (w,) integer array
-    weight : (w,) float array
-        Not negative.
-
-    Examples
-    --------
-    >>> from body_moments.core.rig import VertexWeights
-    >>> VertexWeights(np.array([0, 0, 2]), np.array([0, 1, 1]), np.array([3.0, 1.0, 0.5])).normalized().tolist()
-    [0.75, 0.25, 1.0]
-    """
+    """Weights (w,) of bones on vertices, sorted by vertex, not negative; a vertex and a bone appear together once."""
 
     vertex: NDArray[np.integer]
     bone: NDArray[np.integer]
     weight: NDArray[np.floating]
 
     def __post_init__(self) -> None:
-        vertex = index_array("vertex", self.vertex, "w")
-        object.__setattr__(self, "vertex", vertex)
-        object.__setattr__(self, "bone", index_array("bone", self.bone, len(vertex)))
-        object.__setattr__(self, "weight", float_array("weight", self.weight, len(vertex)))
+        object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
 
     def normalized(self) -> NDArray[np.float64]:
         """Return (w,) the weights divided by their sum at each vertex, as an armature deforms."""
@@ -61,44 +42,18 @@ class VertexWeights:
 
 
 def dominant_bones(
-    faces: ArrayLike,
-    corners: ArrayLike,
-    points: ArrayLike,
+    faces: NDArray[np.integer],
+    corners: NDArray[np.integer],
+    points: NDArray[np.floating],
     weights: VertexWeights,
-    bones: ArrayLike,
+    bones: NDArray[np.floating],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the bone of each face.
+    """Return (f,) the bone of each face, -1 without corners; and (k,) the faces without weight, with the nearest bones.
 
-    Parameters
-    ----------
-    faces, corners : (c,) array_like of int
-        Of each corner of the surface, the face, 0 to f - 1, and the vertex. A face without corners has no bone.
-    points : (n, 3) array_like
-        Positions of the vertices, in the coordinates of the bones.
-    weights : VertexWeights
-    bones : (b, 2, 3) array_like
-        Begin and end of each bone.
-
-    Returns
-    -------
-    bone : (f,) integer array
-        -1 for a face without corners.
-    by_distance : (k,) integer array
-        The faces without any weight, which went with the nearest bone.
-
-    Examples
-    --------
-    >>> from body_moments.core.rig import VertexWeights, dominant_bones
-    >>> weights = VertexWeights(np.array([0, 1, 1]), np.array([0, 0, 1]), np.array([1.0, 0.2, 0.8]))
-    >>> points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
-    >>> bones = np.array([[[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]], [[9.0, 0.0, 0.0], [9.0, 0.0, 1.0]]])
-    >>> dominant_bones(np.zeros(3, int), np.arange(3), points, weights, bones)[0].tolist()
-    [0]
+    faces, corners: (c,) of each corner of the surface, the face, 0 to f - 1, and the vertex. points: (n, 3) in the
+    bones' coordinates. bones: (b, 2, 3) begin and end of each.
     """
-    check_type("weights", weights, VertexWeights)
-    points, bones = float_array("points", points, "n", 3), float_array("bones", bones, "b", 2, 3)
-    faces = index_array("faces", faces, "c")
-    corners = index_array("corners", corners, len(faces), count=len(points))
+    points, bones = points.astype(np.float64), bones.astype(np.float64)
     number = len(bones)
     size = np.bincount(faces)
     center = np.stack([np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1)

@@ -18,33 +18,30 @@ from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_co
 from ..solid.measure import measure_solid
 from ..verdict.finding import FileError, Finding, MeasureError, finding
 from ..verdict.method import Verdict
-from .diagnosis import OF_GEOMETRY, Reference, diagnose
+from .diagnosis import Reference, diagnose
 from .findings import (
-    AUDIT_SHAPE_ANGLES_IN_DEGREES,
+    AUDIT_ANGLES,
     AUDIT_UNIFORM_INSTEAD,
     AUDIT_UP_AXIS,
-    INERTIAL_MASS_NOT_POSITIVE,
     INERTIAL_MISSING,
     INERTIAL_NOT_FINITE,
     INERTIAL_OF_FRAME,
     INERTIAL_TRIANGLE_SLIGHTLY,
 )
 from .model import Pose, Shape
-from .plausibility import Hull, impossible
+from .plausibility import Hull, impossible, spread_directions
 from .read.meshes import read_mesh
 from .read.paths import Roots
 from .stated import Description, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 
+BALL = 2000  # points of a ball
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
 RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
 
 
 @dataclass(frozen=True, eq=False)
 class LinkAudit:
-    """Findings about one link.
-
-    repaired: its corrected inertial, None if it stays.
-    """
+    """Findings about one link. repaired: its corrected inertial, None if it stays."""
 
     link: StatedLink
     findings: tuple[Finding, ...]
@@ -58,6 +55,10 @@ class Audit:
 
     description: Description
     links: tuple[LinkAudit, ...]
+
+    def repairs(self) -> list[tuple[StatedLink, StatedInertial]]:
+        """Return the links with a corrected inertial."""
+        return [(one.link, one.repaired) for one in self.links if one.repaired is not None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,10 +85,7 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry.
-
-    apart: its difference from that geometry filled evenly.
-    """
+    """Comparison of an inertial with some geometry. apart: its difference from that geometry filled evenly."""
 
     findings: list[Finding]
     impossible: bool
@@ -162,28 +160,25 @@ class Auditor:
 
 
 def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
-    """Judge an inertial by its geometry.
-
-    incomplete: True if some geometry could not be read, and shows nothing.
-    """
+    """Judge an inertial by its geometry. incomplete: True if some geometry could not be read, and shows nothing."""
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()
         for one, piece in several
     ]
     findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
-    if any(one.code in (INERTIAL_NOT_FINITE, INERTIAL_MASS_NOT_POSITIVE) for one in findings):
+    if not stated.mass > 0.0 or any(one.code == INERTIAL_NOT_FINITE for one in findings):
         return _Judgment(findings, True)
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))
     wrong = any(one.code != INERTIAL_TRIANGLE_SLIGHTLY for one in findings)
-    repaired, by_geometry = None, False
+    repaired = None
     if diagnosis is not None:
         findings.append(diagnosis.finding)
-        repaired, by_geometry = diagnosis.repaired, diagnosis.finding.code in OF_GEOMETRY
+        repaired = diagnosis.repaired
     if not references:
         return _Judgment(findings, wrong, repaired)
-    if wrong and repaired is None and not by_geometry:
+    if wrong and repaired is None and not (diagnosis and diagnosis.is_of_geometry):
         repaired = references[0].uniform(stated.mass)
         findings.append(finding(AUDIT_UNIFORM_INSTEAD))
     apart = min(reference.compare(stated) for reference in references)
@@ -229,7 +224,8 @@ def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
                 turned.append((replace(stated, shape=replace(stated.shape, pose=pose)), piece))
             reference = _reference(turned)
             if reference is not None:
-                result.append((finding(AUDIT_SHAPE_ANGLES_IN_DEGREES), reference))
+                change = finding(AUDIT_ANGLES, part="geometry", unit="degrees", wanted="radians")
+                result.append((change, reference))
     return result
 
 
@@ -249,7 +245,7 @@ def _primitive(shape: Shape) -> _Piece:
     if shape.kind in ("sphere", "ellipsoid"):
         axes = np.array(shape.size * 3 if shape.kind == "sphere" else shape.size)
         volume = 4.0 / 3.0 * pi * float(axes.prod())
-        return _Piece(_ball() * axes * ROUND, _moments(volume, volume * axes * axes / 5.0))
+        return _Piece(spread_directions(BALL) * axes * ROUND, _moments(volume, volume * axes * axes / 5.0))
     radius, length = shape.size
     turn = np.linspace(0.0, 2.0 * pi, 48, endpoint=False)
     ring = np.stack([np.cos(turn), np.sin(turn), np.zeros_like(turn)], axis=1) * radius * ROUND
@@ -261,16 +257,9 @@ def _primitive(shape: Shape) -> _Piece:
         volume += 4.0 / 3.0 * pi * radius**3
         across += 4.0 / 15.0 * pi * radius**5
         along += pi * radius**3 * (4.0 / 15.0 * radius**2 + length * radius / 2.0 + length**2 / 3.0)
-        ball = _ball() * radius * ROUND
+        ball = spread_directions(BALL) * radius * ROUND
         points = np.concatenate([ball + end, ball - end])
     return _Piece(points, _moments(volume, np.array([across, across, along])))
-
-
-def _ball() -> NDArray[np.float64]:
-    index = np.arange(2000) + 0.5
-    height, turn = 1.0 - index / 1000.0, index * pi * (1.0 + 5.0**0.5)
-    across = np.sqrt(1.0 - height * height)
-    return np.stack([across * np.cos(turn), across * np.sin(turn), height], axis=1).astype(np.float64, copy=False)
 
 
 def _moments(volume: float, second: NDArray) -> Moments:

@@ -20,36 +20,24 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
 from .findings import (
-    AUDIT_ALL_AXES_SWAPPED,
-    AUDIT_ANGLES_IN_DEGREES,
-    AUDIT_ANGLES_IN_RADIANS,
-    AUDIT_AXES_SWAPPED,
+    AUDIT_ANGLES,
     AUDIT_AXES_TRANSPOSED,
-    AUDIT_CENTER_AXES_SWAPPED,
-    AUDIT_CENTER_SIGN,
-    AUDIT_CENTER_UNIT,
     AUDIT_DENSITY,
-    AUDIT_DIAGONAL_SWAPPED,
     AUDIT_FRAME_NOT_MEANT,
     AUDIT_FRAME_TRANSPOSED,
-    AUDIT_FRAME_TURNED,
-    AUDIT_INERTIA_ABOUT_MESH_ORIGIN,
-    AUDIT_INERTIA_ABOUT_ORIGIN,
-    AUDIT_INERTIA_OF_UNIT_DENSITY,
-    AUDIT_INERTIA_OF_UNIT_MASS,
+    AUDIT_INERTIA_ELSEWHERE,
+    AUDIT_INERTIA_OF_UNIT,
     AUDIT_INERTIA_SHIFTED_TWICE,
-    AUDIT_INERTIA_UNIT,
     AUDIT_LENGTH_UNIT,
     AUDIT_MASS_AND_INERTIA_UNIT,
-    AUDIT_MASS_UNIT,
     AUDIT_MESH_UNIT,
     AUDIT_MIRRORED,
     AUDIT_NOT_UNIFORM,
-    AUDIT_PRODUCTS_SIGN,
-    AUDIT_PRODUCTS_SWAPPED,
+    AUDIT_ORDER,
     AUDIT_QUATERNION_ORDER,
-    AUDIT_SHAPE_ANGLES_IN_DEGREES,
-    AUDIT_TENSOR_TURNED,
+    AUDIT_SIGN,
+    AUDIT_TURNED,
+    AUDIT_UNIT,
 )
 from .stated import StatedInertial, rotation_of_angles
 
@@ -59,31 +47,15 @@ INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
 USUAL_DENSITIES = (100.0, 12_000.0)  # Typical range; a change that only the density shows must lead into it.
 AXES = np.array(list(permutations(range(3))))[1:]
-OF_GEOMETRY = (AUDIT_MESH_UNIT, AUDIT_SHAPE_ANGLES_IN_DEGREES)  # Changes that leave the inertial as it is.
 PRODUCT_NAMES = ("xy", "xz", "yz")
+CENTER, PRODUCTS = "center of mass", "products of inertia"  # Parts of an inertial, as the findings name them.
 
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A link's geometry, filled evenly.
+    """A link's geometry, filled evenly: m³; (3,) center in the link's frame, m; inertia about it for 1 kg, m².
 
-    Attributes
-    ----------
-    volume : float
-        m³.
-    center : (3,) array
-        In the link's frame, m.
-    inertia : (3, 3) array
-        About the center for each kilogram, m².
-    origins : tuple of (3,) array
-        The origins of its shapes.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots.diagnosis import Reference
-    >>> ball = Reference(4.18879, np.zeros(3), 0.4 * np.eye(3))
-    >>> ball.difference(1.0, np.zeros(3), 0.4 * np.eye(3))
-    0.0
+    origins: (3,) the origins of its shapes.
     """
 
     volume: float
@@ -91,15 +63,12 @@ class Reference:
     inertia: NDArray[np.float64]
     origins: tuple[NDArray[np.float64], ...] = ()
 
-    def difference(self, mass: float, center: NDArray, inertia: NDArray) -> float:
+    def compare(self, stated: StatedInertial) -> float:
         """Return how far an inertial is from this geometry, of its radius of gyration and its inertia."""
         radius = np.sqrt(np.trace(self.inertia) / 2.0)
-        apart = float(np.linalg.norm(center - self.center)) / radius
-        return max(apart, float(np.linalg.norm(inertia / mass - self.inertia) / np.linalg.norm(self.inertia)))
-
-    def compare(self, stated: StatedInertial) -> float:
-        """Return the `difference` of a stated inertial."""
-        return self.difference(stated.mass, stated.center, stated.inertia)
+        apart = float(np.linalg.norm(stated.center - self.center)) / radius
+        turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(self.inertia)
+        return max(apart, float(turned))
 
     def uniform(self, mass: float) -> StatedInertial:
         """Return the inertial of this geometry with a mass."""
@@ -108,10 +77,14 @@ class Reference:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Diagnosis of an inertial: the change, or a note, and the corrected inertial, None if nothing has to change."""
+    """Diagnosis of an inertial: the change, or a note, and the corrected inertial, None if it stays as it is.
+
+    is_of_geometry: True if the geometry has to change.
+    """
 
     finding: Finding
     repaired: StatedInertial | None = None
+    is_of_geometry: bool = False
 
 
 def diagnose(
@@ -130,14 +103,13 @@ def diagnose(
         return _density(stated, nearest)
     for change, reference in otherwise:
         if reference.compare(stated) < AGREES:
-            return Diagnosis(change)
+            return Diagnosis(change, is_of_geometry=True)
     best: tuple[float, Diagnosis] | None = None
     for reference in references:
         for code, values, repaired in _changes(stated, reference):
             now = reference.compare(repaired)
             if now < AGREES and now < 0.1 * apart and (best is None or now < 0.1 * best[0]):
-                change = _with_density(finding(code, **values), stated, reference)
-                best = now, Diagnosis(change, None if change.code in OF_GEOMETRY else repaired)
+                best = now, _with_density(Diagnosis(finding(code, **values), repaired), stated, reference)
     if best is not None:
         return best[1]
     factor = float(np.trace(stated.inertia) / stated.mass / np.trace(nearest.inertia))
@@ -158,15 +130,15 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
     return Diagnosis(finding(AUDIT_DENSITY, density=density))
 
 
-def _with_density(change: Finding, stated: StatedInertial, reference: Reference) -> Finding:
+def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference) -> Diagnosis:
     """Decide by the density if both the file's and the mesh's lengths may be wrong."""
-    if change.code != AUDIT_LENGTH_UNIT:
-        return change
-    factor, density = change.values["factor"], stated.mass / reference.volume
+    if found.finding.code != AUDIT_LENGTH_UNIT:
+        return found
+    factor, density = found.finding.values["factor"], stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
     if DENSITIES[0] <= other <= DENSITIES[1]:  # then `density` is not: cubes of factors are farther apart
-        return finding(AUDIT_MESH_UNIT, factor=1.0 / factor)
-    return change
+        return Diagnosis(finding(AUDIT_MESH_UNIT, factor=1.0 / factor), is_of_geometry=True)
+    return found
 
 
 def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:
@@ -195,27 +167,27 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     for factor in (1e-3, 1e3):
         heavy = density * factor
         if DENSITIES[0] <= heavy <= DENSITIES[1] and not DENSITIES[0] <= density <= DENSITIES[1]:
-            yield AUDIT_MASS_UNIT, {"factor": factor}, replace(stated, mass=float(_times(mass, factor)))
+            yield AUDIT_UNIT, {"part": "mass", "factor": factor}, replace(stated, mass=float(_times(mass, factor)))
     for factor in INERTIA_UNITS:
-        yield AUDIT_INERTIA_UNIT, {"factor": factor}, stated.along_link(_times(inertia, factor))
+        yield AUDIT_UNIT, {"part": "inertia", "factor": factor}, stated.along_link(_times(inertia, factor))
     for factor in LENGTH_UNITS:
-        yield AUDIT_CENTER_UNIT, {"factor": factor}, replace(stated, center=_times(center, factor))
+        yield AUDIT_UNIT, {"part": CENTER, "factor": factor}, replace(stated, center=_times(center, factor))
     for factor in LENGTH_UNITS:
         whole = stated.along_link(_times(_times(inertia, factor), factor), center=_times(center, factor))
         yield AUDIT_LENGTH_UNIT, {"factor": factor}, whole
-    yield AUDIT_INERTIA_OF_UNIT_MASS, {"factor": mass}, stated.along_link(inertia * mass)
-    yield AUDIT_INERTIA_OF_UNIT_DENSITY, {"factor": density}, stated.along_link(inertia * density)
+    for part, factor in (("mass", mass), ("density", density)):
+        yield AUDIT_INERTIA_OF_UNIT, {"part": part, "factor": factor}, stated.along_link(inertia * factor)
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     """Yield the inertia about another point than the center; the parallel-axis term with the wrong sign."""
     term = stated.mass * _square(stated.center)
-    yield AUDIT_INERTIA_ABOUT_ORIGIN, {}, stated.along_link(stated.inertia - term)
+    yield AUDIT_INERTIA_ELSEWHERE, {"part": "link"}, stated.along_link(stated.inertia - term)
     yield AUDIT_INERTIA_SHIFTED_TWICE, {}, stated.along_link(stated.inertia + term)
     for origin in reference.origins:
         term = stated.mass * _square(stated.center - origin)
         changed = stated.along_link(stated.inertia - term)
-        yield AUDIT_INERTIA_ABOUT_MESH_ORIGIN, {"point": origin.tolist()}, changed
+        yield AUDIT_INERTIA_ELSEWHERE, {"part": "mesh", "point": origin.tolist()}, changed
 
 
 def _square(arm: NDArray) -> NDArray[np.float64]:
@@ -225,9 +197,10 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 def _frames(stated: StatedInertial) -> Iterator[Change]:
     """Yield the inertial frame's rotation in other units, the other way round, or not meant."""
     if stated.angles is not None:
-        for code, convert in ((AUDIT_ANGLES_IN_DEGREES, radians), (AUDIT_ANGLES_IN_RADIANS, degrees)):
+        for unit, wanted, convert in (("degrees", "radians", radians), ("radians", "degrees", degrees)):
             turned = rotation_of_angles(*map(convert, stated.angles))
-            yield code, {}, replace(stated, rotation=turned)
+            values = {"part": "inertial", "unit": unit, "wanted": wanted}
+            yield AUDIT_ANGLES, values, replace(stated, rotation=turned)
     if stated.quaternion is not None:
         w, x, y, z = stated.quaternion
         for order in ((z, w, x, y), (x, y, z, w)):
@@ -245,11 +218,11 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
             tensor[rows, columns] = tensor[columns, rows] = tensor[rows, columns] * signs
             changed = stated.along_link(tensor) if along_link else replace(stated, tensor=tensor)
             names = [name for name, sign in zip(PRODUCT_NAMES, signs) if sign == -1.0]
-            yield AUDIT_PRODUCTS_SIGN, {"products": names}, changed
+            yield AUDIT_SIGN, {"part": PRODUCTS, "axes": names}, changed
     for signs in (*some, all_of_them):
         flipped = np.array(signs)
         names = [axis for axis, sign in zip("xyz", signs) if sign == -1.0]
-        yield AUDIT_CENTER_SIGN, {"axes": names}, replace(stated, center=stated.center * flipped)
+        yield AUDIT_SIGN, {"part": CENTER, "axes": names}, replace(stated, center=stated.center * flipped)
     for axis in range(3):
         mirror = np.ones(3)
         mirror[axis] = -1.0
@@ -261,15 +234,19 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
     """Yield axes in another order: of the tensor, of the center, of both."""
     for order in AXES:
         swapped = stated.inertia[np.ix_(order, order)]
-        values = {"order": "".join("xyz"[axis] for axis in order)}
-        yield AUDIT_AXES_SWAPPED, values, stated.along_link(swapped)
-        yield AUDIT_CENTER_AXES_SWAPPED, values, replace(stated, center=stated.center[order])
-        yield AUDIT_ALL_AXES_SWAPPED, values, stated.along_link(swapped, center=stated.center[order])
-        diagonal = stated.inertia - np.diag(np.diag(stated.inertia)) + np.diag(np.diag(stated.inertia)[order])
-        yield AUDIT_DIAGONAL_SWAPPED, values, stated.along_link(diagonal)
-        # The products alone, such as ixz before ixy: xy, xz and yz are opposite to z, y and x.
-        products = np.diag(np.diag(stated.inertia)) + (swapped - np.diag(np.diag(swapped)))
-        yield AUDIT_PRODUCTS_SWAPPED, values, stated.along_link(products)
+        center, diagonal = stated.center[order], np.diag(np.diag(stated.inertia))
+        other_diagonal = np.diag(np.diag(swapped))
+        axes = "".join("xyz"[axis] for axis in order)
+        # Products alone, such as ixz before ixy, have the order of the pairs of axes.
+        pairs = " ".join("".join(sorted(axes[i] + axes[j])) for i, j in ((0, 1), (0, 2), (1, 2)))
+        for part, text, changed in (
+            ("axes of the inertia", axes, stated.along_link(swapped)),
+            ("axes of the center of mass", axes, replace(stated, center=center)),
+            ("axes of the inertial", axes, stated.along_link(swapped, center=center)),
+            ("diagonal of the inertia", axes, stated.along_link(stated.inertia - diagonal + other_diagonal)),
+            (PRODUCTS, pairs, stated.along_link(diagonal + (swapped - other_diagonal))),
+        ):
+            yield AUDIT_ORDER, {"part": part, "order": text}, changed
     for axis in range(3):  # a quarter turn: y up for z up
         for way in (1.0, -1.0):
             turn = np.eye(3)
@@ -277,9 +254,9 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
             turn[first, first] = turn[second, second] = 0.0
             turn[first, second], turn[second, first] = -way, way
             inertia, center = turn @ stated.inertia @ turn.T, turn @ stated.center
-            values = {"axis": "xyz"[axis]}
-            yield AUDIT_FRAME_TURNED, values, stated.along_link(inertia, center=center)
-            yield AUDIT_TENSOR_TURNED, values, stated.along_link(inertia)
+            name = "xyz"[axis]
+            yield AUDIT_TURNED, {"part": "inertial", "axis": name}, stated.along_link(inertia, center=center)
+            yield AUDIT_TURNED, {"part": "inertia", "axis": name}, stated.along_link(inertia)
 
 
 def _transposed(stated: StatedInertial) -> Iterator[Change]:

@@ -46,7 +46,6 @@ GLTF_UNIT_SCALE = note(
     "Blender writes its units to glTF as meters: a node above all others scales them by {scale:g}. Readers differ "
     "about bodies that are scaled.",
 )
-GLTF_UNREADABLE = error("gltf_unreadable", "Blender's exporter has not written a glTF file.")
 ROBOT_LINKS_BARE = note(
     "robot_links_bare", "{count} link has no geometry: {links}.", "{count} links have no geometry: {links}."
 )
@@ -71,13 +70,11 @@ USD_INERTIA_TOO_SMALL = warning(
 XML_ENTITIES = error(
     "xml_entities", "The file declares a document type, with which entities could be declared. Remove it."
 )
-XML_TOO_LARGE = error("xml_too_large", "The file nests more than {depth} elements or has more than {limit}.")
 XML_INVALID = error("xml_invalid", "The file is not XML: {error}.")
 USDA_INVALID = error("usda_invalid", "The file is not text of USD (line {line}).")
 USD_NOT_TEXT = error("usd_not_text", "Only the text form of USD is read. Convert the file to .usda with usdcat.")
 DESCRIPTION_UNKNOWN = error("description_unknown", "The file is no robot description. Its first element is {tag}.")
 DESCRIPTION_WITHOUT_LINKS = error("description_without_links", "The file has no links.")
-DESCRIPTION_TOO_LARGE = error("description_too_large", "The file is larger than {limit} MB, or has too many links.")
 INCLUDE_UNREADABLE = error(
     "include_unreadable",
     "A file that it includes cannot be read: {name}. Name its folder with --root, or allow all with --allow-outside.",
@@ -93,12 +90,7 @@ MESH_OUTSIDE = warning(
     "--allow-outside.",
 )
 MESH_MISSING = warning("mesh_missing", "A mesh was not found: {name}. Name the folder of its package with --root.")
-MESH_UNREADABLE = warning(
-    "mesh_unreadable", "A mesh is of a kind that is not read: {name}. Convert it to one of {suffixes}."
-)
-MESH_DAMAGED = warning("mesh_damaged", "A mesh cannot be read: {name} ({error}).")
-MESH_TOO_LARGE = warning("mesh_too_large", "A mesh is too large: {name}.")
-MESH_EMPTY = warning("mesh_empty", "A mesh has no triangles: {name}.")
+MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
 INERTIAL_MISSING = warning(
     "inertial_missing", "No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."
 )
@@ -106,10 +98,7 @@ INERTIAL_NOT_FINITE = error("inertial_not_finite", "Mass, center or inertia is n
 INERTIAL_OF_FRAME = note(
     "inertial_of_frame", "Zero mass, inertia and no geometry: a mere frame. Leave the inertial out."
 )
-INERTIAL_MASS_NOT_POSITIVE = error("inertial_mass_not_positive", "The mass is {mass:.6g} kg.")
-INERTIAL_NOT_POSITIVE = error(
-    "inertial_not_positive", "Impossible: the inertia has a principal moment of {moment:.6g} kg·m²."
-)
+INERTIAL_NOT_POSITIVE = error("inertial_not_positive", "Impossible: the {part:word} is {value:.6g} {unit}.")
 INERTIAL_TRIANGLE = error(
     "inertial_triangle", "Impossible: the largest principal moment exceeds the sum of the others by {excess:percent}."
 )
@@ -141,44 +130,23 @@ AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. C
 AUDIT_MASS_AND_INERTIA_UNIT = warning(
     "audit_mass_and_inertia_unit", "The density is {density:.3g} kg/m³. Multiply mass and inertia by {factor:g}."
 )
-AUDIT_MASS_UNIT = warning("audit_mass_unit", "Multiply the mass by {factor:g}: it then agrees with the geometry.")
-AUDIT_INERTIA_UNIT = warning(
-    "audit_inertia_unit", "Multiply the inertia by {factor:g}: it then agrees with the geometry."
-)
-AUDIT_CENTER_UNIT = warning(
-    "audit_center_unit", "Multiply the center of mass by {factor:g}: it then agrees with the geometry."
-)
+AUDIT_UNIT = warning("audit_unit", "Multiply the {part:word} by {factor:g}: it then agrees with the geometry.")
 AUDIT_LENGTH_UNIT = warning(
     "audit_length_unit",
     "Multiply the lengths of the inertial by {factor:g}, its inertia by the square: it then agrees with the geometry.",
 )
 AUDIT_MESH_UNIT = warning("audit_mesh_unit", "Scale the mesh by {factor:g}: the inertial then agrees with it.")
-AUDIT_INERTIA_OF_UNIT_MASS = warning(
-    "audit_inertia_of_unit_mass", "The inertia is that of 1 kg. Multiply it by the mass, {factor:.6g}."
+AUDIT_INERTIA_OF_UNIT = warning(
+    "audit_inertia_of_unit", "The inertia is that of {part:word} 1. Multiply it by the {part:word}, {factor:.6g}."
 )
-AUDIT_INERTIA_OF_UNIT_DENSITY = warning(
-    "audit_inertia_of_unit_density", "The inertia is that of density 1. Multiply it by the density, {factor:.6g}."
-)
-AUDIT_INERTIA_ABOUT_ORIGIN = warning(
-    "audit_inertia_about_origin", "The inertia is about the origin of the link. State it about the center of mass."
-)
-AUDIT_INERTIA_ABOUT_MESH_ORIGIN = warning(
-    "audit_inertia_about_mesh_origin", "The inertia is about the origin of the mesh. State it about the center of mass."
+AUDIT_INERTIA_ELSEWHERE = warning(
+    "audit_inertia_elsewhere", "The inertia is about the origin of the {part:word}. State it about the center of mass."
 )
 AUDIT_INERTIA_SHIFTED_TWICE = warning(
     "audit_inertia_shifted_twice",
     "The inertia was shifted away from the center of mass with the wrong sign. Add the parallel-axis term.",
 )
-AUDIT_ANGLES_IN_DEGREES = warning(
-    "audit_angles_in_degrees", "The angles of the inertial are in degrees. State them in radians."
-)
-AUDIT_ANGLES_IN_RADIANS = warning(
-    "audit_angles_in_radians", "The angles of the inertial are in radians. State them in degrees."
-)
-AUDIT_SHAPE_ANGLES_IN_DEGREES = warning(
-    "audit_shape_angles_in_degrees",
-    "The angles of the geometry are in degrees: in radians it agrees with the inertial. State them in radians.",
-)
+AUDIT_ANGLES = warning("audit_angles", "The angles of the {part:word} are in {unit:word}. State them in {wanted:word}.")
 AUDIT_QUATERNION_ORDER = warning(
     "audit_quaternion_order", "The quaternion of the inertial is in the other order. Move w to its place."
 )
@@ -189,29 +157,13 @@ AUDIT_FRAME_NOT_MEANT = warning(
     "audit_frame_not_meant",
     "The inertia is along the axes of the link, though the inertial is rotated. Remove the rotation.",
 )
-AUDIT_PRODUCTS_SIGN = warning(
-    "audit_products_sign",
-    "Products of inertia have the wrong sign: {products}. Entries of the tensor are negative integrals; change it.",
+AUDIT_SIGN = warning(
+    "audit_sign",
+    "Wrong sign: {part:word}, {axes}. Change it; products of inertia in a tensor are negative integrals, -∫xy dm.",
 )
-AUDIT_CENTER_SIGN = warning("audit_center_sign", "The center of mass has the wrong sign along {axes}. Change it.")
 AUDIT_MIRRORED = warning("audit_mirrored", "The inertial is that of the mirror image along {axis}. Mirror it.")
-AUDIT_AXES_SWAPPED = warning(
-    "audit_axes_swapped", "The axes of the inertia are swapped. Put them in the order {order}."
-)
-AUDIT_CENTER_AXES_SWAPPED = warning(
-    "audit_center_axes_swapped", "The axes of the center of mass are swapped. Put them in the order {order}."
-)
-AUDIT_ALL_AXES_SWAPPED = warning(
-    "audit_all_axes_swapped", "The axes of the inertial are swapped. Put them in the order {order}."
-)
-AUDIT_DIAGONAL_SWAPPED = warning(
-    "audit_diagonal_swapped", "The diagonal of the inertia is swapped. Put it in the order {order}."
-)
-AUDIT_PRODUCTS_SWAPPED = warning(
-    "audit_products_swapped", "The products of inertia are swapped. Put ixy, ixz and iyz in their places."
-)
-AUDIT_FRAME_TURNED = warning("audit_frame_turned", "The inertial is turned by 90 degrees about {axis}. Turn it back.")
-AUDIT_TENSOR_TURNED = warning("audit_tensor_turned", "The inertia is turned by 90 degrees about {axis}. Turn it back.")
+AUDIT_ORDER = warning("audit_order", "Wrong order: {part:word}. Put them in the order {order}.")
+AUDIT_TURNED = warning("audit_turned", "The {part:word} is turned by 90 degrees about {axis}. Turn it back.")
 AUDIT_AXES_TRANSPOSED = warning(
     "audit_axes_transposed",
     "The principal axes were taken as rows for columns. Put the tensor together with their transpose.",

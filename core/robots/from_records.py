@@ -24,21 +24,13 @@ from .model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 DEFAULT_NAME = "robot"
 
 
-def robot_of_document(document: Mapping[str, Any]) -> tuple[Robot, list[Finding]]:
-    """Return the records of a file as a robot named after the file, and findings about omitted records."""
-    return robot_of_records(robot_name(document["file"]), document["objects"])
-
-
 def robot_name(file: str | None) -> str:
     """Return the name of a file's robot."""
     return PurePath(file).stem if file else DEFAULT_NAME
 
 
 def robot_of_records(name: str, records: Sequence[Mapping[str, Any]]) -> tuple[Robot, list[Finding]]:
-    """Return records as a robot, and findings about omitted ones.
-
-    records: with their numbers in the frame "object" and an entry `link`; others are left out.
-    """
+    """Return records with an entry `link`, in the frame "object", as a robot, and findings about omitted ones."""
     usable = {record["name"]: record for record in records if record.get("link") and record["mass"]}
     links = [_link(record) for record in usable.values()]
     joints = []

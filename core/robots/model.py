@@ -15,36 +15,16 @@ from numpy.typing import NDArray
 from ..inertia.mass_properties import combine
 from ..mesh.surface import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
-from ..numerics.arguments import check_type, float_array
 
 AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # Relative to the largest entry.
 
 
 @dataclass(frozen=True, eq=False)
 class Pose:
-    """The place of a frame in another one: x_other = rotation @ x + position.
-
-    Attributes
-    ----------
-    position : (3,) array
-        Meters.
-    rotation : (3, 3) array
-        Determinant 1.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Pose
-    >>> quarter = Pose(np.array([1.0, 0.0, 0.0]), np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]))
-    >>> (quarter @ quarter.inverse()).position.tolist()
-    [0.0, 0.0, 0.0]
-    """
+    """The place of a frame in another one: x_other = rotation @ x + position, with (3, 3) and (3,) arrays, m."""
 
     position: NDArray[np.float64] = field(default_factory=lambda: np.zeros(3))
     rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "position", float_array("position", self.position, 3))
-        object.__setattr__(self, "rotation", float_array("rotation", self.rotation, 3, 3))
 
     def __matmul__(self, other: Pose) -> Pose:
         """Return the place of the other frame, given in this one."""
@@ -59,25 +39,9 @@ class Pose:
 class Inertial:
     """Mass, center and inertia of one link, along the link's axes.
 
-    Attributes
-    ----------
-    mass : float
-        kg.
-    center : (3,) array
-        In the link's frame, m.
-    inertia : (3, 3) array
-        About the center, kg·m²; I_xy = -∫xy dm.
-    moments : (3,) array
-        Its principal moments, ascending, none greater than the sum of the others.
-    axes : (3, 3) array
-        Its principal axes as columns, determinant 1.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Inertial
-    >>> ball = Inertial(1.0, np.zeros(3), 0.4 * np.eye(3), np.full(3, 0.4), np.eye(3))
-    >>> ball.moments.tolist()
-    [0.4, 0.4, 0.4]
+    mass: kg. center: (3,) in the link's frame, m. inertia: (3, 3) about the center, kg·m²; I_xy = -∫xy dm.
+    moments: (3,) its principal moments, ascending, none greater than the sum of the others.
+    axes: (3, 3) its principal axes as columns, determinant 1.
     """
 
     mass: float
@@ -85,10 +49,6 @@ class Inertial:
     inertia: NDArray[np.float64]
     moments: NDArray[np.float64]
     axes: NDArray[np.float64]
-
-    def __post_init__(self) -> None:
-        for name, shape in {"center": (3,), "inertia": (3, 3), "moments": (3,), "axes": (3, 3)}.items():
-            object.__setattr__(self, name, float_array(name, getattr(self, name), *shape))
 
     @classmethod
     def with_agreeing_axes(
@@ -99,18 +59,7 @@ class Inertial:
         If two moments are all but equal, a measurement takes the axes nearest to the object's own, between which the
         tensor still differs by up to a millionth. Readers of the pair alone would miss that; so the axes then turn to
         the tensor's own.
-
-        Parameters
-        ----------
-        mass, center, inertia, moments, axes
-            As of the class.
-
-        Returns
-        -------
-        Inertial
         """
-        inertia, axes = float_array("inertia", inertia, 3, 3), float_array("axes", axes, 3, 3)
-        moments = float_array("moments", moments, 3)
         largest = np.abs(inertia).max()
         along = axes.T @ inertia @ axes
         if np.abs(along - np.diag(moments)).max() > AGREEING_RTOL * largest:
@@ -124,7 +73,6 @@ class Inertial:
 
     def place(self, pose: Pose) -> Inertial:
         """Return the same along the axes of the frame in which the link's stands at `pose`."""
-        check_type("pose", pose, Pose)
         turn = pose.rotation
         inertia = turn @ self.inertia @ turn.T
         return Inertial(
@@ -136,27 +84,11 @@ class Inertial:
 class Shape:
     """A visual or collision shape of a link.
 
-    Attributes
-    ----------
-    kind : str
-        "mesh", "box", "ellipsoid", "capsule", "cylinder" or "sphere".
-    size : tuple of float
-        Meters: sides of a box, semi-axes of an ellipsoid, radius and length along z of a capsule (without its caps)
-        or a cylinder, the radius of a sphere. Of a mesh the factors along its axes.
-    pose : Pose
-        In the link's frame.
-    file : str
-        Of a mesh, with slashes; relative to the file that names it.
-    sheet : bool
-        True if the mesh bounds no volume.
-    surface : Surface, optional
-        Of a mesh that is to be written, in meters along the axes of the shape.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Shape
-    >>> Shape("box", (1.0, 2.0, 3.0)).pose.position.tolist()
-    [0.0, 0.0, 0.0]
+    kind: "mesh", "box", "ellipsoid", "capsule", "cylinder" or "sphere". pose: in the link's frame.
+    size: m; sides of a box, semi-axes of an ellipsoid, radius and length along z of a capsule (without its caps) or a
+    cylinder, the radius of a sphere, the factors along the axes of a mesh.
+    file: of a mesh, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
+    surface: of a mesh that is to be written, in meters along the axes of the shape.
     """
 
     kind: str
@@ -169,31 +101,15 @@ class Shape:
 
 @dataclass(frozen=True, eq=False)
 class FreeAxis:
-    """One degree of freedom of a joint.
+    """One degree of freedom of a joint: "rotate" or "translate", along a (3,) unit axis in the child's frame.
 
-    Attributes
-    ----------
-    kind : str
-        "rotate" or "translate".
-    axis : (3,) array
-        Of unit length, in the child's frame.
-    lower, upper : float
-        Limits in radians or meters, infinite if unlimited.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import FreeAxis
-    >>> FreeAxis("rotate", np.array([0.0, 0.0, 1.0]), -0.5, 0.5).is_limited
-    True
+    lower, upper: limits in radians or meters, infinite if unlimited.
     """
 
     kind: str
     axis: NDArray[np.float64]
     lower: float = -inf
     upper: float = inf
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "axis", float_array("axis", self.axis, 3))
 
     @property
     def is_limited(self) -> bool:
@@ -203,20 +119,7 @@ class FreeAxis:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """The joint between a link and its parent; its frame is the child's.
-
-    Attributes
-    ----------
-    name, parent, child : str
-    free : tuple of FreeAxis
-        In the order in which they turn, the one next to the parent first; none if the joint is fixed.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Joint
-    >>> Joint("elbow", "upper arm", "forearm").free
-    ()
-    """
+    """The joint between a link and its parent, in the child's frame. free: the axis next to the parent first."""
 
     name: str
     parent: str
@@ -234,22 +137,8 @@ class Joint:
 class Link:
     """One rigid part.
 
-    Attributes
-    ----------
-    name : str
-    inertial : Inertial or None
-        None for a frame without mass.
-    pose : Pose
-        In the world.
-    shapes : tuple of Shape
-    scale : (3,) array
-        Scale of the source's own geometry along the link's axes, if it is not written anew.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Link
-    >>> Link("base").inertial is None
-    True
+    inertial: None for a frame without mass. pose: in the world.
+    scale: (3,) scale of the source's own geometry along the link's axes, if it is not written anew.
     """
 
     name: str
@@ -258,34 +147,10 @@ class Link:
     shapes: tuple[Shape, ...] = ()
     scale: NDArray[np.float64] = field(default_factory=lambda: np.ones(3))
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "scale", float_array("scale", self.scale, 3))
-
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """Links and the joints that make trees of them.
-
-    Attributes
-    ----------
-    name : str
-    links : tuple of Link
-        No name twice.
-    joints : tuple of Joint
-        No child twice, and none among its own ancestors.
-
-    Raises
-    ------
-    ValueError
-        If a name stands twice or is of no link, or if joints close a loop.
-
-    Examples
-    --------
-    >>> from body_moments.core.robots import Joint, Link, Robot
-    >>> robot = Robot("arm", (Link("base"), Link("hand")), (Joint("wrist", "base", "hand"),))
-    >>> [link.name for link in robot.roots], [link.name for link in robot.children("base")]
-    (['base'], ['hand'])
-    """
+    """Links and the joints that make trees of them; ValueError if a name stands twice, or joints close a loop."""
 
     name: str
     links: tuple[Link, ...]
@@ -353,16 +218,12 @@ class Robot:
         while waiting:
             part = waiting.pop()
             parts.append(part)
-            waiting.extend(
-                [child for child in reversed(self.children(part.name)) if not self._joint_by_child[child.name].free]
-            )
+            below = reversed(self.children(part.name))
+            waiting.extend(child for child in below if not self._joint_by_child[child.name].free)
         return parts
 
     def rigid_inertial(self, link: Link) -> Inertial | None:
-        """Return the inertial of a link with everything that fixed joints hold to it, along the link's axes.
-
-        None if none of it has mass.
-        """
+        """Return the inertial of a link with everything fixed to it, along the link's axes; None without any mass."""
         to_link = link.pose.inverse()
         parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
         if len(parts) == 1 and parts[0][0] is link:

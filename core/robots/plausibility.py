@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from ..verdict.finding import Finding, finding
 from .findings import (
     INERTIAL_CENTER_OUTSIDE,
-    INERTIAL_MASS_NOT_POSITIVE,
     INERTIAL_NOT_FINITE,
     INERTIAL_NOT_POSITIVE,
     INERTIAL_SPREAD_OUTSIDE,
@@ -75,19 +74,16 @@ class Hull:
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return the reasons why no body, or none within the hull, has an inertial; empty if no test excludes it.
-
-    hull: None if the link's geometry is unknown.
-    """
+    """Return why no body, or none within the hull (None if unknown), has an inertial; empty if no test excludes it."""
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not np.isfinite(numbers).all():
         return [finding(INERTIAL_NOT_FINITE)]
     if not stated.mass > 0.0:
-        return [finding(INERTIAL_MASS_NOT_POSITIVE, mass=float(stated.mass))]
+        return [finding(INERTIAL_NOT_POSITIVE, part="mass", value=float(stated.mass), unit="kg")]
     moments = np.linalg.eigvalsh(stated.inertia)
     if not moments[0] > ZERO_RTOL * moments[2]:
         moment = 0.0 if abs(moments[0]) <= ZERO_RTOL * abs(moments[2]) else float(moments[0])
-        return [finding(INERTIAL_NOT_POSITIVE, moment=moment)]
+        return [finding(INERTIAL_NOT_POSITIVE, part="least principal moment", value=moment, unit="kg·m²")]
     excess = float(moments[2] / (moments[0] + moments[1]) - 1.0)
     if excess > ROUNDING:
         return [finding(INERTIAL_TRIANGLE, moments=moments.tolist(), excess=excess)]
@@ -119,7 +115,7 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
     if distance > CENTER_RTOL * hull.size:
         return [finding(INERTIAL_CENTER_OUTSIDE, distance=distance)]
     second = (np.trace(stated.inertia) / 2.0 * np.eye(3) - stated.inertia) / stated.mass
-    directions = np.concatenate([np.linalg.eigh(second)[1].T, _sphere(DIRECTIONS)])
+    directions = np.concatenate([np.linalg.eigh(second)[1].T, spread_directions(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
     # The center may be off by its own tolerance.
     limit = hull.spread_limit(stated.center, directions)
@@ -131,7 +127,7 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
     return []
 
 
-def _sphere(count: int) -> NDArray[np.float64]:
+def spread_directions(count: int) -> NDArray[np.float64]:
     """Return (count, 3) directions all around, evenly: a spiral."""
     index = np.arange(count) + 0.5
     height, turn = 1.0 - 2.0 * index / count, index * np.pi * (1.0 + 5.0**0.5)

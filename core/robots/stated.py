@@ -11,7 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import Finding
-from .model import Pose, Shape
+from .model import Inertial, Shape
+
+# The tensor's entries as URDF and SDF name them.
+ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
+Angles = tuple[float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +33,7 @@ class StatedInertial:
     center: NDArray[np.float64]
     tensor: NDArray[np.float64]
     rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
-    angles: tuple[float, float, float] | None = None
+    angles: Angles | None = None
     quaternion: tuple[float, ...] | None = None
 
     @property
@@ -41,6 +45,14 @@ class StatedInertial:
         """Return it with the tensor along the link's axes, or another one, and other changes."""
         tensor = self.inertia if inertia is None else inertia
         return replace(self, tensor=tensor, rotation=np.eye(3), angles=None, quaternion=None, **changes)
+
+    def principal(self) -> Inertial:
+        """Return it with its principal moments and axes, none of the moments above the sum of the others."""
+        tensor = (self.inertia + self.inertia.T) / 2.0
+        moments, axes = np.linalg.eigh(tensor)
+        axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
+        moments[2] = min(moments[2], moments[0] + moments[1])
+        return Inertial(self.mass, self.center, tensor, moments, axes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +66,7 @@ class StatedShape:
 
     shape: Shape
     role: str
-    angles: tuple[float, float, float] | None = None
+    angles: Angles | None = None
     points: NDArray[np.float64] | None = None
     triangles: NDArray[np.integer] | None = None
 
@@ -91,11 +103,17 @@ class Description:
     scales: Mapping[str, float] = field(default_factory=lambda: {"length": 1.0, "mass": 1.0})
 
 
-def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
-    """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF.
+def rotation_about(axis: int, angle: float) -> NDArray[np.float64]:
+    """Return the (3, 3) rotation about a coordinate axis."""
+    turn = np.eye(3)
+    i, j = (axis + 1) % 3, (axis + 2) % 3
+    turn[i, i] = turn[j, j] = np.cos(angle)
+    turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
+    return turn
 
-    roll, pitch, yaw: radians.
-    """
+
+def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:
+    """Return the (3, 3) rotation Rz(yaw) Ry(pitch) Rx(roll), as in URDF and SDF, of angles in radians."""
     (cr, cp, cy), (sr, sp, sy) = np.cos([roll, pitch, yaw]), np.sin([roll, pitch, yaw])
     return np.array(
         [
@@ -104,8 +122,3 @@ def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.floa
             [-sp, cp * sr, cp * cr],
         ]
     )
-
-
-def pose_of_angles(position: NDArray, angles: tuple[float, float, float]) -> Pose:
-    """Return a pose stated by a position and roll, pitch and yaw."""
-    return Pose(np.asarray(position, np.float64), rotation_of_angles(*angles))

@@ -4,12 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    SUFFIXES="formats",
-    Scan="scan",
-    read_positions="positions",
-    read_scan="formats",
-    sample_matrix="formats",
-    scan_suffix="formats",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__, Scan="scan", read_scan="formats", sample_matrix="formats")

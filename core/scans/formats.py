@@ -16,7 +16,7 @@ from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
-    SCAN_FILE_TYPE,
+    FILE_TYPE,
     SCAN_OUT_OF_MEMORY,
     SCAN_OWN_UNIT,
     SCAN_PLACEMENT,
@@ -44,23 +44,7 @@ SUFFIXES = tuple(READERS)
 
 
 def scan_suffix(path: str | Path) -> str:
-    """Return the suffix of the file's name, in lower case.
-
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    str
-        One of `SUFFIXES`, or "" if it is no scan's.
-
-    Examples
-    --------
-    >>> from body_moments.core.scans import scan_suffix
-    >>> scan_suffix("Head.NII.GZ"), scan_suffix("part.stl")
-    ('.nii.gz', '')
-    """
+    """Return the suffix of a scan's file in lower case, one of `SUFFIXES`; "" if it is no scan's."""
     name = str(path).lower()
     return next((end for end in SUFFIXES if name.endswith(end)), "")  # none of which ends with another
 
@@ -100,7 +84,7 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     path = Path(path)
     read = READERS.get(scan_suffix(path))
     if read is None:
-        raise FileError(SCAN_FILE_TYPE, suffixes=" ".join(SUFFIXES))
+        raise FileError(FILE_TYPE, suffixes=" ".join(SUFFIXES))
     if not path.is_file():
         raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
     with open(path, "rb"):

@@ -33,10 +33,7 @@ class Limits:
 
     @classmethod
     def parse(cls, text: str) -> Limits:
-        """Return the limits with some replaced by a text such as “samples=2e10, entries=5000”.
-
-        QueryError if the text is invalid.
-        """
+        """Return limits, some replaced by a text such as “samples=2e10, entries=5000”. QueryError if it is invalid."""
         names = [field.name for field in fields(cls) if field.type == "int"]
         given = {}
         for part in filter(None, text.replace(",", " ").split()):

@@ -6,8 +6,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,22 +16,13 @@ from numpy.typing import NDArray
 from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
 from .findings import (
-    DAMAGE_LINES,
-    NRRD_DATA_FILE_MISSING,
+    DAMAGE_CUT_SHORT,
+    FILE_UNRECOGNIZED,
+    HEADER_FIELD,
+    NAMED_FILE_MISSING,
     NRRD_DATA_FILE_OUTSIDE,
-    NRRD_DIMENSION_MISMATCH,
-    NRRD_ENCODING,
-    NRRD_ENDIAN_MISSING,
-    NRRD_FIELD_MISSING,
-    NRRD_FIELD_NOT_NUMBERS,
-    NRRD_FIELD_NOT_ONE_NUMBER,
-    NRRD_HEADER_UNENDED,
-    NRRD_SEVERAL_FILES,
-    NRRD_SPACE_DIRECTIONS,
-    NRRD_SPACINGS,
-    NRRD_TYPE,
-    NRRD_UNRECOGNIZED,
-    NRRD_VECTOR,
+    SCAN_IN_SEVERAL_FILES,
+    SCAN_SAMPLE_TYPE,
 )
 from .limits import Limits
 from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
@@ -38,18 +30,10 @@ from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16
 UNITS = {
-    "m": 1.0,
-    "meter": 1.0,
-    "meters": 1.0,
-    "cm": 1e-2,
-    "mm": 1e-3,
-    "millimeter": 1e-3,
-    "millimeters": 1e-3,
-    "um": 1e-6,
-    "µm": 1e-6,
-    "micron": 1e-6,
-    "microns": 1e-6,
-    "nm": 1e-9,
+    **dict.fromkeys(("m", "meter", "meters"), 1.0),
+    **dict.fromkeys(("mm", "millimeter", "millimeters"), 1e-3),
+    **dict.fromkeys(("um", "µm", "micron", "microns"), 1e-6),
+    **{"cm": 1e-2, "nm": 1e-9},
 }
 TYPES = {
     name: dtype
@@ -81,11 +65,11 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
             seen = max(0, len(head) - 3)
             head += block
             if not re.match(rb"NRRD000[1-5]\r?\n", head):
-                raise FileError(NRRD_UNRECOGNIZED)
+                raise FileError(FILE_UNRECOGNIZED, format="NRRD")
             end = _HEADER_END.search(head, seen)
             limits.check(path, "header_bytes", end.end() if end else len(head))
     if not head:
-        raise FileError(NRRD_UNRECOGNIZED)
+        raise FileError(FILE_UNRECOGNIZED, format="NRRD")
     fields = {}
     text = head[: end.start() if end else len(head)].decode("latin-1")
     for line in text.splitlines()[1:]:
@@ -104,45 +88,34 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
     """Read the scan, mapped if it is raw."""
     fields, start = read_header(path, limits)
 
-    def needed(name: str) -> str:
-        if name not in fields:
-            raise FileError(NRRD_FIELD_MISSING, field=name)
-        return fields[name]
-
-    def numbers(name: str, kind: type, default: str = "") -> list:
-        try:
-            parse = parse_whole if kind is int else parse_number
-            return [parse(word) for word in fields.get(name, default).split()]
-        except (ValueError, OverflowError):
-            raise FileError(NRRD_FIELD_NOT_NUMBERS, field=name, text=fields[name]) from None
-
-    sizes = numbers("sizes", int) if needed("sizes") else []
-    if numbers("dimension", int) != [len(sizes)]:
-        raise FileError(NRRD_DIMENSION_MISMATCH)
+    sizes = _numbers(fields, "sizes", parse_whole)
+    if not sizes:
+        raise _field(fields, "sizes", "three numbers")
+    if _numbers(fields, "dimension", parse_whole) != [len(sizes)]:
+        raise _field(fields, "dimension", "the count of “sizes”")
     shape = shape_of(sizes)
-    kind = TYPES.get(needed("type").lower())
+    kind = TYPES.get(fields.get("type", "").lower())
     if kind is None:
-        raise FileError(NRRD_TYPE, type=fields["type"])
+        raise FileError(SCAN_SAMPLE_TYPE, type=fields.get("type", "“”"))
     dtype = np.dtype(kind)
     endian = fields.get("endian", "").lower()
     if dtype.itemsize > 1 and endian not in ("little", "big"):
-        raise FileError(NRRD_ENDIAN_MISSING)
+        raise _field(fields, "endian", "little or big")
     dtype = dtype.newbyteorder(">" if endian == "big" else "<")
-    matrix, placed, unit = _sample_matrix(fields, numbers)
-    (line_skip,), (byte_skip,) = (
-        _single_value(numbers(name, int, "0"), name)
-        for name in (_alias(fields, "line skip"), _alias(fields, "byte skip"))
-    )
+    matrix, placed, unit = _sample_matrix(fields)
+    encoding = fields.get("encoding", "").lower()
+    if encoding not in ("raw", "gzip", "gz"):
+        raise _field(fields, "encoding", "raw or gzip")
+    line_skip = _skip(fields, "line skip", 0)
+    # The samples are the last bytes of a file if the skip is -1; compressed ones are counted from their start.
+    byte_skip = _skip(fields, "byte skip", -1 if encoding == "raw" else 0)
     source, start = _samples_start(path, data_file(fields), start, limits)
     if line_skip:
         start = _skip_lines(source, start, line_skip, limits)
-    encoding = needed("encoding").lower()
     if encoding == "raw":
         samples = map_samples(source, dtype, shape, start + max(byte_skip, 0), from_end=byte_skip == -1)
-    elif encoding in ("gzip", "gz"):
-        samples = unpack_samples(source, start, dtype, shape, byte_skip, limits)
     else:
-        raise FileError(NRRD_ENCODING, encoding=encoding)
+        samples = unpack_samples(source, start, dtype, shape, byte_skip, limits)
     return Scan(samples, matrix, unit, placed)
 
 
@@ -150,22 +123,35 @@ def _samples_start(path: Path, name: str | None, start: int | None, limits: Limi
     """Return the file that has the samples, and their offset in it. name: of a detached file."""
     if name is None:
         if start is None:
-            raise FileError(NRRD_HEADER_UNENDED)
+            raise damaged(path, DAMAGE_CUT_SHORT, part="header")
         return path, start
     if name.upper().startswith("LIST") or "%" in name or len(name.split()) > 3:
-        raise FileError(NRRD_SEVERAL_FILES)
+        raise FileError(SCAN_IN_SEVERAL_FILES, suffix=".nrrd")
     source = path.parent / name
     if not source.is_file():
-        raise FileError(NRRD_DATA_FILE_MISSING, file=name)
+        raise FileError(NAMED_FILE_MISSING, file=name, content="samples")
     if not (limits.allow_outside or source.resolve().is_relative_to(path.parent.resolve())):
         raise FileError(NRRD_DATA_FILE_OUTSIDE, file=name)
     return source, 0
 
 
-def _single_value(values: list, name: str) -> list:
-    if len(values) != 1 or values[0] < -1:
-        raise FileError(NRRD_FIELD_NOT_ONE_NUMBER, field=name)
-    return values
+def _field(fields: dict[str, str], name: str, wanted: str) -> FileError:
+    return FileError(HEADER_FIELD, format="NRRD", field=name, wanted=wanted, text=fields.get(name, ""))
+
+
+def _numbers(fields: dict[str, str], name: str, parse: Callable[[str], Any], default: str = "") -> list:
+    try:
+        return [parse(word) for word in fields.get(name, default).split()]
+    except (ValueError, OverflowError):
+        raise _field(fields, name, "a list of numbers") from None
+
+
+def _skip(fields: dict[str, str], name: str, least: int) -> int:
+    name = _alias(fields, name)
+    values = _numbers(fields, name, parse_whole, "0")
+    if len(values) != 1 or values[0] < least:
+        raise _field(fields, name, "one number, not negative")
+    return values[0]
 
 
 def _alias(fields: dict[str, str], name: str) -> str:
@@ -178,48 +164,46 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
         file.seek(start)
         for _ in range(count):
             if not file.readline(limits.header_bytes).endswith(b"\n"):
-                raise damaged(path, DAMAGE_LINES)
+                raise damaged(path, DAMAGE_CUT_SHORT, part="skipped lines")
         return file.tell()
 
 
-def _sample_matrix(
-    fields: dict[str, str], numbers: Callable[..., list]
-) -> tuple[NDArray[np.float64], bool, float | None]:
+def _sample_matrix(fields: dict[str, str]) -> tuple[NDArray[np.float64], bool, float | None]:
     """Return the matrix of the sample positions, whether the header states it, and its unit."""
     matrix = np.eye(4)
     words = re.findall(r'"([^"]*)"', fields.get("space units", fields.get("units", "")))
     units = {UNITS.get(word.strip().lower()) for word in words[:3]}
     unit = units.pop() if len(units) == 1 else None
     if "space directions" in fields:
-        directions = [row for row in _vectors(fields["space directions"], "space directions") if row is not None]
+        directions = _vectors(fields, "space directions")
         if len(directions) != 3:
-            raise FileError(NRRD_SPACE_DIRECTIONS)
+            raise _field(fields, "space directions", "three vectors")
         matrix[:3, :3] = np.array(directions).T
         if "space origin" in fields:
             origin = _vector(fields["space origin"], "space origin")
             matrix[:3, 3] = np.zeros(3) if origin is None else origin
         return matrix, True, unit
-    spacings = numbers("spacings", float)
+    spacings = _numbers(fields, "spacings", parse_number)
     if spacings:
         if len(spacings) < 3 or not all(0.0 < abs(spacing) < math.inf for spacing in spacings[:3]):
-            raise FileError(NRRD_SPACINGS)
+            raise _field(fields, "spacings", "three spacings that are not zero")
         matrix[:3, :3] = np.diag(spacings[:3])
-    mins = numbers(_alias(fields, "axis mins"), float)
+    mins = _numbers(fields, _alias(fields, "axis mins"), parse_number)
     if len(mins) >= 3 and np.isfinite(mins[:3]).all():
         matrix[:3, 3] = mins[:3]
     return matrix, bool(spacings), unit
 
 
-def _vectors(text: str, name: str) -> Iterator[list[float] | None]:
-    """Parse vectors in parentheses, with “none” between them. Each character is looked at once."""
-    rest = text.strip()
+def _vectors(fields: dict[str, str], name: str) -> list[list[float]]:
+    """Parse vectors in parentheses, with “none” between them, in time linear in the text."""
+    vectors, rest = [], fields[name].strip()
     for _ in range(MAX_AXES):
         vector, end, rest = rest.partition("none" if rest.startswith("none") else ")")
-        yield _vector(vector + end, name)
+        vectors.append(_vector(vector + end, name))
         rest = rest.lstrip()
         if not rest:
-            return
-    raise FileError(NRRD_VECTOR, field=name, text=text)
+            return [row for row in vectors if row is not None]
+    raise _field(fields, name, "three vectors")
 
 
 def _vector(text: str, name: str) -> list[float] | None:
@@ -230,5 +214,5 @@ def _vector(text: str, name: str) -> list[float] | None:
     except ValueError:
         row = []
     if len(row) != 3 or not np.isfinite(row).all():
-        raise FileError(NRRD_VECTOR, field=name, text=text)
+        raise _field({name: text}, name, "vectors of three numbers")
     return row

@@ -16,15 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
-from .findings import (
-    ARRAYS_LEFT_OUT,
-    DAMAGE_ARCHIVE,
-    DAMAGE_ARRAY,
-    DAMAGE_ARRAYS,
-    NO_3D_ARRAY,
-    RAW_TYPE_UNKNOWN,
-    RAW_WITHOUT_LAYOUT,
-)
+from .findings import ARRAYS_LEFT_OUT, DAMAGE_INCOMPLETE, RAW_WITHOUT_LAYOUT, SCAN_DIMENSIONS, SCAN_SAMPLE_TYPE
 from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 
@@ -39,13 +31,10 @@ def read_npy(path: Path, _limits: Limits) -> Scan:
 
 
 def map_array(path: Path) -> NDArray:
-    """Map the array, of any shape and type but objects.
-
-    FileError if the file is not just that, OSError if it cannot be opened.
-    """
+    """Map the array of any shape and type but objects. FileError if the file is not just that; OSError."""
     with open(path, "rb") as file:
         start = file.read(12)
-    with _damage(path, DAMAGE_ARRAY):
+    with _damage(path, "NumPy array"):
         _check_array_header(start)
         array = np.lib.format.open_memmap(path, mode="r")
     check_length(path, path.stat().st_size - array.offset, array.nbytes)
@@ -57,7 +46,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
         if not volumes:
-            raise FileError(NO_3D_ARRAY)
+            raise FileError(SCAN_DIMENSIONS, dimensions=max(map(len, shapes.values()), default=0))
         name = "density" if "density" in volumes else volumes[0]
         others = [volume for volume in volumes if volume != name]
         findings = (finding(ARRAYS_LEFT_OUT, array=name, arrays=others),) if others else ()
@@ -65,10 +54,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
-    """Return the arrays of these names that an .npz has, of any shape and type but objects.
-
-    FileError if it is damaged or asks for more than the limits, OSError if it cannot be opened.
-    """
+    """Return those of the named arrays that an .npz has, of any type but objects. FileError, or OSError."""
     with _archive(path, limits) as (archive, shapes):
         return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
 
@@ -76,7 +62,7 @@ def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, N
 @contextmanager
 def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
     """Open an archive and read the shapes of its arrays, by name. Any exception meanwhile becomes a FileError."""
-    with open(path, "rb") as file, _damage(path, DAMAGE_ARRAYS), zipfile.ZipFile(file) as archive:
+    with open(path, "rb") as file, _damage(path, "archive of NumPy arrays"), zipfile.ZipFile(file) as archive:
         entries = archive.infolist()
         limits.check(path, "entries", len(entries))
         if any(ENTRY in entry.comment + entry.extra for entry in entries):
@@ -86,16 +72,15 @@ def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict
 
 
 @contextmanager
-def _damage(path: Path, code: str) -> Iterator[None]:
+def _damage(path: Path, kind: str) -> Iterator[None]:
     """Make a FileError of whatever reading an array raises."""
     try:
         yield
     except (MemoryError, FileError):
         raise
-    except zipfile.BadZipFile as error:
-        raise damaged(path, DAMAGE_ARCHIVE, error=str(error).rstrip(".")) from error
     except Exception as error:  # NumPy evaluates a damaged header, which may raise anything
-        raise damaged(path, code) from error
+        reason = str(error).rstrip(".") if isinstance(error, zipfile.BadZipFile) else type(error).__name__
+        raise damaged(path, DAMAGE_INCOMPLETE, kind=kind, error=reason) from error
 
 
 def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> NDArray:
@@ -113,10 +98,7 @@ def _check_array_header(start: bytes) -> None:
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """Return the shape of an array in an archive, which must fill its entry.
-
-    Beyond the array no checksum would be reached.
-    """
+    """Return the shape of an array, which must fill its entry: beyond the array no checksum would be reached."""
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)
@@ -132,7 +114,7 @@ def read_raw(
 ) -> Scan:
     """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
     if dtype not in TYPES:
-        raise FileError(RAW_TYPE_UNKNOWN, type=dtype, types=", ".join(TYPES))
+        raise FileError(SCAN_SAMPLE_TYPE, type=dtype)
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
     shape = shape_of(shape)
     limits.check(Path(path), "samples", math.prod(shape))

@@ -11,73 +11,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
-from .findings import (
-    POSITIONS_COUNT,
-    POSITIONS_MISSING,
-    POSITIONS_NON_FINITE,
-    POSITIONS_NOT_A_ROW,
-    POSITIONS_NOT_ASCENDING,
-    POSITIONS_OF_ONE_SAMPLE,
-)
+from .findings import NAMED_FILE_MISSING, POSITIONS_COUNT, POSITIONS_NOT_ASCENDING, POSITIONS_OF_ONE_SAMPLE
 from .numpy_files import map_array
 
 AXES = "xyz"
+CONTENTS = {"x": "positions along x", "y": "positions along y", "z": "positions along z"}
 Positions = tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, NDArray[np.float64] | None]
 EVEN: Positions = (None, None, None)
 
 
 def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float64]:
-    """Read the positions of the samples along an axis.
-
-    Parameters
-    ----------
-    path : str or Path
-        A .npy file of one dimension.
-    axis : str
-        x, y or z, for messages about a wrong file.
-    count : int
-        How many samples the scan has there.
-
-    Returns
-    -------
-    (count,) array
-        Ascending.
-
-    Raises
-    ------
-    FileError
-        If the file holds anything else.
-    OSError
-        If it cannot be opened.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> from body_moments.core.scans import read_positions
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder) / "z.npy"
-    ...     np.save(path, [0.0, 1.0, 2.5])
-    ...     read_positions(path, "z", 3).tolist()
-    [0.0, 1.0, 2.5]
-    """
+    """Return the (count,) ascending positions of samples along an axis from a .npy file. FileError, or OSError."""
     path = Path(path)
     whose = {"file": path.name, "axis": axis}
     if not path.is_file():
-        raise FileError(POSITIONS_MISSING, **whose)
+        raise FileError(NAMED_FILE_MISSING, file=path.name, content=CONTENTS[axis])
     array = map_array(path)
-    if array.ndim != 1 or array.dtype.kind not in "iuf":
-        raise FileError(POSITIONS_NOT_A_ROW, **whose, type=str(array.dtype), dimensions=array.ndim)
-    if len(array) != count:
-        raise FileError(POSITIONS_COUNT, **whose, count=len(array), samples=count)
+    if array.shape != (count,) or array.dtype.kind not in "iuf":
+        size = " x ".join(map(str, array.shape))
+        raise FileError(POSITIONS_COUNT, **whose, samples=count, array="{} {}".format(size, array.dtype).strip())
     if count < 2:
         raise FileError(POSITIONS_OF_ONE_SAMPLE, **whose)
     row = np.array(array, np.float64)
-    if not np.isfinite(row).all():
-        raise FileError(POSITIONS_NON_FINITE, **whose, place=int(np.argmin(np.isfinite(row))))
-    ascending = np.diff(row) > 0.0
-    if not ascending.all():
-        raise FileError(POSITIONS_NOT_ASCENDING, **whose, place=int(np.argmin(ascending)) + 1)
+    is_right = np.isfinite(row) & np.append(True, row[1:] > row[:-1])
+    if not is_right.all():
+        raise FileError(POSITIONS_NOT_ASCENDING, **whose, place=int(np.argmin(is_right)))
     return row
 
 

@@ -7,9 +7,6 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     Signature="signatures",
-    classify="library",
-    flat_signature="flat_signatures",
-    match="registration",
     rank="library",
     read_library="library",
     signature="signatures",

@@ -28,10 +28,7 @@ def disc_degrees(order: int) -> tuple[tuple[int, int], ...]:
 
 
 def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
-    """Return (k,) A_nm of a plane shape, in the order of `disc_degrees`.
-
-    moments: of area, about the disc's center, with z = 0. radius: of the disc.
-    """
+    """Return (k,) A_nm, ordered as `disc_degrees`, of a shape by area moments about the disc's center, with z = 0."""
     degree = monomials(moments.order).sum(axis=1)
     scaled = Moments(moments.raw / radius ** (degree + 2.0), moments.about, moments.measure)
     c = {key: entry.value for key, entry in complex_moments(scaled).items()}

@@ -23,7 +23,6 @@ from numpy.typing import NDArray
 from ..moments.complex_form import complex_moments
 from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import Moments, U
-from ..numerics.arguments import check_type
 from .disc_zernike import MAX_DISC_ORDER, disc_zernike
 from .flat_couplings import INVARIANT_ORDER, is_chiral, pairs, triples
 from .signatures import Signature
@@ -32,35 +31,12 @@ FLAT = 2  # the dimension of such signatures
 
 
 def flat_signature(moments: Moments, radius: float) -> Signature:
-    """Return the signature of a flat shape.
+    """Return the signature of a flat shape, of dimension 2.
 
-    Parameters
-    ----------
-    moments : Moments
-        Of area, about the centroid, with z = 0, to order 6 at least and 20 at most.
-    radius : float
-        Of the disc about the centroid that just holds the shape.
-
-    Returns
-    -------
-    Signature
-        Of dimension 2.
-
-    Notes
-    -----
-    Flusser, Pattern Recognition 33 (2000), and Zernike descriptors (Khotanzad and Hong, PAMI 12, 1990).
-
-    Examples
-    --------
-    >>> from body_moments.core.flat import directed_edges, region_moments
-    >>> from body_moments.core.shape import flat_signature, similarity
-    >>> points = np.array([[0.0, 0.0], [3.0, 0.0], [0.0, 1.0]])
-    >>> shapes = [region_moments(way * points, directed_edges([range(3)]), 20) for way in (1.0, -2.0)]
-    >>> likeness = similarity(*(flat_signature(shape, radius) for shape, radius in zip(shapes, (2.1, 4.2))))
-    >>> round(likeness.shape, 6), round(likeness.scale, 6), likeness.is_mirror_image
-    (0.0, 2.0, False)
+    moments: of area, about the centroid, with z = 0, to order 6 at least and 20 at most. radius: of the disc about the
+    centroid that just holds the shape. The invariants are Flusser's (Pattern Recognition 33, 2000), the Zernike
+    descriptors those of Khotanzad and Hong (PAMI 12, 1990).
     """
-    check_type("moments", moments, Moments)
     order = min(moments.order, MAX_DISC_ORDER)
     moments = moments.truncate(order)
     size = sqrt((moments[2, 0, 0] + moments[0, 2, 0]) / moments.total)

@@ -163,25 +163,7 @@ def same_size(similarity: Likeness) -> bool:
 
 
 def classify(similarity: Likeness) -> Similarity:
-    """Name the relation of a shape to the one that it was compared with.
-
-    Parameters
-    ----------
-    similarity : Likeness
-
-    Returns
-    -------
-    Similarity
-        Such as "copy", "scaled_mirror" or "different".
-
-    Examples
-    --------
-    >>> from body_moments.core.shape import classify
-    >>> from body_moments.core.shape.signatures import Likeness
-    >>> str(classify(Likeness(0.0, 2.0, 0.0, False)))
-    'scaled_copy'
-    """
-    check_type("similarity", similarity, Likeness)
+    """Name the relation of a shape to the one that it was compared with."""
     if similarity.shape > MAX_SIMILAR_DIFFERENCE:
         return Similarity.DIFFERENT
     if similarity.shape > SAME_SHAPE_DISTANCE:

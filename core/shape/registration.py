@@ -19,11 +19,10 @@ from numpy.typing import NDArray
 from ..inertia.canonical_frame import EquivalentFrames
 from ..inertia.frame_choice import complete_free_axes
 from ..inertia.principal_frames import equivalent_frames, undetermined_axes
+from ..inertia.third_moment_frames import HALF_TURN_SIGNS
 from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
-from ..numerics.arguments import check_type
 
-HALF_TURNS = np.array([[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]])
 EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
 MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
 FIRST_SAMPLES = 32  # points of each surface that are looked at first
@@ -51,37 +50,10 @@ Residual = Callable[[NDArray, int | None], NDArray]
 def match(source: Moments, target: Moments, residual: Residual, size: float) -> RigidMatch:
     """Find the rotation that lays one body onto another, both about their centers.
 
-    Parameters
-    ----------
-    source, target : Moments
-        Central, to the order of a pose.
-    residual : callable
-        (map, count) to (n,) distances that an orthogonal (3, 3) map of the source leaves: of all points if count is
-        None, otherwise of about so many of them.
-    size : float
-        Of the target.
-
-    Returns
-    -------
-    RigidMatch
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface
-    >>> from body_moments.core.polyhedron import polyhedron_moments
-    >>> from body_moments.core.shape import match
-    >>> surface = Surface.from_triangles(
-    ...     np.eye(4, 3, -1) * (3, 2, 1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
-    ... )
-    >>> turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    >>> source, target = (polyhedron_moments(body)[0].about_center() for body in (surface, surface.transform(turn)))
-    >>> points = surface.points - source.about
-    >>> fit = match(source, target, lambda map, count: np.linalg.norm(points @ (map - turn).T, axis=1), 3.0)
-    >>> np.round(fit.rotation, 6).tolist() == turn.tolist(), fit.is_mirror_image
-    (True, False)
+    source, target: central moments, to the order of a pose. residual: (map, count) to (n,) distances that an orthogonal
+    (3, 3) map of the source leaves: of all points if count is None, otherwise of about so many of them. size: the
+    target's.
     """
-    check_type("source", source, Moments)
-    check_type("target", target, Moments)
     first = equivalent_frames(source).frames[0]
     rotation, distances = best_rotation(_candidate_rotations(first, equivalent_frames(target)), residual, size)
     largest, mirrored = float(distances.max()), False
@@ -95,7 +67,7 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
     """Return (k, 3, 3) the rotations from a frame of the source to the frames of the target and their half turns."""
-    frames = (target.frames[:, None] * HALF_TURNS[:, None, :]).reshape(-1, 3, 3)
+    frames = (target.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
     frames = np.array([complete_free_axes(frame, undetermined_axes(target.revolution_axes), first) for frame in frames])
     return distinct_arrays(frames @ first.T, 1e-9)
 

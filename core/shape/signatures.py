@@ -141,7 +141,7 @@ class Likeness:
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
         """Return 0 for a copy; also for one of another size, and for a mirror image, if that does not matter.
 
-        If it does, a difference of size or hand counts as much as one of shape, but never for more than
+        Else a difference of size or hand counts as much as one of shape, but never for more than
         MAX_SIMILAR_DIFFERENCE.
         """
         size, hand = (
@@ -193,18 +193,7 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
 
 
 def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]:
-    """Return the signatures of a stack of shapes with balls of (n,) radii: as `signature` of each, to rounding.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments
-    >>> from body_moments.core.moments.moments import stack_moments
-    >>> from body_moments.core.shape.signatures import signatures
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> volume = polyhedron_moments(surface, 12)[0].about_center()
-    >>> [round(found.size, 6) for found in signatures(stack_moments([volume, volume]), np.array([0.9, 0.9]))]
-    [0.33541, 0.33541]
-    """
+    """Return the signatures of a stack of shapes with balls of (n,) radii: as `signature` of each, to rounding."""
     raw = np.ascontiguousarray(moments.raw.T)
     size = np.sqrt(np.trace(moments.second(), axis1=-2, axis2=-1) / raw[0])
     *arrays, error = _numbers(raw, moments, size, radius)
@@ -215,10 +204,7 @@ def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]
 def _numbers(
     raw: NDArray, moments: Moments, size: PerBody, radius: PerBody, zernike: Multiplets | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody]:
-    """Return invariants, descriptors, power, chirality and error of a signature.
-
-    They have a last axis if there are several bodies. raw: the moments, (K, …).
-    """
+    """Return invariants, descriptors, power, chirality and error from raw moments (K, …), each with its last axes."""
     total, order = raw[0], min(moments.order, MAX_ORDER_BY_MOMENTS)
     degree = along_first(monomials(moments.order).sum(axis=1), raw)
     low = len(monomials(INVARIANT_ORDER))
@@ -232,7 +218,8 @@ def _numbers(
     if moments.measure == Measure.VOLUME:
         volume = zernike[0, 0].real[0] * 4.0 * pi / 3.0
         power = radial_power(zernike, FREQUENCIES)[0] / volume**2
-    return _invariants(harmonic), descriptors(zernike), power, _chirality(harmonic), error
+    chirality = np.array(_couplings(harmonic, _chiral_triples()))
+    return _invariants(harmonic), descriptors(zernike), power, chirality, error
 
 
 def similarity(a: Signature, b: Signature) -> Likeness:
@@ -292,12 +279,11 @@ def _relative_difference(a: NDArray, b: NDArray) -> float:
 def _invariants(harmonic: Multiplets) -> NDArray[np.float64]:
     scalars = [harmonic[n, 0].real[0] for n in (4, 6)]
     products = [np.add.reduce((harmonic[a].conj() * harmonic[b]).real) for a, b in _pairs()]
-    triples = [couple(*(harmonic[key] for key in triple)) for triple in _even_triples()]
-    return np.array(scalars + products + triples)
+    return np.array(scalars + products + _couplings(harmonic, _even_triples()))
 
 
-def _chirality(harmonic: Multiplets) -> NDArray[np.float64]:
-    return np.array([couple(*(harmonic[key] for key in triple)) for triple in _chiral_triples()])
+def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> list[NDArray[np.float64]]:
+    return [couple(*(harmonic[key] for key in triple)) for triple in triples]
 
 
 def _multiplets(order: int) -> list[Key]:

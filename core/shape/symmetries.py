@@ -134,11 +134,7 @@ def symmetry(
 
 
 def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
-    """Return the symmetries that the geometry has.
-
-    points: (n, 3) on the surface, corners and points between them. distance: of (k, 3) points from the surface, (k,).
-    tolerance: of the distance of a point's image from it.
-    """
+    """Return the symmetries that the geometry has: images of its (n, 3) points are within the tolerance of it."""
     points = points - center
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
@@ -199,10 +195,7 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return the operations of a body of revolution that stand for all.
-
-    They are the identity, and a reflection of the axis if it can be turned over.
-    """
+    """Return the operations that stand for all of a body of revolution: the identity, perhaps a reflection."""
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])

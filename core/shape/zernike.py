@@ -40,10 +40,7 @@ QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadr
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
-    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball about the origin.
-
-    The argument holds its raw moments there, (K, …).
-    """
+    """Return {(n, l): (2l+1, …)} Ω_nlm, m = -l..l, of a body in the unit ball by its raw moments (K, …)."""
     harmonic = harmonic_moments(raw, order)
     return {
         (n, l): sqrt(3.0 / (4.0 * pi))
@@ -53,10 +50,7 @@ def zernike_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def descriptor_error(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (…) an estimate of the error of the descriptors from raw moments (K, …) accurate to a few roundings.
-
-    It is their change if each moment is moved by such an amount, at random but always the same.
-    """
+    """Estimate (…) the descriptors' error: their change if raw moments (K, …) change by a few roundings."""
     moved = raw * along_first(1.0 + 8.0 * U * np.random.default_rng(0).uniform(-1.0, 1.0, len(raw)), raw)
     before, after = (descriptors(zernike_moments(raw_moments, order)) for raw_moments in (raw, moved))
     return np.abs(after - before).max(axis=0)
@@ -152,8 +146,6 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
 
 def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (k, …) the mean of |F(q)|² over all directions of q, and a bound of the change by the missing orders.
-
-    F(q) = ∫ exp(-i q·x) dV.
 
     moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
     """

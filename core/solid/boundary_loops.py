@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The boundaries of open surfaces: loops, and which of them are gaps without area. `cap_holes` caps the others.
+"""The boundaries of open surfaces: loops, and which of them are gaps without area. The others are capped.
 
 A boundary side is joined at each of its vertices to the side that leaves in the most similar direction, so that an edge
 and the shorter edges that run back along it (a T-junction) make a loop of their own, which has no area: there the
@@ -24,10 +24,7 @@ MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in t
 
 
 def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-    """Return the vertices from which and to which sides run.
-
-    Side 3t + i runs from corner i of triangle t to the next one.
-    """
+    """Return the vertices from which and to which sides run: 3t + i from corner i of triangle t to the next one."""
     triangle, corner = sides // 3, sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
@@ -49,14 +46,10 @@ def join_sides(
     stop: NDArray[np.integer],
     directed: bool,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
-    """Join the sides of boundaries at their ends.
+    """Return (k,) and (k,) sides of boundaries joined at their ends, and (k,) True for sides that run head to tail.
 
-    If an even number of sides meet (as many arriving as leaving) all are joined in pairs, the sharpest
-    turns first.
-
-    begin, end: (r, 3) ends of each side. start, stop: (r,) numbers of these places, equal if sides may be joined.
-    directed: True to join only head to tail. Returns (k,) and (k,) the joined sides, and (k,) True for sides that run
-    head to tail.
+    If an even number of sides meet (as many arriving as leaving), all are joined in pairs, the sharpest turns first.
+    begin, end: (r, 3). start, stop: (r,) numbers of these places. directed: True to join only head to tail.
     """
     count = len(start)
     vertex = np.concatenate([start, stop])
@@ -127,10 +120,9 @@ def _greedy_matching(first_end: NDArray, second_end: NDArray, ends: int) -> tupl
 class BoundaryLoops:
     """Boundary sides (r) grouped into loops (l), numbered in the order of their first sides; in unit and unit².
 
-    `of_side`: (r,) loop of each side. `complete`: (l,) True if all sides of the loop are joined at both ends.
-    `centroid`: (l, 3) centroid of the curve. `cone_area`: (l,) area of the cone to it.
-    `planar_area`: (l,) norm of the loop's area vector.
-    `out_of_plane`: (l,) distance of the loop from its plane; infinite if it has none.
+    `of_side`: (r,) loop of each side. `complete`: (l,) True if all its sides are joined at both ends. `centroid`: (l,
+    3) of the curve. `cone_area`: of the cone to it. `planar_area`: norm of the loop's area vector. `out_of_plane`:
+    distance from its plane; infinite if it has none.
     """
 
     of_side: NDArray[np.intp]
@@ -142,10 +134,7 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return a (l,) mask of loops that are holes.
-
-        The others are narrower than `tolerance` (length, of all or of each) and much longer than wide.
-        """
+        """Return a (l,) mask of holes: not narrower than `tolerance`, of all or each, and much longer than wide."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:
@@ -155,29 +144,21 @@ class BoundaryLoops:
         return values
 
     def caps(self, tolerance: float | NDArray[np.float64]) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray]:
-        """Return (l,) masks of flat and of curved caps among the cones over the loops, and the caps' areas.
-
-        tolerance: as for `has_area`.
-        """
+        """Return (l,) masks of flat and of curved caps, and the caps' areas. tolerance: as for `has_area`."""
         is_flat = self.out_of_plane <= tolerance
         return is_flat, ~is_flat, np.where(is_flat, self.planar_area, self.cone_area)
 
-    def apexes(self, start: NDArray[np.integer], centroid: NDArray[np.integer]) -> NDArray[np.integer]:
-        """Return (l,) vertices of the cones' tips.
-
-        They are the centroid, or the start of the first of three sides, for one triangle. start: (r,) of each side;
-        centroid: (l,) the vertex of each centroid.
-        """
-        return np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroid)
+    def cones(self, start: NDArray[np.integer], stop: NDArray[np.integer], first: int) -> NDArray[np.integer]:
+        """Return (r, 3) triangles from sides to centroids, vertices from `first` on; one alone over three sides."""
+        centroids = first + np.arange(len(self.perimeter))
+        apexes = np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroids)
+        return np.stack([stop, start, apexes[self.of_side]], axis=1)
 
 
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
 ) -> BoundaryLoops:
-    """Group boundary sides into the loops that the links of `join_sides` make, and measure those.
-
-    begin, end: (r, 3) ends of each side. links: from `join_sides`.
-    """
+    """Group boundary sides with (r, 3) ends into the loops that `links`, of `join_sides`, make, and measure those."""
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Caps for many small surfaces at once, if they need no other repair.
+"""Caps for many small surfaces at once, if they need no other repair; as they have alone. Others are repaired alone.
 
 The conditions: every edge has one face, or two that agree; at each boundary vertex one side arrives and one leaves;
-every loop has an area; no vertices touch that a repair would weld. The caps are those of `cap_holes`, to the bit. Other
-surfaces are repaired one by one.
+every loop has an area; no vertices touch that a repair would weld.
 """
 
 from __future__ import annotations
@@ -18,7 +17,6 @@ from numpy.typing import NDArray
 from ..mesh.surface_stack import Connections, SurfaceStack, TriangleStack
 from ..mesh.welding import may_have_neighbor
 from ..moments.moments import Moments, U, sum_moments
-from ..numerics.arrays import segment_starts
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ..polyhedron.third_order_small import small_moments
 from .boundary_loops import BoundaryLoops, find_loops, join_sides, side_ends
@@ -30,10 +28,9 @@ class StackCaps:
     """The caps of n surfaces.
 
     `triangles`, `part`: t triangles of all surfaces, each surface's caps last, and the component of each.
-    `cap_counts`: (n,) number of triangles that are caps.
-    `counts`: (n, 3) number of holes with flat caps and with curved caps, area of the caps (unit²).
-    `edges`: (k, 2) sorted pairs of the surfaces' own vertices along the holes, one surface after the other.
-    `edge_counts`: (n,) number of them.
+    `cap_counts`: (n,) triangles that are caps. `counts`: (n, 3) holes with flat and with curved caps, and the caps'
+    area.
+    `edges`: (k, 2) sorted pairs of the surfaces' own vertices along the holes, by surface, `edge_counts` each.
     """
 
     is_capped: NDArray[np.bool_]
@@ -80,11 +77,7 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap the surfaces of a stack that need nothing but caps.
-
-    links: of its faces. usable: (n,) mask of surfaces that may be capped at all. tolerance: (n,) distance below which
-    points touch (unit).
-    """
+    """Cap the `usable` surfaces of a stack that need nothing but caps. Points nearer than `tolerance`, (n,), touch."""
     can = usable & links.is_open
     start, stop = links.open_sides
     owner, total = stack.point_owners, len(stack.points)
@@ -112,16 +105,9 @@ def cap_stack(
         of_loop = loops.of_each(owner[start])
         bad = ~loops.complete | ~loops.has_area(tolerance[of_loop])
         if not bad.any():
-            part = _numbered_by_triangles(links.component[stack.triangle_faces])
-            return _capped(stack, part, can, tolerance, (side // 3, start, stop), loops, of_loop)
+            return _capped(stack, links.component[stack.triangle_faces], can, tolerance, side, loops, of_loop)
         can[of_loop[bad]] = False
     return None
-
-
-def _numbered_by_triangles(part: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return labels from 0 on, in the order of the first triangles that have them."""
-    _, first, number = np.unique(part, return_index=True, return_inverse=True)
-    return first.argsort().argsort()[number.ravel()]
 
 
 def _capped(
@@ -129,48 +115,32 @@ def _capped(
     part: NDArray[np.intp],
     is_capped: NDArray[np.bool_],
     tolerance: NDArray[np.float64],
-    sides: tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]],
+    side: NDArray[np.intp],
     loops: BoundaryLoops,
     of_loop: NDArray[np.intp],
 ) -> StackCaps:
-    """Add the cones over their loops to the surfaces.
-
-    part: (t,) the component of each triangle. sides: the triangle of each side, its start and its stop; of_loop: the
-    surface of each loop.
-    """
-    triangle, start, stop = sides
-    count, body = len(stack), stack.point_owners[start]
-    loop_counts = np.bincount(of_loop, minlength=count)
-    shift = segment_starts(loop_counts)
-    start_moved, stop_moved = start + shift[body], stop + shift[body]
-    ends = stack.first_point + stack.point_counts
-    apex = loops.apexes(start_moved, ends[of_loop] + np.arange(len(of_loop)))
-    caps = np.stack([stop_moved, start_moved, apex[loops.of_side]], axis=1)
+    """Add the cones over loops to their surfaces. part: (t,) of each triangle; of_loop: the surface of each loop."""
+    count, owner, (start, stop) = len(stack), stack.point_owners, side_ends(stack.triangles, side)
+    body, caps = owner[start], loops.cones(start, stop, len(owner))
     kept = has_distinct_vertices(caps)
-    caps, cap_body, cap_part = caps[kept], body[kept], part[triangle[kept]]
-    cap_counts, after = np.bincount(cap_body, minlength=count), (stack.first_triangle + stack.triangle_counts)[cap_body]
-    moved = stack.triangles + np.repeat(shift, stack.triangle_counts)[:, None]
+    cap_counts = np.bincount(body[kept], minlength=count)
+    point_order = np.concatenate([owner, of_loop]).argsort(kind="stable")
+    bodies = np.concatenate([np.repeat(np.arange(count), stack.triangle_counts), body[kept]])
+    order = bodies.argsort(kind="stable")
     triangles = TriangleStack(
-        np.insert(stack.points, ends[of_loop], loops.centroid.astype(stack.points.dtype), axis=0),
-        np.insert(moved, after, caps, axis=0),
-        stack.point_counts + loop_counts,
+        np.concatenate([stack.points, loops.centroid.astype(stack.points.dtype)])[point_order],
+        point_order.argsort()[np.concatenate([stack.triangles, caps[kept]])[order]],
+        stack.point_counts + np.bincount(of_loop, minlength=count),
         stack.triangle_counts + cap_counts,
     )
-    of_part = loops.of_each(part[triangle])
-    part_owner = np.zeros(int(part.max()) + 1, np.intp)
-    part_owner[part] = np.repeat(np.arange(count), stack.triangle_counts)
-    counts = [  # part by part, as of one body
-        np.bincount(part_owner, np.bincount(of_part, column, len(part_owner)), minlength=count)
-        for column in loops.caps(tolerance[of_loop])
-    ]
-    low, high = np.minimum(start, stop) - stack.first_point[body], np.maximum(start, stop) - stack.first_point[body]
-    edges = np.stack([low, high], axis=1)[np.lexsort((high, low, body))]
+    counts = [np.bincount(of_loop, column, count) for column in loops.caps(tolerance[of_loop])]
+    edges = np.sort(np.stack([start, stop], axis=1), axis=1) - stack.first_point[body][:, None]
     return StackCaps(
         is_capped,
         triangles,
-        np.insert(part, after, cap_part),
+        np.concatenate([part, part[side[kept] // 3]])[order],
         cap_counts,
-        np.stack(counts, axis=1).astype(np.float64),
-        edges,
+        np.stack(counts, axis=1),
+        edges[np.lexsort((edges[:, 1], edges[:, 0], body))],
         np.bincount(body, minlength=count),
     )

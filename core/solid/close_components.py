@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last steps of a repair but `cap_holes`: the faces of each part agree, and gaps without area close.
+"""The last steps of a repair: the faces of each part agree, gaps without area close, and holes are capped.
 
 Sides are numbered as in `Edges`: 3t + i runs from corner i of triangle t to the next one, the triangles as given.
 """
@@ -16,18 +16,22 @@ from ..mesh.edges import Edges, consistent_orientation, find_edges, group_compon
 from ..mesh.surface import normals
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
-from .boundary_loops import distinct_vertex_pairs, find_loops, join_sides, side_ends
+from .boundary_loops import (
+    BoundaryLoops,
+    distinct_vertex_pairs,
+    find_loops,
+    join_sides,
+    side_ends,
+    vertex_pairs,
+)
 from .findings import DUPLICATE_FACES_COUNTED, NON_MANIFOLD_COMPONENTS, ONE_SIDED_COMPONENTS, T_JUNCTIONS
-from .repaired_mesh import NO_INDICES, FoldedLoops, RepairedMesh, ZeroAreaLoops
+from .repaired_mesh import FoldedLoops, RepairedMesh, ZeroAreaLoops
 from .shared_walls import wall_links
 
 
 def find_t_junctions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Find the boundary loops without area, across which the surface closes in space."""
     side = mesh.state.edges.boundary_sides()
-    if not len(side):
-        none = NO_INDICES
-        return mesh.with_state(gaps=ZeroAreaLoops(none, none, 0, none, none, np.empty(0, bool)))
     start, stop = side_ends(mesh.triangles, side)
     begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
     links = join_sides(begin, end, start, stop, directed=False)
@@ -140,6 +144,28 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     return mesh.with_state(uncapped_sides=boundary[~filled])
 
 
+def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
+    """Cap the boundary loops that have an area, each by the cone to its centroid."""
+    side = mesh.state.uncapped_sides
+    if not len(side):
+        return mesh
+    owner, (start, stop) = side // 3, mesh.oriented_ends(side)
+    component = mesh.component[owner]
+    loops = _find_component_loops(mesh, component, start, stop)
+    of_loop = loops.of_each(component)
+    is_open = mesh.open.copy()
+    is_open[of_loop[~loops.complete]] = True
+    # In the points' own type: a cap's apex then carries the same coordinate error as every vertex.
+    return replace(
+        mesh,
+        points=np.concatenate([mesh.points, loops.centroid.astype(mesh.points.dtype)]),
+        open=is_open,
+        caps=_count_caps(loops, of_loop, is_open, tolerance),
+        capped_edges=vertex_pairs(mesh.state.given, side),
+        capped_component=component,
+    ).with_caps(loops.cones(start, stop, len(mesh.points)), owner)
+
+
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Turn the faces that were found to disagree. Sides have other numbers from here on."""
     if not mesh.flipped.any():
@@ -161,6 +187,22 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     return replace(mesh, findings=(*mesh.findings, *findings), report=replace(mesh.report, closed=closed))
 
 
+def _find_component_loops(mesh: RepairedMesh, component: NDArray, start: NDArray, stop: NDArray) -> BoundaryLoops:
+    """Return the loops of sides with these ends, which are joined within their components, head to tail."""
+    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
+    first, second = (component * len(mesh.points) + vertex for vertex in (start, stop))
+    return find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
+
+
+def _count_caps(
+    loops: BoundaryLoops, of_loop: NDArray[np.intp], is_open: NDArray[np.bool_], tolerance: float
+) -> NDArray[np.float64]:
+    """Return (c, 3) numbers of flat and curved caps, and their area, by component. of_loop: (l,); is_open: (c,)."""
+    hole = loops.has_area(tolerance) & ~is_open[of_loop]
+    counts = [np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in loops.caps(tolerance)]
+    return np.stack(counts, axis=1).astype(np.float64, copy=False)
+
+
 def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
     """Return (e,) the edges along gaps without area."""
     edges = mesh.state.edges
@@ -176,9 +218,7 @@ def _find_folded_loops(
     unclosable: NDArray[np.bool_],
     tolerance: float,
 ) -> FoldedLoops:
-    """Find components with edges of three faces or more that close nevertheless.
-
-    They leave over only loops without area: letters with an outline that turns back on itself.
+    """Find components that leave over only loops without area: letters with an outline that turns back on itself.
 
     edges: of the components; signed_count: of these edges. unclosable: (c,) the components to look at.
     """
@@ -190,10 +230,8 @@ def _find_folded_loops(
     start, stop = side_ends(mesh.triangles, side)
     reversed_side = edges.upward[side] != (signed_count[edge] > 0.0)
     start, stop = np.where(reversed_side, stop, start), np.where(reversed_side, start, stop)
-    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
     component = mesh.component[side // 3]
-    meet = [component * len(mesh.points) + vertex for vertex in (start, stop)]
-    loops = find_loops(begin, end, join_sides(begin, end, *meet, directed=True))
+    loops = _find_component_loops(mesh, component, start, stop)
     closes = unclosable.copy()
     closes[component[(~loops.complete | loops.has_area(tolerance))[loops.of_side]]] = False
     caps = np.stack([stop, start, loops.of_each(start)[loops.of_side]], axis=1)

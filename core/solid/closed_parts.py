@@ -14,11 +14,10 @@ from ..mesh.surface import normals
 
 @dataclass(frozen=True, eq=False)
 class ClosedParts:
-    """Triangles with the body as signed sum, and the closed part that each bounds.
+    """Triangles, (t, 3), with the body as signed sum, turned and with caps; and the closed part that each bounds.
 
-    points: (n, 3); triangles: (t, 3), as measured: turned if needed, caps included. face: (t,) the mesh face of each,
-    -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part that a part's volume counts with: itself,
-    or for a cavity the part it is cut from.
+    face: (t,) the mesh face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part that a
+    part's volume counts with: itself, or for a cavity the part it is cut from.
     """
 
     points: NDArray[np.floating]

@@ -22,10 +22,10 @@ from ..numerics.graph import connected_components, connected_neighbors
 from ..polyhedron import third_order
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
-from ..verdict.findings import NO_FACES
+from ..verdict.findings import NO_FACES, OBJECT_TOO_LARGE
 from ..verdict.health import MeshHealth
 from ..verdict.tolerances import MAX_COORDINATE, check_size, welding_tolerance
-from .findings import INVALID_FACES, NON_FINITE_VERTICES, OBJECT_TOO_LARGE
+from .findings import INVALID_FACES, NON_FINITE_VERTICES
 from .repaired_mesh import RepairedMesh
 
 SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.
@@ -33,11 +33,10 @@ SUM_ROUNDING = 1e-13  # Relative rounding of a sum of numbers of one sign.
 
 @dataclass(frozen=True, eq=False)
 class CheckedSurface:
-    """A surface that can be measured, without the vertices that no face uses.
+    """A surface that can be measured, without the vertices that no face uses; lengths in its unit.
 
-    `vertices`: (n,) the input's number of each vertex; None if all are used.
-    `size`: diagonal of the bounding box (unit). `error`: how far storing the points may have moved them (unit).
-    `tolerance`: distance below which points touch (unit).
+    `vertices`: (n,) the input's number of each vertex; None if all are used. `size`: diagonal of the bounding box.
+    `error`: how far storing the points may have moved them. `tolerance`: distance below which points touch.
     """
 
     surface: Surface
@@ -49,10 +48,8 @@ class CheckedSurface:
 
 @dataclass(frozen=True, eq=False)
 class GivenIntegrals:
-    """Integrals over the faces as they are given.
+    """Integrals over the faces as given: `volume` to order 3, and `area`, also of faces that a repair leaves out.
 
-    `volume`: signed sum over the faces, to order 3.
-    `area`: the input's, without caps, including flat parts and faces that a repair leaves out.
     `all_cones_agree`: True if all cones from the reference point over the faces are known to have the same sign.
     `proven`: the mesh if its own edges prove it closed and oriented, else None.
     """
@@ -67,8 +64,7 @@ class GivenIntegrals:
 def check_surface(surface: Surface) -> CheckedSurface:
     """Check that a surface can be measured, and leave out vertices that no face uses.
 
-    Raises MeasureError if there are no faces, faces name vertices that do not exist, or positions are not finite, or
-    too large or too small for their powers to be numbers.
+    MeasureError if there are no faces, or they name no vertices, or positions are not finite, too large or too small.
     """
     check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
@@ -111,12 +107,7 @@ def check_surface(surface: Surface) -> CheckedSurface:
 
 
 def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> GivenIntegrals:
-    """Integrate over the faces as they are given, and test if their edges prove the surface closed.
-
-    Sums and proof run in parallel if that is worth a thread.
-
-    shell: True for area moments to order 3; else order 0.
-    """
+    """Integrate over the given faces, areas to order 3 of a shell, and test in parallel if edges prove closedness."""
     surface = checked.surface
     accumulator = PlanarityAccumulator(surface, checked.error)
     integrate = partial(

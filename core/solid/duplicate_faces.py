@@ -14,7 +14,7 @@ from ..mesh.surface import Surface, normals
 from ..mesh.welding import same_vertices_groups
 from ..numerics.arrays import first_occurrence
 from ..numerics.graph import connected_components
-from ..verdict.finding import Finding, finding
+from ..verdict.finding import finding
 from ..verdict.tolerances import NEGLIGIBLE
 from .boundary_loops import distinct_vertex_pairs
 from .findings import (
@@ -53,7 +53,11 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     reduced = _regions_of_one_layer(edges, later, is_duplicated(group, face), agree)
     left_out = later & reduced
     ignored, counted = np.unique(face[left_out]), np.unique(face[later & ~reduced & (agree > 0.0)])
-    mesh = mesh.with_findings(*_copies_findings(ignored, counted, np.linalg.norm(vector, axis=1)))
+    area = np.linalg.norm(vector, axis=1)
+    for code, copies in ((DUPLICATE_FACES_IGNORED, ignored), (DUPLICATE_FACES_COUNTED, counted)):
+        if len(copies):
+            slight = bool(area[copies].sum() < NEGLIGIBLE * area.sum())
+            mesh = mesh.with_findings(finding(code, copies, slight=slight, count=len(copies)))
     if not len(ignored):
         return mesh
     mesh = replace(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True)
@@ -63,8 +67,8 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
     """Return (k,) the mesh faces on the same vertices as an earlier one, sorted.
 
-    Two faces on the same vertices are closed by their edges, so neither proof nor repair has to look for them; of a
-    solid they bound nothing, but a sheet has their area twice.
+    Of a solid two such faces bound nothing, and their edges close, so nothing looks for them; a sheet has their area
+    twice.
     """
     triangles, face = surface.all_triangles()
     return np.unique(face[same_vertices_groups(triangles, face) != face])
@@ -82,8 +86,7 @@ def _regions_of_one_layer(
 ) -> NDArray[np.bool_]:
     """Return a (m,) mask of triangles in regions to be reduced to one layer.
 
-    later, copied: (m,) masks of later copies, and of faces with copies at all; agree: (m,) positive if a triangle's
-    face runs as the first of its copies.
+    later, copied: masks of later copies, and of faces with copies; agree: positive if a face runs as its first copy.
     """
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
@@ -100,26 +103,8 @@ def _regions_of_one_layer(
     return np.where(has_neighbors, votes > 0, (parallel > 0) | closed)[region]
 
 
-def _copies_findings(
-    ignored: NDArray[np.integer], counted: NDArray[np.integer], area: NDArray[np.float64]
-) -> list[Finding]:
-    """Return findings about copies that were left out, and copies that count twice. area: of each face, doubled."""
-    findings = []
-    if len(ignored):
-        slight = area[ignored].sum() < NEGLIGIBLE * area.sum()
-        findings.append(finding(DUPLICATE_FACES_IGNORED, ignored, slight=slight, count=len(ignored)))
-    if len(counted):
-        slight = area[counted].sum() < NEGLIGIBLE * area.sum()
-        findings.append(finding(DUPLICATE_FACES_COUNTED, counted, slight=slight, count=len(counted)))
-    return findings
-
-
 def _non_manifold_sides(edges: Edges, face: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return the sides on edges with more than two triangles.
-
-    A polygon's own diagonal, which it has on both sides, is none of its edges. face: (m,) the mesh face of each
-    triangle.
-    """
+    """Return the sides on edges with more than two triangles, not counting both sides of a polygon's own diagonal."""
     sides = np.flatnonzero((edges.count > 2)[edges.of_side])
     first = first_occurrence(edges.of_side[sides], face[sides // 3].astype(np.intp))
     return sides[np.bincount(first)[first] == 1]

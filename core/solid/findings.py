@@ -14,7 +14,6 @@ NON_FINITE_VERTICES = error(
     "{count} of {total} vertices have no finite coordinates. Delete them, or fix the modifier, driver or import "
     "that made them.",
 )
-OBJECT_TOO_LARGE = error("object_too_large", "Too large to be measured. Scale the object down.")
 VERTICES_WELDED = warning(
     "vertices_welded",
     "Open edges were welded: vertices moved by up to {share:percent} of the size. Use Mesh > Merge > By Distance.",
@@ -45,14 +44,12 @@ HOLES_CAPPED = warning(
 )
 ONE_SIDED_COMPONENTS = warning(
     "one_sided_components",
-    "One-sided components cannot be closed: {count} of {total}. Volume, center of mass and inertia depend on "
-    "the reference "
-    "point. Set Kind to Shell.",
+    "One-sided components cannot be closed: {count} of {total}. Volume, center of mass and inertia depend on the "
+    "reference point. Set Kind to Shell.",
 )
 NON_MANIFOLD_COMPONENTS = warning(
     "non_manifold_components",
-    "Components cannot be closed where more than two faces meet at an edge: {count} of {total}. Volume, "
-    "center of mass "
+    "Components cannot be closed where more than two faces meet at an edge: {count} of {total}. Volume, center of mass "
     "and inertia depend on the reference point. Delete interior faces and fill holes, or set Kind to Shell.",
 )
 CAVITIES_SUBTRACTED = note(
@@ -69,11 +66,9 @@ CAVITIES_BREAK_THROUGH = warning(
 )
 COMPONENTS_NESTED = warning(
     "components_nested",
-    "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set "
-    "Overlaps to "
+    "{count} outward component lies inside another; the shared space counts twice. Flip cavities, or set Overlaps to "
     "Count as Union.",
-    "{count} outward components lie inside others; the shared space counts twice. Flip cavities, or set "
-    "Overlaps to "
+    "{count} outward components lie inside others; the shared space counts twice. Flip cavities, or set Overlaps to "
     "Count as Union.",
 )
 COMPONENTS_OVERLAP = warning(

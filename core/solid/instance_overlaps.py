@@ -25,8 +25,8 @@ class PlaceComparison:
 
     `nested`: components in the material of others. `overlapping`: components that share a part of their interiors.
     `undecided_pairs`: number of pairs that would have been too much work.
-    `nested_slightly`, `overlapping_slightly`: True if these components, and the smaller ones of these pairs, are too
-    small to matter in any place.
+    `nested_slightly`, `overlapping_slightly`: True if these, and the smaller ones of these pairs, are too small to
+    matter.
     """
 
     nested: NDArray[np.intp]
@@ -37,10 +37,7 @@ class PlaceComparison:
 
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
-    """Find solids that overlap or contain each other in their places.
-
-    solids: measured solids, each with (k, 4, 4) maps to its places.
-    """
+    """Find solids that overlap or contain each other in their places, by (k, 4, 4) maps of each."""
     points, triangles, component, owner, place, closed = [], [], [], [], [], []
     number = shift = places = 0
     displacement = 0.0

@@ -30,10 +30,9 @@ MAX_STEPS_PER_EDGE = 16
 
 @dataclass(frozen=True, eq=False)
 class ComponentRelations:
-    """Relations between components, as (k, 2) pairs.
+    """Relations between components, as (k, 2) pairs: `contained_in`, inner and outer one, and `intersecting`.
 
-    `contained_in`: inner and outer component.
-    `intersecting`: pairs that share a part of their interiors without one containing the other, or that are the same.
+    The latter share a part of their interiors without one containing the other, or are the same.
     `undecided_pairs`: number of pairs that would have been too much work.
     `mostly_in`: inner and outer component of the intersecting pairs of opposite orientation with most of the inner one
     in the outer one, as a cavity that breaks through its wall. `breakthrough`: (k,) how far they reach out (unit).
@@ -54,11 +53,7 @@ class ComponentRelations:
 def classify_pairs(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> ComponentRelations:
-    """Find how closed components lie relative to each other.
-
-    points: (n, 3). components: over these points. candidates: (c,) components to compare: closed and not flat.
-    tolerance: distance below which points touch (unit).
-    """
+    """Find how components, the (c,) closed, not flat candidates, lie to each other. Nearer than `tolerance` touch."""
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
@@ -98,11 +93,10 @@ def classify_pairs(
 def _breakthrough(
     components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (k,) how far the two components of each pair (inner, outer) reach out of each other.
+    """Return (k,) how far the components of each pair (inner, outer) reach out of each other, at least `tolerance`.
 
-    It is the largest distance of places on edges of the inner one outside the outer one from its surface, and of places
-    on edges of the outer one in the inner one. At least the tolerance, by which they are known to pass through each
-    other.
+    It is the largest distance, from the other surface, of places on edges of the inner one outside the outer one, and
+    of the outer one in the inner one.
     """
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
@@ -136,10 +130,8 @@ def surfaces_intersect(
 ) -> bool:
     """Return whether surfaces are found, in limited time, to go through each other or themselves by over `tolerance`.
 
-    Triangles that share a vertex are neighbors and do not count.
-
-    triangles: (m, 3), component: (m,) the surface that each belongs to, ascending; pairs: (k, 2) of surfaces; vertex:
-    (n,) which vertex a point is.
+    component: (m,) surfaces of triangles, ascending; pairs: (k, 2); vertex: (n,) of each point: triangles that share
+    one do not count.
     """
     surfaces = sort_components(points, triangles, component, int(component[-1]) + 1)
     tree = Bvh(points, surfaces, np.ones(len(surfaces.volume), bool))
@@ -149,10 +141,7 @@ def surfaces_intersect(
 def self_overlaps(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> bool:
-    """Return whether a closed component among `candidates` has run into itself, though no edge need pierce a face.
-
-    It surrounds a sampled point under its own skin more than once.
-    """
+    """Return whether a closed candidate surrounds a point under its skin twice, though no edge need pierce a face."""
     chosen = np.flatnonzero(candidates)
     if not len(chosen):
         return False
@@ -170,14 +159,11 @@ def self_overlaps(
 def orient_nested_components(
     components: SortedComponents, relations: ComponentRelations, candidates: NDArray[np.bool_]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Decide which components to turn, and classify them as outward ones in the material of others, or cavities.
+    """Decide, (c,) each, which components to turn, lie as outward ones in the material of others, or are cavities.
 
     From the outermost inward: an inward component that no material surrounds is inside out. It is turned, with any
     consistent contents (a hollow body turned inside out as a whole). A cavity that breaks through its wall is one
     still.
-
-    components: with signed volumes. candidates: (c,) components with a volume. Returns `flipped`, `nested` and
-    `cavities`, (c,) each.
     """
     number = len(candidates)
     given = np.where(candidates, np.sign(components.volume), 0.0)
@@ -201,10 +187,7 @@ def orient_nested_components(
 
 
 def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Return (c,) the component that each cavity is cut from; for others, themselves.
-
-    It is the innermost around the cavity that no other cavity is cut from before.
-    """
+    """Return (c,) the component that a cavity is cut from, the innermost that no other is cut from, or itself."""
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
@@ -230,10 +213,7 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
 def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Count, for each pair, the decidable points inside and outside the larger component.
-
-    The points are under the smaller one's skin.
-    """
+    """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one."""
     most, least, together = SAMPLES_PER_PAIR
     number = np.clip(together // len(small), least, most)
     pair = np.repeat(np.arange(len(small)), number)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,11 +27,10 @@ from .repaired_mesh import RepairedMesh
 class ComponentComparison:
     """Result of comparing the components of a body; masks are (c,).
 
-    `flipped`: components to turn. `solid`: components with a volume.
-    `nested`, `cavities`: outward and inward components in the material of others.
-    `intersecting`: components that share a part of their interiors with another one or copy it, except `breaking` ones.
-    `breaking`: cavities that break through the wall around them, by at most `breakthrough` (unit).
-    `host`: as `ClosedParts.host_part`. `undecided_pairs`: number of pairs that would have been too much work.
+    `flipped`: components to turn. `solid`: with a volume. `nested`, `cavities`: outward and inward ones in material of
+    others. `intersecting`: sharing a part of their interiors with others, except `breaking` ones: cavities that break
+    through the wall around them, by at most `breakthrough` (unit). `host`: as `ClosedParts.host_part`.
+    `undecided_pairs`: number of pairs that would have been too much work.
     """
 
     flipped: NDArray[np.bool_]
@@ -80,12 +80,11 @@ class ComponentComparison:
 class OrientedSolid:
     """A body with components that face as they count; masks are (c,).
 
-    `is_proven`: True if nothing had to be repaired, so that `surface` has the input's faces.
-    `surface`: the surface with the signed sum `volume`: without flat parts, with caps.
-    `volume`: not negative, except for rounding noise of either sign in flat bodies.
-    `is_solid`: True if any component has a volume. `solid`: the components that have one.
-    `turned`: components turned as a whole. `reversed`: components with triangles in `mesh` that run against `surface`.
-    `comparison`: None for a single component.
+    `is_proven`: True if nothing had to be repaired, so that `surface` has the input's faces. `surface`: the surface
+    with the signed sum `volume`: without flat parts, with caps; not negative, except for rounding noise of flat bodies.
+    `is_solid`: True if any component has a volume. `solid`: the components that have one. `turned`: components turned
+    as a whole. `reversed`: components with triangles in `mesh` that run against `surface`. `comparison`: None for one
+    component.
     """
 
     mesh: RepairedMesh
@@ -125,7 +124,7 @@ def orient_components(
 ) -> OrientedSolid:
     """Compare the components of a body, turn components that are inside out, and integrate the result.
 
-    given: of the same surface; reused if only caps were added. mesh: ``given.proven``, or the surface repaired.
+    given: reused if only caps were added. mesh: ``given.proven``, or the surface repaired.
     """
     is_proven, comparison, flipped = mesh is given.proven, None, np.zeros(mesh.number, bool)
     surface, volume = checked.surface, given.volume
@@ -136,7 +135,7 @@ def orient_components(
         counted = np.ones(1, bool) if comparison is None else comparison.solid
         surface = _oriented_surface(surface, mesh, flipped, counted, is_proven)
     if surface is not checked.surface:
-        volume = _integrate_oriented(checked.surface, given, mesh, flipped, surface, threads)
+        volume = _integrate_oriented(given, mesh, flipped, surface, threads)
     total, has_open = volume.total, bool(mesh.open.any())
     threshold = zero_volume(checked.size, given.area.total, bool(mesh.caps.any()), checked.error)
     is_solid = bool(abs(total) > max(threshold, volume.rounding_error[0]))
@@ -155,10 +154,7 @@ def orient_components(
 
 
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
-    """Find the components with a volume, and their relations.
-
-    tolerance: distance below which points touch (unit). error: displacement of the points by storing them (unit).
-    """
+    """Find the components with a volume, and their relations. Points touch nearer than `tolerance`."""
     components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
     size = np.linalg.norm(components.high - components.low, axis=1)
     threshold = zero_volume(size, components.area, mesh.caps.any(axis=1), error)
@@ -169,10 +165,7 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume below which a component counts as flat.
-
-    It is a closed sheet's rounding, or a capped flat sheet's error.
-    """
+    """Return the volume below which a component is flat: a closed sheet's rounding, or a capped flat sheet's error."""
     return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
 
 
@@ -199,29 +192,12 @@ def _oriented_surface(
 
 
 def _integrate_oriented(
-    surface: Surface,
-    given: GivenIntegrals,
-    mesh: RepairedMesh,
-    flip: NDArray[np.bool_],
-    measured: Surface,
-    threads: int,
+    given: GivenIntegrals, mesh: RepairedMesh, flip: NDArray[np.bool_], measured: Surface, threads: int
 ) -> Moments:
     """Return the volume moments of the measured surface; only its caps are integrated if the rest is as given."""
-    caps = _caps_only(surface, mesh, flip, measured)
-    about = None if caps is None else given.volume.about
-    volume = polyhedron_moments(caps or measured, area_order=0, about=about, threads=threads, allow_open=True)[0]
-    return volume if caps is None else sum_moments([given.volume, volume])
-
-
-def _caps_only(surface: Surface, mesh: RepairedMesh, flip: NDArray[np.bool_], measured: Surface) -> Surface | None:
-    """Return the caps if `measured` differs from `surface` by nothing else, or None."""
-    caps = mesh.face < 0
-    if (
-        mesh.topology_changed
-        or not caps.any()
-        or len(measured.triangles) < len(mesh.triangles)
-        or mesh.flipped.any()
-        or flip.any()
-    ):
-        return None
-    return replace(measured, triangles=measured.triangles[caps])
+    integrate = partial(polyhedron_moments, area_order=0, threads=threads, allow_open=True)
+    caps, is_turned = mesh.face < 0, mesh.flipped.any() or flip.any()
+    if mesh.topology_changed or is_turned or not caps.any() or len(measured.triangles) < len(mesh.triangles):
+        return integrate(measured)[0]
+    surface = replace(measured, triangles=measured.triangles[caps])
+    return sum_moments([given.volume, integrate(surface, about=given.volume.about)[0]])

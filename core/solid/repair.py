@@ -12,8 +12,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ..mesh.surface import Surface
-from .cap_holes import cap_holes
 from .close_components import (
+    cap_holes,
     close_gaps,
     find_t_junctions,
     find_unclosable_components,
@@ -41,11 +41,10 @@ STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
 
 
 def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -> RepairedMesh:
-    """Repair a surface on a copy.
+    """Repair a surface, whose vertices all belong to faces, on a copy. Without triangles nothing but edges is left.
 
-    surface: with at least one face; every vertex belongs to one. tolerance: positions nearer than this (unit) count as
-    equal at open edges, and loops narrower than this have no area. weld_near: True to weld positions that differ.
-    The result has no triangles and components if nothing but edges is left of all faces.
+    tolerance: positions nearer than this (unit) count as equal at open edges, and loops narrower than this have no
+    area.
     """
     mesh = split_into_triangles(surface)
     for step in STEPS:

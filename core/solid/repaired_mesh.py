@@ -24,9 +24,8 @@ UNKNOWN: Any = None  # until a step finds it; the order of the steps sees to it 
 class OpenParts:
     """Connected parts that are not closed; only these may be welded.
 
-    `rows`: their triangles with three different vertices.
-    `vertices`: sorted vertices along their open edges, or all their vertices if no edge is known.
-    `are_all`: True if no other triangle has three different vertices.
+    `rows`: their triangles with three different vertices; all such if `are_all`. `vertices`: sorted ones along their
+    open edges, or all their vertices if no edge is known.
     """
 
     rows: NDArray[np.intp]
@@ -54,8 +53,7 @@ class ZeroAreaLoops:
 class FoldedLoops:
     """Loops without area, `number` of them, that components with edges of three faces or more leave over.
 
-    `components`: (c,) mask of the components that close after all.
-    `sides`, `caps`: (k,) a side on each edge left over, and (k, 3) the triangle that closes it.
+    `components`: (c,) mask of those that close after all. `sides`, `caps`: (k,) and (k, 3) triangles that close them.
     """
 
     components: NDArray[np.bool_]
@@ -69,10 +67,8 @@ class RepairState:
     """Knowledge of earlier steps for later ones; dropped when the repair is done.
 
     `given`: (t, 3) triangles over the input's vertices; side 3t + i runs from corner i of triangle t to the next one.
-    `edges`: edges of the triangles with three different vertices, if known.
-    `component_edges`: the same with vertices of its own for each component.
-    `open_parts`: None if nothing is left to weld.
-    `one_sided`: (c,) mask of the components in which faces cannot agree, as on a Möbius strip.
+    `edges`: of triangles with three different vertices; `component_edges`: with vertices of its own for each component.
+    `one_sided`: (c,) mask of components in which faces cannot agree, as on a Möbius strip.
     `uncapped_sides`: (k,) boundary sides that bound no gap, of components that may still be closed.
     """
 
@@ -144,10 +140,7 @@ class RepairedMesh:
         )
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
-        """Return the mesh with more triangles, without degenerate ones.
-
-        owner: (k,) a triangle of each one's component.
-        """
+        """Return the mesh with more triangles, without degenerate ones. owner: (k,) triangles of their components."""
         useful = has_distinct_vertices(caps)
         caps, owner = caps[useful], owner[useful]
         return replace(

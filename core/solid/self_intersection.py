@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.scan_lines import FACES_PER_BLOCK, Crossings, LineGrids, find_crossings, line_counts
-from ..mesh.surface import Surface, flipped_quads
+from ..mesh.surface import HALVES, Surface, turned_quads
 from ..moments.moments import SECOND_MOMENT_INDEX
 from ..numerics.arrays import sums_by_index
 from ..numerics.vectors import cross, dot
@@ -37,8 +37,8 @@ FACES_LOOKED_AT_FIRST = 1024
 class SelfIntersection:
     """Result of the search for self-intersections.
 
-    `volume`: estimated volume that counts twice, or as negative (unit³), as often as it does too much.
-    `effect`: the larger one of its shares of the volume and of the second moment about the center.
+    `volume`: estimated volume that counts twice, or as negative (unit³), as often as it does too much. `effect`: the
+    larger one of its shares of the volume and of the second moment about the center.
     """
 
     state: Intersection
@@ -83,10 +83,7 @@ def _used_points(points: NDArray[np.floating], triangles: NDArray[np.integer]) -
 
 
 def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
-    """Return whether all faces have the same side toward a point, or their planes contain it.
-
-    Such a surface may still go around the point several times.
-    """
+    """Return whether no two faces have opposite sides toward a point. The surface may go around it several times."""
     total = signed = 0.0
     for corners in _corner_blocks(surface):
         a, b, c = (corner - center[:, None] for corner in corners)
@@ -104,9 +101,7 @@ def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
         for start, stop in zip(starts[:-1], starts[1:]):
             block = faces[start:stop]
             if faces is surface.quads:
-                flipped = flipped_quads(surface.points, block)
-                block = np.where(flipped[:, None], np.roll(block, -1, axis=1), block)
-                block = block[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+                block = turned_quads(surface.points, block)[:, HALVES].reshape(-1, 3)
             if len(block):
                 yield [surface.points[block[:, k]].T.astype(np.float64) for k in range(3)]
 
@@ -119,10 +114,10 @@ def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) ->
 
 @dataclass(frozen=True, eq=False)
 class Excess:
-    """Volume of b bodies that closed parts hold more than once, or less than not at all.
+    """Volume of b bodies that closed parts hold more than once, or less than not at all, as often as that; (b,).
 
-    `volume`, `second_moment`: (b,) times how often it is too much; the latter about the center of the body's box.
-    `unsure`: (b,) share of the crossed lines that do not enter as often as they leave; 1 if no line is crossed.
+    `second_moment`: of it, about the center of the body's box. `unsure`: share of the crossed lines that do not enter
+    as often as they leave; 1 if no line is crossed.
     """
 
     volume: NDArray[np.float64]
@@ -135,8 +130,7 @@ def measure_excess(
 ) -> Excess:
     """Measure along lines the volume in a closed part more than once, or less than not at all.
 
-    grids: through the bodies. tolerance: (b,) lengths up to which nothing counts (unit). part: (t,) the part that each
-    triangle bounds, of all bodies; by default each body is one.
+    tolerance: (b,) lengths up to which nothing counts (unit). part: (t,) of each triangle; by default each body is one.
     """
     bodies = len(grids.cell)
     if not len(crossings.row):

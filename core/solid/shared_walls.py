@@ -28,10 +28,7 @@ NO_LINKS = NO_INDICES, NO_INDICES
 def wall_links(
     points: NDArray[np.floating], edges: Edges, triangles: NDArray[np.integer], face: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Find the sides that belong together at the walls between bodies.
-
-    points: (n, 3). triangles: (t, 3). face: (t,) the mesh face of each. Returns (k,) and (k,) the joined sides.
-    """
+    """Return (k,) and (k,) the sides that belong together at walls between bodies. face: (t,) of each triangle."""
     if not (edges.count == 4).any():
         return NO_LINKS
     pairs = edges.manifold_side_pairs()
@@ -77,10 +74,8 @@ def wall_links(
 def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
     """Return (k, 2) the sides that are joined within walls.
 
-    within: (e, 4) sides on edges between two faces of a wall, of the first layer and then of the other one; wall: (t,)
-    as of `_layers`.
-
-    Which copy of a face is the first one is an accident: a copy goes with the one of its neighbors that it agrees with.
+    Which copy of a face is first is an accident: a copy goes with the one of its neighbors that it agrees with. within:
+    (e, 4) sides on edges between two faces of a wall, by layers; wall: (t,) as of `_layers`.
     """
     crossed = wall[within[:, 1] // 3] != wall[within[:, 3] // 3]
     within = np.where(crossed[:, None], within[:, [0, 1, 3, 2]], within)  # Corners of one face, then the other, twice.
@@ -100,9 +95,8 @@ def _layers(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return (t,) 1 and 2 for triangles of the two layers of walls, else 0; and (t,) a number of each wall.
 
-    Both layers of a wall share the number. Layers are faces on the same vertices, or flat pieces with the same border
-    that are cut into triangles differently. piece: (t,) the piece of each triangle, connected across edges of two
-    faces.
+    Layers are faces on the same vertices, or flat pieces with the same border that are cut into triangles differently.
+    piece: (t,) the piece of each triangle, connected across edges of two faces.
     """
     group = same_vertices_groups(triangles, face)
     layer = is_duplicated(group, face).astype(np.intp) + (group != face)

@@ -15,11 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.mass_properties import are_physical
+from ..mesh.bvh import sort_components
 from ..mesh.planarity import Planarity, StackPlanarity, stack_planarity
 from ..mesh.scan_lines import LineGrids, find_crossings, line_counts
 from ..mesh.surface import Surface
 from ..mesh.surface_stack import SurfaceStack, TriangleStack
 from ..moments.moments import Moments, U, stack_moments
+from ..numerics.arrays import segment_starts
 from ..polyhedron.any_order_small import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
@@ -38,13 +40,11 @@ CLEAR_VOLUME = 4.0  # times what counts as none: a component of less is looked a
 
 @dataclass(frozen=True, eq=False)
 class SolidStack:
-    """The moments of the bodies that n surfaces bound.
+    """The moments of the bodies that n surfaces bound, meaningless unless measured.
 
-    `is_measured`: (n,) closed surfaces, as they are or by caps; the others have to be measured one by one.
-    `volume`, `area`: to order 3 and 0, about each body's own point, meaningless if unmeasured; area without caps.
-    `size`: (n,) diagonal of the bounding box (unit).
-    `intersection`: (n,) objects of type Intersection.
-    `caps`: the boundaries of the bodies.
+    `is_measured`: (n,) surfaces closed as they are or by caps; the others have to be measured one by one.
+    `volume`, `area`: to order 3 and 0, about each body's own point; area without caps.
+    `size`: (n,) diagonal of the bounding box. `intersection`: (n,) objects of type Intersection.
     """
 
     is_measured: NDArray[np.bool_]
@@ -86,32 +86,30 @@ class SolidStack:
 
     def to_order(self, rows: NDArray[np.intp], order: int) -> Moments:
         """Return the volume moments of the bodies `rows`, ascending, to a higher order than third."""
-        stack, volume = self.caps.triangles.some(rows), self.volume.at(rows)
-        low, high = stack.box
-        reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + stack.coordinate_error
-        return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
+        stack = self.caps.triangles.some(rows)
+        return _extend(self.volume.at(rows), order, stack, stack.coordinate_error)
 
 
 def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Moments:
-    """Return the volumes, to a higher order than third, of solids that were measured by themselves.
-
-    Each solid has at most MAX_SMALL_TRIANGLES triangles.
-    """
+    """Return volumes, to an order above third, of single solids of at most MAX_SMALL_TRIANGLES triangles each."""
     surfaces = [solid.repaired_surface for solid in solids]
     triangles = [surface.all_triangles()[0] for surface in surfaces]
-    first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
-    volume = stack_moments([solid.volume for solid in solids])
-    boxes = np.array([surface.box for surface in surfaces])
-    reach = np.maximum(boxes[:, 1] - volume.about, volume.about - boxes[:, 0]) * (1.0 + 4.0 * U)
-    reach += [surface.coordinate_error for surface in surfaces]
-    return extend_small_moments(
-        volume,
-        order,
+    point_counts = np.array([len(surface.points) for surface in surfaces])
+    stack = TriangleStack(
         np.concatenate([surface.points.astype(np.float64) for surface in surfaces]),
-        np.concatenate([rows + start for rows, start in zip(triangles, first.tolist())]),
+        np.concatenate([rows + start for rows, start in zip(triangles, segment_starts(point_counts).tolist())]),
+        point_counts,
         np.array([len(rows) for rows in triangles]),
-        reach,
     )
+    error = np.array([surface.coordinate_error for surface in surfaces])
+    return _extend(stack_moments([solid.volume for solid in solids]), order, stack, error)
+
+
+def _extend(volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]) -> Moments:
+    """Return the volume moments of the stack's bodies to an order. error: (n, 3) by storing the points."""
+    low, high = stack.box
+    reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
+    return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
 
 
 def is_small(surface: Surface) -> bool:
@@ -125,10 +123,7 @@ def can_be_stacked(surface: Surface) -> bool:
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
-    """Measure the bodies that many small surfaces bound, as far as they are closed as they are, or by caps alone.
-
-    surfaces: at least one; all of them as `can_be_stacked` requires, with finite coordinates.
-    """
+    """Measure bodies that at least one surface, as `can_be_stacked` requires, bounds, closed as it is or by caps."""
     stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
@@ -194,24 +189,13 @@ def _stand_apart(
     capped: NDArray[np.bool_],
     error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
-    """Return a (k,) mask of the bodies in `rows` with outward components of certain volume and boxes that do not touch.
-
-    part: the component of each triangle of all bodies; counts, tolerance, capped, error: of all bodies.
-    """
+    """Return a (k,) mask of bodies `rows` with outward parts of certain volume and boxes that do not touch."""
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
     body = np.repeat(np.arange(len(rows)), counts[rows])  # The body of each part; parts are numbered body by body.
-    corners = stack.points[stack.triangles[chosen]].astype(np.float64)
-    corners -= np.repeat(stack.box[0][rows], stack.triangle_counts[rows], axis=0)[:, None]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    volume = np.bincount(part, np.add.reduce(corners[:, 0] * normals, axis=1)) / 6.0
-    area = np.bincount(part, np.sqrt(np.add.reduce(normals * normals, axis=1))) / 2.0
-    order = part.argsort()
-    starts = np.searchsorted(part[order], np.arange(len(body)))
-    low = np.minimum.reduceat(corners.min(axis=1)[order], starts)
-    high = np.maximum.reduceat(corners.max(axis=1)[order], starts)
-    size, of_all = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), rows[body]
-    is_bad = volume <= CLEAR_VOLUME * zero_volume(size, area, capped[of_all], error[of_all])
+    parts, of_all = sort_components(stack.points, stack.triangles[chosen], part, len(body)), rows[body]
+    low, high, size = parts.low, parts.high, np.sqrt(np.add.reduce((parts.high - parts.low) ** 2, axis=1))
+    is_bad = parts.volume <= CLEAR_VOLUME * zero_volume(size, parts.area, capped[of_all], error[of_all])
     apart = 2.0 * tolerance[of_all]
     for step in range(1, int(counts[rows].max())):
         gap = np.maximum(low[step:] - high[:-step], low[:-step] - high[step:]).max(axis=1)
@@ -220,10 +204,7 @@ def _stand_apart(
 
 
 def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
-    """Return a (n,) mask of surfaces with cones from their points, (n, 3), that agree and surround them once.
-
-    It is known by their solid angles (van Oosterom and Strackee 1983).
-    """
+    """Return (n,) whether cones from points, (n, 3), agree and surround them once (van Oosterom and Strackee 1983)."""
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
     after, before = corners.take(NEXT_AXIS, 0), corners.take(PREVIOUS_AXIS, 0)
@@ -237,10 +218,7 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 
 def _search_self_intersections(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
-    """Return (k,) results of the search for self-intersections along lines, as `find_self_intersection`.
-
-    part: (t,) the component of each triangle.
-    """
+    """Return (k,) what `find_self_intersection` does of each. part: (t,) the component of each triangle."""
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
     grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))

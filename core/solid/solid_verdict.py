@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..inertia.mass_properties import are_physical
 from ..mesh.planarity import Planarity
-from ..mesh.surface import Surface
+from ..mesh.surface import Surface, half_ulp
 from ..moments.moments import Moments
 from ..numerics.arrays import unique_pairs
 from ..polyhedron.integration import polyhedron_moments
@@ -42,9 +42,6 @@ from .repaired_mesh import RepairedMesh
 from .self_intersection import SelfIntersection
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
-
-# Codes about components that have a second one, where the components are too small to matter
-WITH_SLIGHT = (CAVITIES_BREAK_THROUGH, COMPONENTS_NESTED, COMPONENTS_OVERLAP, FLAT_COMPONENTS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,30 +95,10 @@ class SolidIntegrals:
     def moments(
         self, order: int, area_order: int | None = None, *, about: ArrayLike | None = None, threads: int = 1
     ) -> tuple[Moments, Moments | None]:
-        """Return the body's moments to any order.
+        """Return the body's volume moments to an order; and area moments of the given faces, as in ``area``, or None.
 
         They are about the middle of the given points' bounding box, the point of ``volume``, unless `about` says
-        otherwise. For open bodies they depend on it.
-
-        Parameters
-        ----------
-        order : int
-            Of the volume's moments.
-        area_order : int, optional
-            Order of the area moments of the given faces, as in ``area``. By default none.
-        about : (3,) array_like, optional
-            The reference point.
-        threads : int
-
-        Returns
-        -------
-        volume : Moments
-        area : Moments, or None if `area_order` is None
-
-        Raises
-        ------
-        MeasureError
-            If a moment is beyond the range of numbers.
+        otherwise. For open bodies they depend on it. MeasureError if a moment is beyond the range of numbers.
         """
         reference = self.volume.about
         volume, area = polyhedron_moments(
@@ -150,10 +127,7 @@ class SolidIntegrals:
 def judge(
     checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, intersection: SelfIntersection | None
 ) -> SolidIntegrals:
-    """Give a verdict on the measured body, and report all decisions.
-
-    All arguments are of the same surface. intersection: None if not searched.
-    """
+    """Give a verdict on the measured body, and report all decisions. intersection: None if not searched."""
     mesh, volume = oriented.mesh, oriented.volume
     has_open = bool(mesh.open.any())
     if not oriented.is_solid and not has_open:  # Rounding noise would pass for a tiny body.
@@ -176,8 +150,10 @@ def judge(
     else:
         verdict = Verdict.REORIENTED if len(flipped) or len(inverted) else Verdict.EXACT
     findings: list[Finding] = []
-    if mesh.max_displacement > _float32_step(checked.surface):  # less is how the same place is written twice
-        findings.append(_weld_finding(mesh.max_displacement, checked.size, given.area.total, volume.total))
+    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # of float32
+    if mesh.max_displacement > step:  # less is how the same place is written twice
+        slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume.total)
+        findings.append(finding(VERTICES_WELDED, slight=slight, share=float(mesh.max_displacement / checked.size)))
     findings += [_of_input(item, checked.vertices) for item in mesh.findings]
     if len(flipped):
         slight = _is_slight(mesh, np.isin(mesh.face, flipped), checked.size, volume.total)
@@ -244,17 +220,6 @@ def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
     return replace(item, elements=vertices[elements]) if elements.ndim == 2 and vertices is not None else item
 
 
-def _float32_step(surface: Surface) -> float:
-    """Return how far float32 may move a point: the length of one step of the largest coordinate along each axis."""
-    largest = np.minimum(np.abs(surface.box).max(axis=0), 2.0**127)
-    return float(np.linalg.norm(np.spacing(largest.astype(np.float32)).astype(np.float64)))
-
-
-def _weld_finding(displacement: float, size: float, area: float, volume: float) -> Finding:
-    slight = displacement * area < NEGLIGIBLE * abs(volume)
-    return finding(VERTICES_WELDED, slight=slight, share=float(displacement / size))
-
-
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
     """Return whether triangles are too small to matter, by their area times the body's size. rows: (t,)."""
     return bool(_areas(mesh, rows).sum() * size < NEGLIGIBLE * volume)
@@ -283,10 +248,7 @@ def _capped_edges(checked: CheckedSurface, oriented: OrientedSolid) -> NDArray[n
 def cap_finding(
     edges: NDArray[np.intp], caps: NDArray[np.float64], share: float, size: float, volume: float
 ) -> Finding:
-    """Return findings about capped holes.
-
-    caps: (3,) flat ones, curved ones, and their area; share: of the surface's.
-    """
+    """Return a finding about capped holes. caps: (3,) flat ones, curved ones, their area; share: of the surface's."""
     flat, curved = map(int, caps[:2])
     slight = caps[2] * size < NEGLIGIBLE * volume  # all their moments together
     return finding(HOLES_CAPPED, edges, slight=slight, count=flat + curved, flat=flat, curved=curved, share=share)
@@ -309,7 +271,7 @@ def _component_findings(
     ):
         if which.any():
             decided = _all_but_largest(mesh, which) if code == COMPONENTS_OVERLAP else which
-            slight = code in WITH_SLIGHT and _is_slight(mesh, decided[mesh.component], size, volume)
+            slight = code != CAVITIES_SUBTRACTED and _is_slight(mesh, decided[mesh.component], size, volume)
             findings.append(finding(code, mesh.faces_of(which), slight=slight, count=int(which.sum()), **values))
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))

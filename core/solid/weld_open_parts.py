@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, edges_from_mesh, find_edges
+from ..mesh.edges import Edges, find_edges
 from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups, vertex_tolerance
 from ..numerics.graph import connected_components
@@ -23,10 +23,7 @@ from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_di
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:
-    """Cut a surface into triangles, and find the parts that welding may touch.
-
-    surface: with at least one face; every vertex belongs to one. The result has no components yet.
-    """
+    """Cut a surface, whose vertices all belong to faces, into triangles, and find the parts that welding may touch."""
     triangles, face = surface.all_triangles()
     triangles, count = triangles.astype(np.intp), len(triangles)
     edges, open_parts = _find_open_parts(surface, triangles, np.asarray(face, np.intp))
@@ -55,12 +52,11 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         return mesh
     mesh, onto = _weld(mesh, parts.rows, vertices, same)
     rows = parts.rows[has_distinct_vertices(mesh.triangles[parts.rows])]
-    edges = find_edges(mesh.triangles[rows]) if len(rows) else None
-    still_open = edges is not None and bool(np.any(edges.count % 2))
+    edges = find_edges(mesh.triangles[rows])
     vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
     return mesh.with_state(
-        edges=edges if parts.are_all else UNKNOWN,
-        open_parts=replace(parts, rows=rows, vertices=vertices) if still_open else None,
+        edges=edges if parts.are_all and len(rows) else UNKNOWN,
+        open_parts=replace(parts, rows=rows, vertices=vertices) if np.any(edges.count % 2) else None,
     )
 
 
@@ -99,14 +95,14 @@ def _find_open_parts(
     rows = np.flatnonzero(has_distinct_vertices(triangles))
     if not len(rows):
         return None, None
-    if len(triangles) * 3 == len(surface.points):  # a soup: no edge has two triangles
-        return None, OpenParts(rows, _unique_sorted(triangles[rows], len(surface.points)), True)
-    edges = edges_from_mesh(surface, triangles) if len(rows) == len(triangles) else None
-    edges = edges or find_edges(triangles[rows])
+    count = len(surface.points)
+    if len(triangles) * 3 == count:  # a soup: no edge has two triangles
+        return None, OpenParts(rows, _unique_sorted(triangles[rows], count), True)
+    edges = find_edges(triangles[rows], len(surface.quads) if len(rows) == len(triangles) else 0)
     odd = edges.count % 2 == 1
     if not odd.any():
         return edges, None
-    vertices = _unique_sorted(np.concatenate(side_ends(triangles[rows], edges.first[odd])), len(surface.points))
+    vertices = _unique_sorted(np.concatenate(side_ends(triangles[rows], edges.first[odd])), count)
     part, number = connected_components(len(rows), *edges.adjacency())
     is_open = np.zeros(number, bool)
     is_open[part[edges.first[odd] // 3]] = True
@@ -122,10 +118,7 @@ def _find_open_parts(
 def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
-    """Return the mesh with some vertices replaced in the triangles `rows`, and (n,) the new vertex of each vertex.
-
-    same: (v,) the position in ``vertices`` of each replacement.
-    """
+    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each."""
     triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]

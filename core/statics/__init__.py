@@ -6,10 +6,6 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    BalanceResult="balancing",
-    Gradient="gradient",
-    RestingPoses="resting",
-    Support="support",
     area_gradient="gradient",
     balance="balancing",
     find_support="support",

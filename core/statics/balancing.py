@@ -22,6 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia.findings import NO_CERTAIN_VOLUME
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
 from ..numerics.arguments import check_type, float_array, index_array
@@ -31,13 +32,10 @@ from ..verdict.finding import MeasureError
 from ..wall.walls import first_positive_root
 from .findings import (
     BALANCE_FOLDS_FACES,
-    BALANCE_NO_AREA,
     BALANCE_NO_EFFECT,
     BALANCE_SHORT,
-    BALANCE_SHORT_BY_LIMIT,
-    BALANCE_ZERO_VOLUME,
 )
-from .gradient import Gradient, area_gradient, volume_gradient
+from .gradient import area_gradient, volume_gradient
 
 MAX_NEWTON_STEPS = 100  # Limit for Newton's method; it takes a few.
 MAX_STEP_HALVINGS = 20  # Limit for one step, until the center comes nearer.
@@ -48,21 +46,7 @@ SLIVER_RTOL = 1e-9  # Relative to the longest side squared: smaller triangles ha
 
 @dataclass(frozen=True, eq=False)
 class BalanceResult:
-    """Moved vertices that bring the center to its target.
-
-    Attributes
-    ----------
-    points : (n, 3) array
-        float64.
-    before, after : (3,) arrays
-        The center.
-
-    Examples
-    --------
-    >>> from body_moments.core.statics import BalanceResult
-    >>> BalanceResult(np.zeros((4, 3)), np.zeros(3), np.ones(3)).after.tolist()
-    [1.0, 1.0, 1.0]
-    """
+    """Moved vertices (n, 3) that bring the center of mass to its target, and the center before and after."""
 
     points: NDArray[np.float64]
     before: NDArray[np.float64]
@@ -124,11 +108,11 @@ def balance(
     area = fans.areas[movable]
     used = (area > 0.0) & (weights > 0.0)
     if not used.any():
-        raise MeasureError(BALANCE_NO_AREA)
+        raise MeasureError(BALANCE_NO_EFFECT)
     movable = movable[used]
     start = problem.evaluate(problem.start)
     if start is None:
-        raise MeasureError(BALANCE_ZERO_VOLUME)
+        raise MeasureError(NO_CERTAIN_VOLUME)
     before, _, gradient = start
     step_directions = np.einsum("ri,nik->rnk", across, fans.center_gradient(before)[movable])
     step_directions *= (weights[used] / area[used])[:, None]
@@ -138,10 +122,8 @@ def balance(
     left = far
     if far or np.linalg.norm(points - problem.start, axis=1).max() > limit:
         points, center, left = _newton_solve(problem, start, step_directions, movable, limit)
-    if left and far:  # without a limit too: it is not the limit that stands against it
-        raise MeasureError(BALANCE_SHORT, distance=float(far))
     if left:
-        raise MeasureError(BALANCE_SHORT_BY_LIMIT, limit=float(limit), distance=float(left))
+        raise MeasureError(BALANCE_SHORT, distance=float(far or left), limit=float(limit))
     problem.check(points, movable)
     return BalanceResult(points, before, center)
 
@@ -149,10 +131,7 @@ def balance(
 def _newton_solve(
     problem: _Problem, start: tuple[NDArray, NDArray, NDArray], step_directions: NDArray, movable: NDArray, limit: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
-    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached.
-
-    start: as of `_Problem.evaluate`.
-    """
+    """Return (n, 3) points, the (3,) center, and its remaining distance from its target, 0 if reached."""
     points, (center, residual, gradient) = problem.start, start
     multiplier = np.zeros(len(step_directions))
     slope = _center_jacobian(step_directions, multiplier, gradient[:, movable], limit)
@@ -196,10 +175,7 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (r, r) the derivative of the center by the multiplier.
-
-    A move that is cut can still turn, not grow.
-    """
+    """Return (r, r) the derivative of the center by the multiplier; a move that is cut can still turn, not grow."""
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -234,27 +210,21 @@ class _Problem:
         return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """Return (3,) the center, (r,) its distances from the target, and (r, n, 3) its derivatives.
-
-        None if the body has turned inside out.
-        """
+        """Return (3,) the center, (r,) its distances from the target, (r, n, 3) derivatives; None if inside out."""
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
             return None
         center = moments.center
         derive = area_gradient if self.shell else volume_gradient
-        gradient: Gradient = derive(replace(self.surface, points=points), center, order=1)
+        gradient = derive(replace(self.surface, points=points), center)
         return (
             center,
             self.across @ (self.target - center),
-            np.einsum("ri,nik->rnk", self.across, gradient.center(moments.total)),
+            np.einsum("ri,nik->rnk", self.across, gradient[:, 1:4] / moments.total),
         )
 
     def check(self, points: NDArray, movable: NDArray) -> None:
-        """Raise MeasureError if a triangle turns by a right angle or more on its way.
-
-        N(s)·N(0), a quadratic in s, must stay positive to s = 1.
-        """
+        """Raise MeasureError if a triangle turns by a right angle: N(s)·N(0), a quadratic, has a root in [0, 1]."""
         moved = np.zeros(len(points), bool)
         moved[movable] = True
         triangles = self.triangles[moved[self.triangles].any(axis=1)]
@@ -276,10 +246,7 @@ class _Problem:
 
 
 class _Fans:
-    """The faces of a surface as triangles around the mean of each face's vertices; triangles stay as they are.
-
-    areas: (n,) the area for each vertex, an equal share of each of its faces.
-    """
+    """Faces as triangles around the means of their vertices; areas: (n,) equal shares of each vertex's faces."""
 
     def __init__(self, surface: Surface, shell: bool):
         triangles, faces = surface.all_triangles()
@@ -309,13 +276,13 @@ class _Fans:
         """Return (n, 3, 3) ∂ center[i] / ∂ vertex[k], each face's middle moving with its vertices."""
         if self.shell:  # signed as the faces' own areas are
             parts = [
-                area_gradient(Surface(self.points, triangles), center, order=1).by_vertex[:, 1:4]
+                area_gradient(Surface(self.points, triangles), center)[:, 1:4]
                 for triangles in (self.fan[~self.opposed], self.fan[self.opposed])
             ]
             gradient, total = parts[0] - parts[1], self.areas.sum()
         else:
             surface = Surface(self.points, self.fan)
-            gradient = volume_gradient(surface, center, order=1).by_vertex[:, 1:4]
+            gradient = volume_gradient(surface, center)[:, 1:4]
             total = polyhedron_moments(surface)[0].total
         gradient /= total
         vertex_gradient, middle = gradient[: self.count].reshape(-1, 9), gradient[self.count :].reshape(-1, 9)

@@ -4,18 +4,13 @@
 
 from ..verdict.finding import error
 
-BALANCE_NO_AREA = error("balance_no_area", "No movable vertex belongs to a face with area. Select others.")
-BALANCE_ZERO_VOLUME = error("balance_zero_volume", "The faces enclose no volume. Close the mesh, or set Kind to Shell.")
 BALANCE_NO_EFFECT = error(
-    "balance_no_effect", "Moving these vertices cannot bring the center of mass there. Select more."
+    "balance_no_effect", "Moving these vertices cannot bring the center of mass there. Select more, or others."
 )
 BALANCE_SHORT = error(
-    "balance_short", "The center of mass stays {distance:length} short. Select more vertices, or a nearer point."
-)
-BALANCE_SHORT_BY_LIMIT = error(
-    "balance_short_by_limit",
-    "With Max Distance {limit:length} the center of mass stays {distance:length} short. Raise Max Distance, "
-    "or select more vertices.",
+    "balance_short",
+    "The center of mass stays {distance:length} short. Select more vertices, a nearer point or, if moves of at most "
+    "{limit:length} do not suffice, a larger Max Distance.",
 )
 BALANCE_FOLDS_FACES = error(
     "balance_folds_faces",

@@ -30,16 +30,6 @@ class Mixes:
 
     `coefficients`: (c, 4) of volume and first moments about `about`.
     `exponents`: (c, k) the powers of the mixing values that each coefficient belongs to.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface
-    >>> from body_moments.core.statics.mixes import fit_mixes
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> mixes = fit_mixes(surface, surface.points[None])
-    >>> volumes, centers = mixes.at([[1.0], [-0.5]])
-    >>> np.round(volumes * 6, 9).tolist(), np.round(centers[:, 0], 9).tolist()
-    ([8.0, 0.125], [0.5, 0.125])
     """
 
     coefficients: NDArray[np.float64]
@@ -47,10 +37,7 @@ class Mixes:
     about: NDArray[np.float64]
 
     def at(self, values: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the volumes, (f,), and the centers, (f, 3), of mixes; NaN for a mix that is flat or inside out.
-
-        `values` are (f, k): a mixing value for each shape.
-        """
+        """Return (f,) volumes and (f, 3) centers of mixes by (f, k) values; NaN for flat and inside-out ones."""
         powers = _powers(np.asarray(values, np.float64), self.exponents)
         moments = powers @ self.coefficients
         terms = np.abs(powers) @ np.abs(self.coefficients[:, 0])
@@ -64,10 +51,7 @@ def sample_count(shapes: int) -> int:
 
 
 def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
-    """Find the polynomials of a surface and the offsets that are mixed into it.
-
-    surface: closed and outward; its quads are cut as they are without any offset. offsets: (k, n, 3) of its points.
-    """
+    """Find the polynomials of a closed, outward surface, its quads cut as now, and (k, n, 3) offsets."""
     triangles, _ = surface.all_triangles()
     points, offsets = surface.points.astype(np.float64), np.asarray(offsets, np.float64)
     about = np.mean(surface.box, axis=0)

@@ -34,25 +34,10 @@ ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ 
 class RestingPoses:
     """Stable resting poses, the likeliest first.
 
-    Attributes
-    ----------
-    normals : (k, 3) array
-        Outward unit normals of the faces that the body rests on: they point down then.
-    shares : (k,) array
-        Quasi-static probabilities, adding up to 1.
-    margins : (k,) array
-        Distances of the center's foot from the nearest edge of the face.
-    heights : (k,) array
-        Of the center above the ground.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import convex_hull
-    >>> from body_moments.core.statics import resting_poses
-    >>> slab = convex_hull([[x, y, z] for x in (-3.0, 3.0) for y in (-2.0, 2.0) for z in (-1.0, 1.0)])
-    >>> poses = resting_poses(slab, center=[0.0, 0.0, 0.0])
-    >>> poses.margins[[0, 2, 4]].tolist(), np.round(poses.shares, 3).tolist()
-    ([2.0, 1.0, 1.0], [0.323, 0.323, 0.121, 0.121, 0.056, 0.056])
+    `normals`: (k, 3) outward unit normals of the faces that the body rests on: they point down then.
+    `shares`: (k,) quasi-static probabilities, adding up to 1.
+    `margins`: (k,) distances of the center's foot from the nearest edge of the face.
+    `heights`: (k,) of the center above the ground.
     """
 
     normals: NDArray[np.float64]
@@ -68,10 +53,9 @@ class RestingPoses:
 
 @dataclass(frozen=True, eq=False)
 class _Faces:
-    """Faces of a hull, several triangles each.
+    """Faces of a hull: (m,) the face of each triangle, (f, 3) unit normals, (f,) heights of the center, (f,) margins.
 
-    (m,) the face of each triangle, (f, 3) outward unit normals, (f,) heights of the center, (f,) margins, and (f,) the
-    face beyond the edge that the foot is nearest to or farthest outside of.
+    beyond: (f,) the face beyond the edge that the foot is nearest to or farthest outside of.
     """
 
     face: NDArray[np.intp]
@@ -147,10 +131,7 @@ def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
 
 
 def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """Find the faces of a hull.
-
-    points: from the center.
-    """
+    """Find the faces of a hull by its points from the center."""
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
     face, count = _coplanar(points, triangles, neighbors, double, least)

@@ -15,6 +15,7 @@ from math import atan2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..inertia.canonical_frame import frame_about
 from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import check_filled, float_array
 
@@ -26,28 +27,11 @@ ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # Relative to the corners' dist
 class Support:
     """The stand of a body on the ground, in the unit and the frame of its points.
 
-    Attributes
-    ----------
-    polygon : (k, 3) array
-        Corners of the support polygon on the ground, counter-clockwise seen from above; two of a line, one of a point.
-    foot : (3,) array
-        The point of the ground below the center of mass.
-    height : float
-        Of the center above the ground.
-    margin : float
-        Distance of the foot from the nearest edge, negative if the foot is outside the polygon.
-    direction : (3,) array
-        Unit vector on the ground: over the nearest edge, over which the body tips first or falls.
-    up : (3,) array
-        Unit vector against gravity.
-
-    Examples
-    --------
-    >>> from body_moments.core.statics import find_support
-    >>> corners = [[x, y, z] for x in (0.0, 4.0) for y in (0.0, 2.0) for z in (0.0, 1.0)]
-    >>> support = find_support(corners, center=[1.5, 1.5, 0.5])
-    >>> support.stands, support.margin, support.direction.tolist(), round(support.tipping_angle, 6)
-    (True, 0.5, [0.0, 1.0, 0.0], 0.785398)
+    `polygon`: (k, 3) corners of the support polygon, counter-clockwise from above; two of a line, one of a point.
+    `foot`: the point of the ground below the center of mass; `height` of the center above it.
+    `margin`: distance of the foot from the nearest edge, negative if it is outside the polygon.
+    `direction`: unit vector on the ground, over the nearest edge, over which the body tips first or falls.
+    `up`: unit vector against gravity.
     """
 
     polygon: NDArray[np.float64]
@@ -59,10 +43,7 @@ class Support:
 
     @property
     def stands(self) -> bool:
-        """True if the foot is inside the polygon.
-
-        A body balanced on an edge, a line or a point does not stand.
-        """
+        """True if the foot is inside the polygon; a body balanced on an edge, a line or a point does not stand."""
         return self.margin > 0.0
 
     @property
@@ -72,22 +53,9 @@ class Support:
 
 
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
-    """Return two directions on the ground and the one up, as columns of a (3, 3) rotation.
-
-    `down` is the direction of gravity, of any length but zero.
-
-    Examples
-    --------
-    >>> from body_moments.core.statics.support import ground_axes
-    >>> ground_axes([0.0, 0.0, -9.81])[:, 2].tolist()
-    [0.0, 0.0, 1.0]
-    """
+    """Return two directions on the ground and the one up, as columns of a rotation, by the direction of gravity."""
     up = -float_array("down", down, 3)
-    up = up / float(np.linalg.norm(up))
-    first = np.eye(3)[np.argmin(np.abs(up))]
-    first = first - (first @ up) * up
-    first = first / float(np.linalg.norm(first))
-    return np.stack([first, np.cross(up, first), up], axis=1).astype(np.float64)
+    return frame_about(up / float(np.linalg.norm(up)))
 
 
 def find_support(
@@ -127,16 +95,9 @@ def find_support(
 
 
 def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0)) -> Support:
-    """Find the support polygon of given contact points, at whatever heights: hands on a wall, feet on stairs.
+    """Find the support polygon of (n, 3) contact points, at whatever heights: hands on a wall, feet on stairs.
 
-    It lies on the ground through the lowest contact, of (n, 3), at least one; their projections along gravity count.
-
-    Examples
-    --------
-    >>> from body_moments.core.statics.support import support_of_contacts
-    >>> support = support_of_contacts([[0, 0, 0], [2, 0, 1], [0, 2, 0]], center=[3.0, -1.0, 2.0])
-    >>> support.stands, round(support.margin, 6)
-    (False, -1.414214)
+    It lies on the ground through the lowest contact; their projections along gravity count.
     """
     center = np.asarray(center, np.float64)
     axes = ground_axes(down)

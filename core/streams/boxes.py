@@ -9,17 +9,14 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError, finding
-from .findings import AT_TRIANGLE, AT_VERTEX, NON_FINITE_COORDINATES
+from .findings import AT_ROW, NON_FINITE_COORDINATES
 
 
 class BoxOfBlocks:
-    """Bounding box of blocks, which grows block by block.
+    """Bounding box of blocks, which grows block by block. element: "triangle" or "vertex", the meaning of a row."""
 
-    place: "triangle" or "vertex", the meaning of a row of a block.
-    """
-
-    def __init__(self, place: str) -> None:
-        self._place = place
+    def __init__(self, element: str) -> None:
+        self._element = element
         self._low, self._high = np.full(3, np.inf), np.full(3, -np.inf)
         self._rows = self._bad = self._first = 0
 
@@ -43,12 +40,8 @@ class BoxOfBlocks:
         return not self._bad
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and the largest coordinates, zero if there are none.
-
-        Raises FileError if some are not finite.
-        """
+        """Return the least and the largest coordinates, zero if there are none; FileError if some are not finite."""
         if self._bad:
-            is_triangle = self._place == "triangle"
-            place = finding(AT_TRIANGLE if is_triangle else AT_VERTEX, **{self._place: self._first})
+            place = finding(AT_ROW, element=self._element, row=self._first)
             raise FileError(NON_FINITE_COORDINATES, count=self._bad, place=place.as_record())
         return (self._low, self._high) if self._rows else (np.zeros(3), np.zeros(3))

@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from ..mesh.boundary import BoundarySum
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
-from ..numerics.arguments import check_type
 from ..polyhedron.integration import polyhedron_moments
 from ..polyhedron.third_order import box_center
 from ..verdict.finding import FileError
-from .findings import FILE_WITHOUT_FACES
+from .findings import FILE_WITHOUT_OBJECTS
 from .mesh_file import MeshFile
 
 MAX_REACH_RATIO = 2.0  # reach of a body relative to its first faces, at most
@@ -25,24 +24,10 @@ MAX_REACH_RATIO = 2.0  # reach of a body relative to its first faces, at most
 
 @dataclass(frozen=True, eq=False)
 class StreamIntegrals:
-    """Integrals of a mesh that was read in blocks.
+    """Integrals of a mesh that was read in blocks, as its faces are, about the center of the bounding box.
 
-    Attributes
-    ----------
-    volume, area : Moments
-        As the faces are, about the center of the bounding box: if they do not close, the volume depends on it.
-    closed : bool
-        True if every edge is used as often one way as the other, by their hashes (`BoundarySum`).
-    face_count : int
-        Triangles and quads that were measured.
-
-    Examples
-    --------
-    >>> from body_moments.core.moments import Moments
-    >>> from body_moments.core.streams import StreamIntegrals
-    >>> nothing = Moments(np.zeros(1), np.zeros(3))
-    >>> StreamIntegrals(nothing, nothing, True, 0).closed
-    True
+    closed: True if every edge is used as often one way as the other, by their hashes (`BoundarySum`); the volume of an
+    open mesh depends on the center. face_count: triangles and quads that were measured.
     """
 
     volume: Moments
@@ -58,47 +43,12 @@ def measure_stream(
     threads: int = 1,
     progress: Callable[[int], None] | None = None,
 ) -> StreamIntegrals:
-    """Measure a mesh that is larger than memory.
+    """Measure a mesh that is larger than memory, to orders of the volume's and the area's moments.
 
     Its moments are about the center of the bounding box: of all vertices of a .ply; of another file, of a thousand
-    faces all over it, if the mesh does not reach much farther. Then it is read twice.
-
-    Parameters
-    ----------
-    mesh : MeshFile
-    order, area_order : int
-        Of the moments of the volume and of the area.
-    threads : int
-    progress : callable, optional
-        Called with how many faces have been read since the last time.
-
-    Returns
-    -------
-    StreamIntegrals
-
-    Raises
-    ------
-    FileError
-        If the file is damaged, or coordinates are not finite.
-    MeasureError
-        If a moment is beyond the range of numbers.
-
-    Examples
-    --------
-    >>> import struct, tempfile
-    >>> from pathlib import Path
-    >>> from body_moments.core.streams import StreamIntegrals, measure_stream, open_mesh_file
-    >>> points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
-    >>> facets = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    >>> data = [struct.pack("<12f2x", 0, 0, 0, *(x for k in facet for x in points[k])) for facet in facets]
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder) / "tetrahedron.stl"
-    ...     _ = path.write_bytes(struct.pack("<80xI", 4) + b"".join(data))
-    ...     found = measure_stream(open_mesh_file(path))
-    >>> isinstance(found, StreamIntegrals), found.closed, round(found.volume.total * 6, 12)
-    (True, True, 1.0)
+    faces all over it, if the mesh does not reach much farther. Then it is read twice. FileError if the file is damaged,
+    or coordinates are not finite. progress: called with the count of faces read since the last time.
     """
-    check_type("mesh", mesh, MeshFile)
     for find_box in (mesh.sampled_box, mesh.box):
         stream = _Stream(mesh, *find_box(), progress)
         try:
@@ -114,7 +64,7 @@ def measure_stream(
         except _FarPiece:
             continue
         if not stream.face_count:
-            raise FileError(FILE_WITHOUT_FACES)
+            raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
         return StreamIntegrals(volume, area, stream.boundary.is_zero, stream.face_count)
     raise AssertionError("piece outside its box")
 

@@ -12,9 +12,9 @@ import re
 from pathlib import Path
 from typing import NoReturn
 
-from ..verdict.finding import FileError, Finding, finding
+from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
-from .findings import FIELD_COUNT, FIELD_NOT_NUMBER, FIELD_NOT_WHOLE, LINE_MISREAD
+from .findings import LINE_MISREAD
 
 MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
 MAX_TEXT = 60  # letters of a line that are shown
@@ -26,7 +26,11 @@ SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
 _NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # forms that C prints
 
+# Words for the field that a line should have.
+NUMBER, WHOLE, VERTEX = "a finite decimal number", "a whole number", "the number of an existing vertex"
+COUNT = "a line with more or fewer numbers"
 Data = mmap.mmap | bytes
+Fault = tuple[str, str]  # the text of a line, and the word for the text that should stand there
 
 
 def map_file(path: str | Path) -> mmap.mmap:
@@ -35,7 +39,7 @@ def map_file(path: str | Path) -> mmap.mmap:
         return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
 
 
-def find_number_fault(word: bytes, places_point: bool) -> Finding | None:
+def find_number_fault(word: bytes, places_point: bool) -> Fault | None:
     """Return why a word is no number, or None. Only numbers that place a point must be finite in float32."""
     try:
         value = parse_number(word.decode("utf-8", "replace"))
@@ -43,21 +47,21 @@ def find_number_fault(word: bytes, places_point: bool) -> Finding | None:
         is_number = not places_point and _NOT_FINITE.fullmatch(word) is not None
     else:
         is_number = not places_point or abs(value) < MAX_FLOAT32
-    return None if is_number else finding(FIELD_NOT_NUMBER, text=shorten(word))
+    return None if is_number else (shorten(word), NUMBER)
 
 
-def find_whole_fault(word: bytes) -> Finding | None:
+def find_whole_fault(word: bytes) -> Fault | None:
     """Return why a word is no whole number, or None."""
     try:
         parse_whole(word.decode("utf-8", "replace"))
     except ValueError:
-        return finding(FIELD_NOT_WHOLE, text=shorten(word))
+        return shorten(word), WHOLE
     return None
 
 
-def count_fault(words: list[bytes]) -> Finding:
-    """Return the finding about a line with too few or too many fields."""
-    return finding(FIELD_COUNT, text=shorten(b" ".join(words)))
+def count_fault(words: list[bytes]) -> Fault:
+    """Return the fault of a line with too few or too many fields."""
+    return shorten(b" ".join(words)), COUNT
 
 
 def shorten(text: bytes) -> str:
@@ -65,7 +69,7 @@ def shorten(text: bytes) -> str:
     return text[: 4 * MAX_TEXT].decode("utf-8", "replace")[:MAX_TEXT]
 
 
-def refuse_line(data: Data, at: int, fault: Finding) -> NoReturn:
+def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
     """Raise the FileError about the line that holds a place."""
     line = 1 + sum(data[start : min(start + BLOCK, at)].count(b"\n") for start in range(0, at, BLOCK))
-    raise FileError(LINE_MISREAD, line=line, cause=fault.as_record())
+    raise FileError(LINE_MISREAD, line=line, text=fault[0], expected=fault[1])

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface, normals
-from ..scans.findings import FILE_DAMAGED
-from ..verdict.finding import FileError, finding
+from ..scans.findings import FILE_UNRECOGNIZED
+from ..scans.scan import damaged
+from ..verdict.finding import FileError
 from .boxes import BoxOfBlocks
-from .findings import DAMAGE_PLY_HEADER, DAMAGE_PLY_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS, PLY_CONCAVE_POLYGONS
+from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS, PLY_CONCAVE_POLYGONS
 from .misread import map_file
 from .ply_header import INDICES, MAX_HEADER, Element, Header, parse_header
 from .ply_rows import RowReader, RowsError
@@ -37,12 +38,12 @@ class PlyFile:
             self._header = header = parse_header(start)
             for element in header.elements:
                 if element.rows * _least_bytes(element, header.order) > path.stat().st_size:
-                    raise self._damaged(DAMAGE_PLY_ROWS, name=element.name, count=element.rows)
+                    raise damaged(self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows)
             self._faces, self._column = _faces_of(header)
             self.face_count = self._faces.rows
             self._points = self._read_points()
         except (ValueError, KeyError, IndexError) as error:
-            raise self._damaged(DAMAGE_PLY_HEADER) from error
+            raise FileError(FILE_UNRECOGNIZED, format="PLY") from error
 
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
@@ -64,7 +65,7 @@ class PlyFile:
             first, last = int(corners.min()), int(corners.max()) + 1
             whole = given.dtype.kind != "f" or np.array_equal(corners, given)
             if not whole or not 0 <= first < last <= len(self._points):
-                raise self._damaged(DAMAGE_PLY_INDEX, vertices=len(self._points))
+                raise damaged(self._path, DAMAGE_INDEX, vertices=len(self._points))
             yield self._piece(corners, first, last)
 
     def _piece(self, corners: NDArray[np.integer], first: int, last: int) -> Surface:
@@ -114,12 +115,9 @@ class PlyFile:
                         if element is wanted:
                             yield block
                 except RowsError as error:
-                    raise self._damaged(DAMAGE_PLY_ROWS, name=element.name, count=element.rows) from error
+                    raise damaged(self._path, DAMAGE_PLY_ROWS, name=element.name, count=element.rows) from error
                 if element is wanted:
                     return
-
-    def _damaged(self, code: str, **values: object) -> FileError:
-        return FileError(FILE_DAMAGED, file=self._path.name, cause=finding(code, **values).as_record())
 
 
 def _faces_of(header: Header) -> tuple[Element, int]:
@@ -128,7 +126,7 @@ def _faces_of(header: Header) -> tuple[Element, int]:
         for number, one in enumerate(element.properties):
             if element.name == "face" and one.name in INDICES and one.counter:
                 return element, number
-    raise FileError(FILE_WITHOUT_OBJECTS, suffix=".ply")
+    raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
 
 
 def _least_bytes(element: Element, order: str) -> int:

@@ -55,10 +55,7 @@ class Header:
 
 
 def parse_header(data: bytes) -> Header:
-    """Return the header at the start of a file.
-
-    Raises ValueError, KeyError or IndexError if there is none, or it makes no sense.
-    """
+    """Return the header at the start of a file. ValueError, KeyError or IndexError if there is none."""
     end = END.search(data)
     if end is None or not data.startswith(b"ply"):
         raise ValueError("no header")

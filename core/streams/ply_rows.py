@@ -33,10 +33,7 @@ class RowReader:
         self._text = b""
 
     def read_rows(self, element: Element) -> Iterator[list[NDArray]]:
-        """Yield the rows of the next element in blocks of one length: for each property (n,) numbers, or (n, k) lists.
-
-        All of them must be taken.
-        """
+        """Yield the next element in blocks of equally long rows, all to be taken: (n,) numbers or (n, k) lists."""
         left = element.rows if element.properties else 0
         while left:
             lengths = self._lengths(element.properties)

@@ -11,14 +11,14 @@ import re
 
 import numpy as np
 
-from ..verdict.finding import Finding, finding
-from .findings import FIELD_NOT_VERTEX
 from .misread import (
     BLOCK,
     SHORT,
     SHORT_OR_NAN,
     SHORT_WHOLE,
+    VERTEX,
     Data,
+    Fault,
     count_fault,
     find_number_fault,
     find_whole_fault,
@@ -88,7 +88,7 @@ class _Rows:
             refuse_line(self._data, start, fault)
         return line
 
-    def _find_fault(self, words: list[bytes]) -> Finding | None:
+    def _find_fault(self, words: list[bytes]) -> Fault | None:
         left = iter(words)
         for one in self._properties:
             count = 1
@@ -106,13 +106,13 @@ class _Rows:
                 return next(filter(None, faults))
         return count_fault(words) if next(left, None) is not None else None
 
-    def _find_field_fault(self, one: Property, word: bytes) -> Finding | None:
+    def _find_field_fault(self, one: Property, word: bytes) -> Fault | None:
         if not _is_whole(one):
             return find_number_fault(word, self._places and one.name in ("x", "y", "z"))
         fault = find_whole_fault(word)
         is_index = self._is_face and one.name in INDICES
         if fault is None and is_index and not 0 <= int(word) < self._vertex_count:
-            return finding(FIELD_NOT_VERTEX, text=shorten(word))
+            return shorten(word), VERTEX
         return fault
 
 

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError
 from .boxes import BoxOfBlocks
-from .findings import STL_CUT_SHORT, STL_SIZE
+from .findings import STL_CUT_SHORT
 from .misread import map_file
-from .stl_text import check_stl_text
+from .stl_text import BY_COUNT, BY_WORD, check_stl_text
 
 HEAD, RECORD = 84, 50  # bytes before the triangles, and of each
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
@@ -37,7 +37,7 @@ NUMBERS = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
 class StlFile:
-    """The triangles of an .stl file."""
+    """The triangles of an .stl file. face_count: for a text an estimate. is_loose: no two triangles share a point."""
 
     is_loose = True
 
@@ -49,7 +49,7 @@ class StlFile:
         count = int.from_bytes(head[80:84], "little")
         self._binary = len(head) == HEAD and size == HEAD + RECORD * count
         if not self._binary and not head.lstrip().lower().startswith(b"solid"):
-            raise FileError(STL_SIZE)
+            raise FileError(STL_CUT_SHORT, end=BY_COUNT)
         if not self._binary:
             check_stl_text(map_file(path))
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
@@ -93,7 +93,7 @@ class StlFile:
             for start in range(0, len(corners), TRIANGLES_PER_BLOCK):
                 yield corners[start : start + TRIANGLES_PER_BLOCK]
         if not re.search(rb"endsolid", waiting, re.IGNORECASE):
-            raise FileError(STL_CUT_SHORT)
+            raise FileError(STL_CUT_SHORT, end=BY_WORD)
 
 
 def _parse(text: bytes) -> NDArray[np.float32]:

@@ -11,10 +11,11 @@ from __future__ import annotations
 import re
 from itertools import islice
 
-from ..verdict.finding import FileError, Finding, finding
-from .findings import FIELD_NOT_WORD, STL_CUT_SHORT
-from .misread import SHORT, SHORT_OR_NAN, Data, find_number_fault, refuse_line, shorten
+from ..verdict.finding import FileError
+from .findings import STL_CUT_SHORT
+from .misread import SHORT, SHORT_OR_NAN, Data, Fault, find_number_fault, refuse_line, shorten
 
+BY_COUNT, BY_WORD = "where its number of triangles does", "with “endsolid”"  # words for the end of a file
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
 _LOWER, _ANY_CASE = (
@@ -44,16 +45,16 @@ def check_stl_text(data: Data) -> None:
             if fault is not None:
                 refuse_line(data, word.start(), fault)
         if is_cut:
-            raise FileError(STL_CUT_SHORT)
+            raise FileError(STL_CUT_SHORT, end=BY_WORD)
         at = words[-1].end()
 
 
-def _find_fault(word: bytes, expected: str | bool, is_lower: bool) -> Finding | None:
+def _find_fault(word: bytes, expected: str | bool, is_lower: bool) -> Fault | None:
     if isinstance(expected, bool):
         return find_number_fault(word, expected)
     if expected.encode() in (word, word if is_lower and expected == "vertex" else word.lower()):
         return None
-    return finding(FIELD_NOT_WORD, text=shorten(word), expected=expected)
+    return shorten(word), "“{}”".format(expected)
 
 
 def _find_end(data: Data, at: int, facets: re.Pattern[bytes]) -> int:

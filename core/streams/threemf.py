@@ -15,16 +15,18 @@ import zlib
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from xml.parsers import expat
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scans.findings import FILE_EXCEEDS_LIMIT
+from ..scans.findings import DAMAGE_INCOMPLETE
 from ..scans.limits import DEFAULT_LIMITS, Limits
+from ..scans.scan import damaged
 from ..verdict.finding import FileError, system_reason
 from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
-from .findings import FILE_UNREADABLE, THREEMF_DAMAGED, THREEMF_EXTENSION, THREEMF_FIELD, THREEMF_INSTANCES
+from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, THREEMF_EXTENSION, THREEMF_FIELD
 
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_TEXT = 60  # letters of a wrong field that are shown
@@ -63,12 +65,13 @@ def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], 
     """
     try:
         with zipfile.ZipFile(path) as archive:
-            package = _Package(archive, limits)
-            return package.build()
+            return _Package(Path(path), archive, limits).build()
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, expat.ExpatError) as error:
-        raise FileError(THREEMF_DAMAGED, error=str(error).rstrip(".") or type(error).__name__) from error
+        reason = str(error).rstrip(".") or type(error).__name__
+        raise damaged(Path(path), DAMAGE_INCOMPLETE, kind="3MF file", error=reason) from error
     except (KeyError, ValueError, IndexError, OverflowError) as error:
-        raise FileError(THREEMF_DAMAGED, error="{}: {}".format(type(error).__name__, error)) from error
+        reason = "{}: {}".format(type(error).__name__, error)
+        raise damaged(Path(path), DAMAGE_INCOMPLETE, kind="3MF file", error=reason) from error
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
 
@@ -76,26 +79,20 @@ def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], 
 class _Package:
     """An open archive, and the parts of it that were read."""
 
-    def __init__(self, archive: zipfile.ZipFile, limits: Limits) -> None:
-        self._archive, self._limits, self._unpacked = archive, limits, 0
+    def __init__(self, path: Path, archive: zipfile.ZipFile, limits: Limits) -> None:
+        self._path, self._archive, self._limits, self._unpacked = path, archive, limits, 0
         entries = archive.infolist()
-        self._check("entries", len(entries))
+        limits.check(path, "entries", len(entries))
         self._names = {"/" + entry.filename.lstrip("/").lower(): entry for entry in entries}
         self._models: dict[str, _Model] = {}
         self._arrays: dict[tuple[str, str], tuple[NDArray, NDArray]] = {}
-
-    def _check(self, name: str, count: int) -> None:
-        limit = getattr(self._limits, name)
-        if count > limit:
-            values = {"name": name, "count": count, "limit": limit, "next": max(count, 2 * limit)}
-            raise FileError(FILE_EXCEEDS_LIMIT, file=posixpath.basename(self._archive.filename or ""), **values)
 
     def pieces(self, part: str) -> Iterator[bytes]:
         """Yield the bytes of a part, in pieces."""
         with self._archive.open(self._names[part.lower()]) as file:
             while piece := file.read(_BLOCK):
                 self._unpacked += len(piece)
-                self._check("unpacked_bytes", self._unpacked)
+                self._limits.check(self._path, "unpacked_bytes", self._unpacked)
                 yield piece
 
     def model(self, part: str) -> _Model:
@@ -131,7 +128,7 @@ class _Package:
         if key in above:
             raise ValueError("an object is a component of itself")
         if len(placed) >= MAX_INSTANCES or len(above) > 100:
-            raise FileError(THREEMF_INSTANCES, limit=MAX_INSTANCES)
+            raise FileError(FILE_TOO_LARGE, limit=MAX_INSTANCES, content="placed meshes")
         found = self.model(part).objects[identifier]
         name = name or found.name
         if len(found.triangles):
@@ -145,19 +142,18 @@ class _Package:
             points = np.frombuffer(found.points, np.float64).reshape(-1, 3)
             triangles = np.frombuffer(found.triangles, np.int64).reshape(-1, 3)
             if triangles.size and not (triangles.min() >= 0 and triangles.max() < len(points)):
-                raise ValueError("a triangle has a vertex that is not there")
+                raise damaged(self._path, DAMAGE_INDEX, vertices=len(points))
             self._arrays[key] = points, triangles
         return self._arrays[key]
 
 
 def _parser() -> expat.XMLParserType:
     def refuse(*_: object) -> None:
-        raise FileError(THREEMF_DAMAGED, error="it has a document type, which 3MF forbids")
+        raise NotImplementedError("a document type, which 3MF forbids")
 
     parser = expat.ParserCreate(namespace_separator=" ")
     parser.buffer_text = True
     parser.StartDoctypeDeclHandler = refuse
-    parser.EntityDeclHandler = refuse
     return parser
 
 
@@ -247,7 +243,3 @@ def _coordinate(text: str) -> float:
     if not abs(value) < 3.4e38:
         raise ValueError(text)
     return value
-
-
-def _index(text: str) -> int:
-    return parse_whole(text.strip(SPACES))

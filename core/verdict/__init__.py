@@ -9,11 +9,9 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    FileError="finding",
     Finding="finding",
     MeasureError="finding",
     Method="method",
-    QueryError="finding",
     Severity="finding",
     Source="method",
     Verdict="method",

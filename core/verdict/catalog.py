@@ -38,7 +38,6 @@ PACKAGES = (
     "core.verdict",
     "core.wall",
     "operators",
-    "panels",
 )
 
 

@@ -152,10 +152,7 @@ def system_reason(error: OSError) -> str:
 
 
 def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
-    """Return the first `limit` items of a list and the number of the remaining ones.
-
-    `count` is the number in all if `items` are only the first of them.
-    """
+    """Return the first `limit` items of a list and the number of the remaining ones, of `count` in all."""
     shown = items[:limit]
     return shown, max((count or len(items)) - len(shown), 0)
 
@@ -229,22 +226,8 @@ class EditRefusedError(MeasureError):
 
 
 class FileError(MeasureError):
-    """A file cannot be read or written.
-
-    Examples
-    --------
-    >>> from body_moments.core.verdict import FileError
-    >>> FileError("file_missing", subject="scan.nrrd").subject
-    'scan.nrrd'
-    """
+    """A file cannot be read or written."""
 
 
 class QueryError(MeasureError):
-    """A query without an answer: a name, a point, an order that does not exist.
-
-    Examples
-    --------
-    >>> from body_moments.core.verdict import QueryError
-    >>> QueryError("name_unknown", name="Cube").finding.values
-    {'name': 'Cube'}
-    """
+    """A query without an answer: a name, a point, an order that does not exist."""

@@ -5,6 +5,7 @@
 from .finding import error, note, warning
 
 NO_FACES = error("no_faces", "No faces. Add faces, or select another object.")
+OBJECT_TOO_LARGE = error("object_too_large", "Too large to be measured. Scale the object down.")
 OBJECT_TOO_SMALL = error("object_too_small", "Too small to be measured. Scale the object up.")
 FLIPPED_FACES = warning(
     "flipped_faces",
@@ -26,19 +27,6 @@ DEFECT_NON_MANIFOLD_EDGES = note("defect_non_manifold_edges", "{count} non-manif
 DEFECT_INCONSISTENT_EDGES = note(
     "defect_inconsistent_edges", "{count} edge with opposite normals", "{count} edges with opposite normals"
 )
-DEFECT_INVERTED_COMPONENTS = note(
-    "defect_inverted_components", "{count} inside-out component", "{count} inside-out components"
-)
-DEFECT_NESTED_COMPONENTS = note(
-    "defect_nested_components",
-    "{count} component inside another, counted twice",
-    "{count} components inside others, counted twice",
-)
-DEFECT_OVERLAPPING_COMPONENTS = note(
-    "defect_overlapping_components", "{count} overlapping component", "{count} overlapping components"
-)
-DEFECT_CAVITIES = note("defect_cavities", "{count} cavity", "{count} cavities")
 DEFECT_DUPLICATE_FACES = note("defect_duplicate_faces", "{count} duplicate face", "{count} duplicate faces")
 DEFECT_DEGENERATE_FACES = note("defect_degenerate_faces", "{count} zero-area face", "{count} zero-area faces")
-DEFECT_NON_PLANAR_FACES = note("defect_non_planar_faces", "{count} non-planar face", "{count} non-planar faces")
 DEFECT_FLIPPED_FACES = note("defect_flipped_faces", "{count} flipped face", "{count} flipped faces")

@@ -17,10 +17,7 @@ PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
-    """Return the finding of a refusal; of too little memory; else of an internal error.
-
-    An internal error names the failure and its place, after its traceback has gone to the console.
-    """
+    """Return the finding of a refusal or of too little memory; else of an internal error, after its traceback."""
     if isinstance(error, MeasureError):
         return error.finding
     if isinstance(error, MemoryError):

@@ -18,10 +18,7 @@ _WORD = re.compile("[^{}]+".format(SPACES))
 
 
 def parse_number(text: str) -> float:
-    """Return the value of a decimal number, or of NaN and INF as XML Schema has them.
-
-    Raise ValueError with the text if it is none.
-    """
+    """Return the value of a decimal number, or of NaN and INF as in XML Schema; ValueError with other text."""
     if not _is_number(text):
         raise ValueError(text)
     return float(text)

@@ -22,7 +22,6 @@ import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from . import findings
 from .catalog import declared
 from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
 from .findings import AND_MORE
@@ -42,11 +41,7 @@ def _item(item: Any, translate: Callable[[str], str]) -> str:
 
 
 def truncate_list(items: Elements, count: int | None = None, translate: Callable[[str], str] = str) -> str:
-    """Write the first items of a list, names in quotation marks, and how many more there are: “A”, “B”, and 3 more.
-
-    Items are names, numbers, or pairs of them; `count` is the number in all if `items` are only the first of them.
-    `translate` is applied to the template of the words around the items.
-    """
+    """Write the first names, numbers or pairs of a list, and how many more there are: “A”, “B”, and 3 more."""
     shown, more = truncate(items, MAX_LISTED, count)
     texts = [_item(item, translate) for item in shown]
     if more:
@@ -87,17 +82,25 @@ class _Formatter(string.Formatter):
         return "".join(text + (" " if text.endswith(".") else ", ") for text in texts[:-1]) + "".join(texts[-1:])
 
 
+def fill(
+    text: str,
+    plural: str | None,
+    values: Mapping[str, Any],
+    translate: Callable[[str], str] = str,
+    lengths: Callable[[float], str] | None = None,
+) -> str:
+    """Return a template, translated and then filled. plural: the template for a `count` other than 1."""
+    template = text if plural is None or values.get("count") == 1 else plural
+    return _Formatter(translate, lengths).vformat(translate(template), (), values)
+
+
 def sentence(
     finding: Finding, translate: Callable[[str], str] = str, lengths: Callable[[float], str] | None = None
 ) -> str:
-    """Return the sentence of a finding.
-
-    translate: applied to each template before it is filled. lengths: formats a length in meters, by default in meters.
-    """
+    """Return the sentence of a finding; templates are translated before they are filled, lengths are meters."""
     entry, values = declared(finding.code), finding.values
-    template = entry.text if entry.plural is None or values.get("count") == 1 else entry.plural
     elements = truncate_list(finding.elements, values.get("count"), translate)
-    text = _Formatter(translate, lengths).vformat(translate(template), (), {**values, "elements": elements})
+    text = fill(entry.text, entry.plural, {**values, "elements": elements}, translate, lengths)
     sources = values.get("sources")
     text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text
     return translate(ACCEPTED).format(text) if values.get("accepted") else text
@@ -140,11 +143,19 @@ def method_key(method: Method | None, walled: bool) -> str:
     return str(method) if str(method) in METHODS else method.verdict.value
 
 
-# Counts of the health record, as the text report and Select Defects name them: one, several.
+# Counts of the health record, as the text report names them: one, several.
 HEALTH = {
-    name.removeprefix("DEFECT_").lower(): tuple(text.removeprefix("{count} ") for text in (code.text, code.plural))
-    for name, code in vars(findings).items()
-    if name.startswith("DEFECT_")
+    "boundary_edges": ("boundary edge", "boundary edges"),
+    "non_manifold_edges": ("non-manifold edge", "non-manifold edges"),
+    "inconsistent_edges": ("edge with opposite normals", "edges with opposite normals"),
+    "inverted_components": ("inside-out component", "inside-out components"),
+    "nested_components": ("component inside another, counted twice", "components inside others, counted twice"),
+    "overlapping_components": ("overlapping component", "overlapping components"),
+    "cavities": ("cavity", "cavities"),
+    "duplicate_faces": ("duplicate face", "duplicate faces"),
+    "degenerate_faces": ("zero-area face", "zero-area faces"),
+    "non_planar_faces": ("non-planar face", "non-planar faces"),
+    "flipped_faces": ("flipped face", "flipped faces"),
 }
 # Relation of a shape to the one that it was compared with (an enum in core/shape).
 SIMILARITY = {
@@ -157,5 +168,3 @@ SIMILARITY = {
     "similar": "similar",
     "different": "different",
 }
-# Sides of a wall, for {side}.
-SIDES = {"inward": "inward", "outward": "outward", "centered": "centered"}

@@ -8,6 +8,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     OffsetSolid="walls",
     offset_solid="walls",
-    split_thickness="walls",
     wall_moments="moments",
 )

@@ -3,18 +3,16 @@
 """Offset directions: the movement of a surface's vertices if its faces move along their normals.
 
 Every vertex moves along a direction d that moves the planes of its faces by one: n·d = 1 for each normal n around it
-(Blender's Solidify calls that even thickness; on a cube it is the mitre). If three planes or fewer meet, that is solved
-exactly, by the shortest d; planes that differ by less than about one degree count as one, for d would have to run far
-along the crease between them to meet both. If more than three meet, there may be no such d: it is then the
-least-squares solution, each face weighed by its angle at the vertex, which does not depend on how flat faces are cut,
-and planes within about 15 degrees are taken as the round surface that they stand for: the vertex goes along their mean
-normal, and none of it slides along the surface. If that would run behind one of the faces, d is the direction most in
-front of all of them (found by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
+(Blender's Solidify calls that even thickness; on a cube it is the mitre). If at most three planes meet, the shortest
+such d is exact; planes within about one degree count as one, for d would have to run far along their crease. If more
+meet, there may be no such d: it is then the least-squares solution, each face weighed by its angle at the vertex, which
+does not depend on how flat faces are cut, and planes within about 15 degrees are the round surface that they stand for:
+the vertex goes along their mean normal. If that would run behind one of the faces, d is the direction most in front of
+all of them (by multiplicative weights, Arora, Hazan and Kale, Theory of Computing 8, 2012).
 
-Inside a flat side and along a straight edge a vertex may slide: that changes nothing of the planes. There d is made as
-even as it can be, Σ cot |d_i - d_j|² least, so that the finely cut sides of a thick-walled box do not fold over if its
-edges move inward: with the cotangent weights of Pinkall and Polthier (Experiment. Math. 2, 1993) the side shrinks as a
-whole.
+Inside a flat side and along a straight edge a vertex may slide without moving the planes. There d is as even as it can
+be, Σ cot |d_i - d_j|² least (Pinkall and Polthier, Experiment. Math. 2, 1993), so that the finely cut sides of a thick-
+walled box shrink as a whole, and do not fold over if its edges move inward.
 """
 
 from __future__ import annotations
@@ -42,12 +40,10 @@ SMOOTHING_STEPS, SMOOTHING_RTOL = 400, 1e-12  # steps, and what is left of the u
 
 @dataclass(frozen=True, eq=False)
 class OffsetDirections:
-    """Offset directions: the displacement of each vertex per unit of thickness.
+    """Offset directions, (n, 3) `vectors`: the displacement of each vertex per unit of thickness.
 
-    vectors: (n, 3), unit of the points per unit of thickness. tangential_error, normal_error: (2, n) bounds of the
-    vectors' changes by rounding, and by storing the points as float32, in all and along their faces' normals: to first
-    order, as long as the same planes are distinguished, and not for directions found as most in front. has_normal: (m,)
-    True for triangles with a known normal; others were ignored.
+    tangential_error, normal_error: (2, n) first-order bounds of their changes by rounding, and by storing the points as
+    float32, in all and along the normals, but for the most-in-front ones. has_normal: (m,) False for ignored triangles.
     """
 
     vectors: NDArray[np.float64]
@@ -64,10 +60,7 @@ def blocks(triangles: NDArray) -> Iterator[NDArray]:
 def offset_directions(
     points: NDArray[np.float64], triangles: NDArray[np.integer], stored: float = 0.0
 ) -> OffsetDirections:
-    """Return the direction of every vertex.
-
-    points: (n, 3) float64, triangles: (m, 3), stored: the bound of the points' displacement by storing them.
-    """
+    """Return the direction of every vertex of float64 points, which storing has moved by at most `stored`."""
     count = len(points)
     normals, angles, noise, solid = (
         np.concatenate(column)
@@ -97,10 +90,10 @@ def offset_directions(
     thinnest = 1.0 / np.sqrt(np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (n, 3) directions, (n,) the mean deviation of n·d from 1, and (n,) the sensitivity of d.
+        """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations, and sensitivities.
 
-        The directions lie across the planes spanned by the eigenvectors with eigenvalues above `least`. The sensitivity
-        is the movement of d per movement of the normals (Wedin, to first order).
+        The deviation is of n·d from 1, the sensitivity d's movement per movement of the normals (Wedin, to first
+        order).
         """
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
@@ -132,10 +125,9 @@ def offset_directions(
 
 
 def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
-    """Return the vectors, made even by conjugate gradients along the projections `free`, (n, 3, 3).
+    """Return the vectors made even by conjugate gradients along projections `free`, (n, 3, 3); boundary vertices stay.
 
-    Vertices of a boundary stay. Any outcome gives a valid wall: stopping early only makes it fold at a smaller
-    thickness.
+    Any outcome gives a valid wall: stopping early only makes it fold at a smaller thickness.
     """
     edges = find_edges(triangles)
     free[triangles.ravel()[edges.boundary_sides()]] = 0.0  # closed loops: each end of a side is a start
@@ -192,10 +184,7 @@ def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.fl
 def _maximin_direction(
     vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
 ) -> None:
-    """Replace the vectors of the vertices `behind` by ones farther in front of all their faces, if there are such.
-
-    low: (n,) the least n·d of each vertex now.
-    """
+    """Replace vectors of vertices `behind`, with least n·d `low`, (n,), by ones farther in front of all their faces."""
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
     corner_rows = np.flatnonzero(number[corner] >= 0)
@@ -220,10 +209,7 @@ def _maximin_direction(
 
 
 def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return unit normals (m, 3), angles (m, 3), turn bounds (m, 2), and an (m,) mask of existing normals.
-
-    They are those of (m, 3, 3) corners. The bounds are of the normals' turns by rounding and storing.
-    """
+    """Return unit normals (m, 3), angles (m, 3), bounds of turns (m, 2), and a mask of existing normals."""
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])
     double = np.linalg.norm(normal, axis=1)

@@ -17,8 +17,7 @@ WALL_INCONSISTENT_FACES = error(
 )
 WALL_PRECISION_LOST = error(
     "wall_precision_lost",
-    "{share:percent} of the area is in faces too small, so far from the origin, to have a direction in "
-    "float32. Model "
+    "{share:percent} of the area is in faces too small, so far from the origin, to have a direction in float32. Model "
     "nearer to the origin, or set Wall to Thin.",
 )
 WALL_MEASURED = note(

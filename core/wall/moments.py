@@ -63,9 +63,8 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     points = np.concatenate([wall.points - inward * wall.vectors, wall.points + outward * wall.vectors])
     sides = Surface(points, np.concatenate([wall.triangles[:, ::-1], wall.triangles + count]))
     moments = polyhedron_moments(sides, order, about=wall.about, allow_open=True)[0]
-    boundary = find_edges(wall.triangles).boundary_sides()
-    if len(boundary):
-        start, stop = wall.triangles.ravel()[boundary], np.roll(wall.triangles, -1, axis=1).ravel()[boundary]
+    start, stop = find_edges(wall.triangles).boundary_ends(wall.triangles)
+    if len(start):
         corners = np.stack([points[start], points[stop], points[stop + count], points[start + count]])
         moments = moments + _strip_moments(corners - wall.about, wall.about, order)
     reach = (wall.reach[0] + max(inward, outward) * wall.reach[1]) * (1.0 + 1e-9)

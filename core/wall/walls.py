@@ -107,21 +107,9 @@ class OffsetSolid:
     degenerate_triangles: int
 
     def moments(self, inward: float, outward: float) -> Moments:
-        """Return the volume moments to third order of a wall, about the middle of the surface's bounding box.
+        """Return a wall's volume moments to third order, about the middle of the surface's bounding box.
 
-        Parameters
-        ----------
-        inward, outward : float
-            How far the wall reaches below the surface and above it.
-
-        Returns
-        -------
-        Moments
-
-        Raises
-        ------
-        ValueError
-            If the wall folds over.
+        inward, outward: how far the wall reaches below the surface and above it. ValueError if it folds over.
         """
         if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
             raise ValueError("offset folds over")
@@ -141,7 +129,7 @@ class OffsetSolid:
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
     def self_intersects(self, inward: float, outward: float) -> bool:
-        """Return whether the wall's sides go through each other or themselves, or the walls of parts into one another.
+        """Return whether sides go through each other or themselves, or walls of parts into one another.
 
         Only a moved side is compared with itself. Intersections are found within bounds of time.
         """
@@ -156,16 +144,14 @@ class OffsetSolid:
         ) or self._overlaps(points, tolerance)
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
-        """Return whether the walls of parts reach into one another or themselves, even if no edge pierces a face.
+        """Return whether walls of parts reach into one another or themselves, even if no edge pierces a face.
 
-        Skins may have moved past each other, or be flush. Each wall is a closed body: both its sides and the strip
-        along its boundary.
+        Skins may have moved past each other, or be flush: the walls are compared as closed bodies.
         """
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )
-        boundary, count = find_edges(self.triangles).boundary_sides(), len(self.points)
-        start, stop = self.triangles.ravel()[boundary], np.roll(self.triangles, -1, axis=1).ravel()[boundary]
+        count, (start, stop) = len(self.points), find_edges(self.triangles).boundary_ends(self.triangles)
         triangles = np.concatenate(
             [
                 self.triangles[:, ::-1],
@@ -187,11 +173,9 @@ class OffsetSolid:
 
     def first_fold_location(self, side: str) -> NDArray[np.float64]:
         """Return the (3,) middle of the triangle that folds first on that side."""
-        at = {
-            "inward": self.inward_at,
-            "outward": self.outward_at,
-            "centered": self.inward_at if self.inward < self.outward else self.outward_at,
-        }[side]
+        at = (
+            self.inward_at if side == "inward" or side == "centered" and self.inward < self.outward else self.outward_at
+        )
         return self.points[self.triangles[at]].mean(axis=0)
 
     def max_thickness(self, side: str) -> float:
@@ -200,27 +184,9 @@ class OffsetSolid:
 
 
 def split_thickness(side: str, thickness: float) -> tuple[float, float]:
-    """Return how much of a thickness is inside the surface and outside.
-
-    Parameters
-    ----------
-    side : str
-        "inward", "outward" or "centered".
-    thickness : float
-
-    Returns
-    -------
-    inward, outward : float
-
-    Examples
-    --------
-    >>> from body_moments.core.wall import split_thickness
-    >>> split_thickness("centered", 0.5)
-    (0.25, 0.25)
-    """
-    return {"inward": (thickness, 0.0), "outward": (0.0, thickness), "centered": (thickness / 2.0, thickness / 2.0)}[
-        side
-    ]
+    """Return the parts of a thickness inside and outside the surface. side: "inward", "outward" or "centered"."""
+    share = {"inward": 1.0, "outward": 0.0, "centered": 0.5}[side]
+    return thickness * share, thickness * (1.0 - share)
 
 
 def offset_solid(surface: Surface) -> OffsetSolid:
@@ -322,14 +288,11 @@ def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integ
     used, number = np.unique(triangles, return_inverse=True)
     triangles = number.reshape(-1, 3)
     edges = find_edges(triangles)
-    crowded = edges.count > 2
-    if crowded.any():
-        pairs = used[vertex_pairs(triangles, edges.first[crowded])]
-        raise MeasureError(WALL_NON_MANIFOLD, elements=pairs, count=len(pairs))
     misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
-    if misoriented.any():
-        pairs = used[vertex_pairs(triangles, edges.first[misoriented])]
-        raise MeasureError(WALL_INCONSISTENT_FACES, elements=pairs, count=len(pairs))
+    for code, wrong in ((WALL_NON_MANIFOLD, edges.count > 2), (WALL_INCONSISTENT_FACES, misoriented)):
+        if wrong.any():
+            pairs = used[vertex_pairs(triangles, edges.first[wrong])]
+            raise MeasureError(code, elements=pairs, count=len(pairs))
     return surface.points[used].astype(np.float64), triangles
 
 
@@ -383,11 +346,10 @@ class _Prisms:
         return sums
 
     def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
-        """Return (3, 7) coefficients in s, summed over the prisms.
+        """Return (3, 7) coefficients in s, summed over the prisms: sizes of J and four zeros; two rows of changes.
 
-        First row: the sizes of J, three; the other four are zero. Second row: the change of J if directions move by
-        slide[0], (m,), and by lift[0] along the normals, three; and the sizes of J times the move of x, four. Third
-        row: the same if directions move by slide[1] and lift[1], and points by `stored`.
+        A change has three coefficients of J, and four of J's sizes times the move of x: if directions move by the first
+        row of the errors, and by the second with the points by `stored`.
         """
         sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
@@ -404,10 +366,7 @@ class _Prisms:
         return np.add.reduce(np.array(coefficients), axis=2) / 2.0
 
     def swept(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
-        """Return (4,) coefficients in s of the volume swept by the triangles and their images at s.
-
-        Points move by `stored` and directions by `tangential_error` in all and `normal_error` along the normals.
-        """
+        """Return (4,) coefficients in s of the volume swept as points and directions move by their errors."""
         unit = self.normals[0] / np.where(self.double > 0.0, self.double, 1.0)
         height = [np.einsum("im,im->m", normal, unit) for normal in self.normals]
         rest = [normal - along * unit for normal, along in zip(self.normals, height)]
@@ -428,12 +387,8 @@ class _Prisms:
 def _swept_by_strips(
     points: NDArray, vectors: NDArray, triangles: NDArray, stored: float, slide: float
 ) -> NDArray[np.float64]:
-    """Return (4,) coefficients in s of the volume swept by the strips along the boundary.
-
-    Points move by `stored` and directions by `slide`.
-    """
-    boundary = find_edges(triangles).boundary_sides()
-    start, stop = triangles.ravel()[boundary], np.roll(triangles, -1, axis=1).ravel()[boundary]
+    """Return (4,) coefficients in s of the volume that the strips along the boundary sweep, as `_Prisms.swept`."""
+    start, stop = find_edges(triangles).boundary_ends(triangles)
     ends = [np.linalg.norm(array[stop] - array[start], axis=1) for array in (points, vectors)]
     far = np.maximum(*(np.linalg.norm(vectors[end], axis=1) for end in (start, stop)))
     long, turned = (float((end * far).sum()) for end in ends)
@@ -443,10 +398,7 @@ def _swept_by_strips(
 def _propagate_error(
     bounds: NDArray, reach: tuple[NDArray, NDArray], blocks: int, stored: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`.
-
-    Every point is within reach[0] of the middle and every direction within reach[1], by axis.
-    """
+    """Return (20, 6) and (20, 6) `rounding_error` and `input_error` from the sums of `_Prisms.bounds`."""
     place, step = reach[0] + stored, reach[1]
 
     def times(row: NDArray, exponents: list[int]) -> NDArray[np.float64]:
@@ -470,11 +422,10 @@ def _propagate_error(
 
 
 def first_positive_root(jacobian: NDArray, error: NDArray) -> NDArray[np.float64]:
-    """Return (m,) the s up to which three quadratics a + b s + c s² are certainly positive, infinite if always.
+    """Return (m,) the s up to which three quadratics, a y² + b y + c with y = 1 / s, are certainly positive.
 
-    jacobian: (3, 3, m) their coefficients a, b and c; error: (3, m) the bounds of their rounding, which are taken off.
-    A discriminant that rounding alone may have made negative counts as zero. The largest root of
-    a y² + b y + c is 1 / s.
+    jacobian: (3, 3, m) their a, b and c; error: (3, m) bounds of their rounding. Discriminants that rounding may have
+    made negative are zero.
     """
     a, b, c = jacobian - error[:, None]
     dead = ~(a > 0.0)

@@ -14,12 +14,10 @@ from ...core.verdict.sentences import of_severity
 from .. import selection
 from ..findings import (
     ASSEMBLY_MEASURED,
-    CANCELED_MEASURING,
     MEMBERS_NOT_STORED,
     NO_ACTIVE_ASSEMBLY_EMPTY,
     NO_ACTIVE_COLLECTION,
     NO_RESULTS_TO_REMOVE,
-    PROGRESS_MEASURING,
     RESULTS_REMOVED,
 )
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
@@ -63,8 +61,8 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
     bl_idname = "object.body_moments_measure_assembly"
     bl_label = "Measure Assembly"
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_MEASURING)
-    CANCELED = finding(CANCELED_MEASURING)
+    PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
+    CANCELED = "Measuring canceled; nothing was changed"
 
     target: TARGET
 

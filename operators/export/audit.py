@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """File > Import > Robot Description for Audit: a text with its errors, and on request a repaired copy."""
 
-from __future__ import annotations
-
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -13,15 +12,16 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
 from ...command.findings import AUDIT_DONE, AUDIT_NOT_WRITTEN
+from ...core import robots
 from ...core.files.whole_file import whole_file
-from ...core.robots.audit import Audit, Auditor
-from ...core.robots.read.descriptions import SUFFIXES, read_description
-from ...core.robots.read.paths import Roots
-from ...core.robots.repair import repaired_copy
-from ...core.robots.write import audit_report
-from ...core.verdict.finding import FileError, Finding, MeasureError, Severity, finding, system_reason
+from ...core.robots import read, write
+from ...core.robots.formats import AUDITED_SUFFIXES
+from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from .. import selection
 from ..findings import AUDIT_TEXT, FILE_EXISTS
+
+if TYPE_CHECKING:
+    from ...core.robots.audit import Audit
 
 
 class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
@@ -31,7 +31,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     bl_label = "Audit Robot Description"
     bl_options = {"REGISTER", "UNDO"}
 
-    filter_glob: StringProperty(default=";".join("*" + end for end in SUFFIXES), options={"HIDDEN"})
+    filter_glob: StringProperty(default=";".join("*" + end for end in AUDITED_SUFFIXES), options={"HIDDEN"})
     root: StringProperty(
         name="Mesh Folder",
         description="A folder that meshes may be in, besides that of the file and of its package",
@@ -54,30 +54,26 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         return {"FINISHED"}
 
     def _audit(self, path: Path) -> list[Finding]:
-        roots = Roots.for_file(path, [Path(bpy.path.abspath(self.root))] if self.root else [], self.allow_outside)
-        audit = Auditor(roots).audit(read_description(path, roots))
+        folders = [Path(bpy.path.abspath(self.root))] if self.root else []
+        roots = read.paths.Roots.for_file(path, folders, self.allow_outside)
+        audit = robots.audit.Auditor(roots).audit(read.descriptions.read_description(path, roots))
         copy = self._write_copy(path, audit) if self.write_copy else None
-        links = [
-            audit_report.link_entry(found.link, found.findings, found.repaired, found.density) for found in audit.links
-        ]
-        document = audit_report.document(str(path), audit.description, links, copy)
+        document = write.audit_report.document(str(path), audit, copy)
         if self.write_page:
-            _write(path.with_name(path.name + ".audit.html"), audit_report.to_html([document]).encode("utf-8"))
+            _write(path.with_name(path.name + ".audit.html"), write.audit_report.to_html([document]).encode("utf-8"))
         text = bpy.data.texts.new("Audit of {}".format(path.name))
-        text.write(audit_report.to_text(document))
+        text.write(write.audit_report.to_text(document))
         text.cursor_set(0)
-        levels = [found["severity"] for link in links for found in link["findings"]]
-        counts = {str(level) + "s": levels.count(level) for level in Severity}
-        return [finding(AUDIT_DONE, links=len(links), **counts), finding(AUDIT_TEXT, text=text.name)]
+        return [finding(AUDIT_DONE, **write.audit_report.count_findings(document)), finding(AUDIT_TEXT, text=text.name)]
 
-    def _write_copy(self, path: Path, audit: Audit) -> str | None:
-        repairs = [(found.link, found.repaired) for found in audit.links if found.repaired is not None]
+    def _write_copy(self, path: Path, audit: "Audit") -> str | None:
+        repairs = audit.repairs()
         if not repairs:
             return None
         target = path.with_name("{}_repaired{}".format(path.stem, path.suffix))
         if target.exists():
             raise FileError(FILE_EXISTS, file=target.name)
-        _write(target, repaired_copy(audit.description, repairs))
+        _write(target, robots.repair.repaired_copy(audit.description, repairs))
         return str(target)
 
 

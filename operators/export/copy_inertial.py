@@ -9,19 +9,14 @@ from bpy.types import Context, Operator
 
 from ...blender.session.robots import object_links
 from ...blender.write import reports
-from ...core.robots.write.formats import robot_text
+from ...core.robots.formats import FORMATS
+from ...core.robots.write.texts import robot_text
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
 from ..findings import ROBOT_COPIED
 from ..measure.copy import copy_text
 
-FORMATS = (
-    ("urdf", "URDF", "Tensor along the axes of the object"),
-    ("sdf", "SDF", "Diagonal tensor in a rotated inertial frame"),
-    ("mjcf", "MJCF", "Principal moments and a quaternion"),
-    ("usd", "USD", "PhysicsMassAPI and NewtonMassAPI"),
-    ("gltf", "glTF", "KHR_physics_rigid_bodies and OMI_physics_body, with y up"),
-)
+ITEMS = tuple((form.name, form.short, form.copy_tip) for form in FORMATS.values())
 
 
 class OBJECT_OT_body_moments_copy_inertial(Operator):
@@ -31,7 +26,7 @@ class OBJECT_OT_body_moments_copy_inertial(Operator):
     bl_label = "Copy Inertial"
     bl_options = {"REGISTER"}
 
-    format: EnumProperty(name="Format", description="What reads the text", items=FORMATS, default="urdf")
+    format: EnumProperty(name="Format", description="What reads the text", items=ITEMS, default="urdf")
 
     @classmethod
     def poll(cls, context: Context) -> bool:

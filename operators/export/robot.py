@@ -22,14 +22,14 @@ from ...blender.session.robots import SceneLinks
 from ...blender.write import reports
 from ...core.files.whole_file import whole_file
 from ...core.robots.findings import ROBOT_SCALED
+from ...core.robots.formats import FORMATS, RobotFormat
 from ...core.robots.write import gltf, usd
-from ...core.robots.write.formats import robot_text, with_geometry
 from ...core.robots.write.shapes import with_primitives
+from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding, system_reason
 from ...core.verdict.sentences import sentence
 from .. import selection
 from ..findings import (
-    POLL_OBJECT_MODE,
     ROBOT_EXPORTED,
     ROBOT_GEOMETRY_NOT_WRITTEN,
     ROBOT_NAMES_ALIKE,
@@ -54,7 +54,7 @@ GEOMETRY = (
 
 
 class RobotExport(ExportHelper):
-    """The common base of the exporters. FORMAT: of `WRITERS`."""
+    """The common base of the exporters. FORMAT: a name of the table of formats."""
 
     FORMAT = ""
     bl_options = {"REGISTER", "PRESET"}
@@ -72,7 +72,7 @@ class RobotExport(ExportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -127,36 +127,6 @@ class RobotExport(ExportHelper):
         column.prop(self, "geometry")
 
 
-class EXPORT_SCENE_OT_body_moments_urdf(RobotExport, Operator):
-    """Export objects as links of a robot in URDF, with their exact mass, center and inertia"""
-
-    bl_idname = "export_scene.body_moments_urdf"
-    bl_label = "Export URDF"
-    FORMAT = "urdf"
-    filename_ext = ".urdf"
-    filter_glob: StringProperty(default="*.urdf", options={"HIDDEN"})
-
-
-class EXPORT_SCENE_OT_body_moments_sdf(RobotExport, Operator):
-    """Export objects as links of a model in SDFormat, with their exact mass, center and inertia"""
-
-    bl_idname = "export_scene.body_moments_sdf"
-    bl_label = "Export SDF"
-    FORMAT = "sdf"
-    filename_ext = ".sdf"
-    filter_glob: StringProperty(default="*.sdf", options={"HIDDEN"})
-
-
-class EXPORT_SCENE_OT_body_moments_mjcf(RobotExport, Operator):
-    """Export objects as bodies of a model for MuJoCo, with their exact mass, center and inertia"""
-
-    bl_idname = "export_scene.body_moments_mjcf"
-    bl_label = "Export MJCF"
-    FORMAT = "mjcf"
-    filename_ext = ".xml"
-    filter_glob: StringProperty(default="*.xml", options={"HIDDEN"})
-
-
 class GeometryExport(RobotExport):
     """Base of exporters that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
@@ -184,14 +154,8 @@ class GeometryExport(RobotExport):
             raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=exporter)
 
 
-class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
-    """Export the geometry as Blender does, and a layer of text that gives it the exact mass, center and inertia"""
-
-    bl_idname = "export_scene.body_moments_usd"
-    bl_label = "Export USD Physics"
-    FORMAT = "usd"
-    filename_ext = ".usda"
-    filter_glob: StringProperty(default="*.usda", options={"HIDDEN"})
+class UsdExport(GeometryExport):
+    """Base of the exporter whose layer of masses lies over Blender's layer."""
 
     def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
         robot, findings = made.robot, made.findings
@@ -213,21 +177,18 @@ class EXPORT_SCENE_OT_body_moments_usd(GeometryExport, Operator):
         return findings
 
 
-class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
-    """Export glTF as Blender does, with rigid bodies of the exact mass, center and inertia in it"""
-
-    bl_idname = "export_scene.body_moments_gltf"
-    bl_label = "Export glTF with Rigid Bodies"
-    FORMAT = "gltf"
-    filename_ext = ".glb"
-    filter_glob: StringProperty(default="*.glb", options={"HIDDEN"})
+class GltfExport(GeometryExport):
+    """Base of the exporter that adds bodies to the file of Blender's exporter."""
 
     def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
         findings = made.findings
         options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()
-        document = gltf.read_json(data)
+        try:
+            document = gltf.read_json(data)
+        except ValueError as error:
+            raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=path.name) from error
         findings += gltf.add_rigid_bodies(document, made.robot, made.unit)
         with whole_file(path) as file:
             file.write(gltf.replace_json(data, document))
@@ -237,30 +198,34 @@ class EXPORT_SCENE_OT_body_moments_gltf(GeometryExport, Operator):
         return gltf.to_glb(text) if path.suffix.lower() == ".glb" else text.encode("utf-8")
 
 
-EXPORTERS = (
-    EXPORT_SCENE_OT_body_moments_urdf,
-    EXPORT_SCENE_OT_body_moments_sdf,
-    EXPORT_SCENE_OT_body_moments_mjcf,
-    EXPORT_SCENE_OT_body_moments_usd,
-    EXPORT_SCENE_OT_body_moments_gltf,
-)
-LABELS = ("URDF", "SDF", "MuJoCo (MJCF)", "USD with Mass Properties", "glTF with Rigid Bodies")
+BASES = {"usd": UsdExport, "gltf": GltfExport}  # The other formats are files of our own alone.
 
 
-def _file_handler(exporter: type[RobotExport], label: str) -> type[FileHandler]:
+def _exporter(form: RobotFormat) -> type[RobotExport]:
+    """Return the exporter of a format."""
+    members = {
+        "FORMAT": form.name,
+        "bl_idname": "export_scene.body_moments_" + form.name,
+        "bl_label": form.export_label,
+        "bl_description": form.export_tip,
+        "filename_ext": form.suffix,
+        "__annotations__": {"filter_glob": StringProperty(default="*" + form.suffix, options={"HIDDEN"})},
+    }
+    bases = BASES.get(form.name, RobotExport), Operator
+    return type("EXPORT_SCENE_OT_body_moments_" + form.name, bases, members)
+
+
+def _file_handler(form: RobotFormat) -> type[FileHandler]:
     """Return the file handler that makes an exporter a collection exporter."""
-    name = "IO_FH_body_moments_{}".format(exporter.FORMAT)
+    name = "IO_FH_body_moments_{}".format(form.name)
     members = {
         "bl_idname": name,
-        "bl_label": label,
-        "bl_export_operator": exporter.bl_idname,
-        "bl_file_extensions": exporter.filename_ext,
+        "bl_label": form.label,
+        "bl_export_operator": "export_scene.body_moments_" + form.name,
+        "bl_file_extensions": form.suffix,
         "poll_drop": classmethod(lambda _cls, _context: False),
     }
     return type(name, (FileHandler,), members)
-
-
-FILE_HANDLERS = tuple(_file_handler(exporter, label) for exporter, label in zip(EXPORTERS, LABELS))
 
 
 class TOPBAR_MT_body_moments_export(Menu):
@@ -270,9 +235,9 @@ class TOPBAR_MT_body_moments_export(Menu):
     bl_label = "Mass Properties"
 
     def draw(self, _context: Context) -> None:
-        for exporter, label in zip(EXPORTERS, LABELS):
-            text = "{} ({})".format(label, exporter.filename_ext)
-            self.layout.operator(exporter.bl_idname, text=text, translate=False)
+        for form in FORMATS.values():
+            text = "{} ({})".format(form.label, form.suffix)
+            self.layout.operator("export_scene.body_moments_" + form.name, text=text, translate=False)
         self.layout.separator()
         self.layout.operator_menu_enum(OBJECT_OT_body_moments_copy_inertial.bl_idname, "format")
 
@@ -281,7 +246,11 @@ def _menu(menu: Menu, _context: Context) -> None:
     menu.layout.menu(TOPBAR_MT_body_moments_export.bl_idname)
 
 
-CLASSES = (*EXPORTERS, *FILE_HANDLERS, TOPBAR_MT_body_moments_export)
+CLASSES = (
+    *map(_exporter, FORMATS.values()),
+    *map(_file_handler, FORMATS.values()),
+    TOPBAR_MT_body_moments_export,
+)
 
 
 def register() -> None:

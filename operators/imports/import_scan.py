@@ -21,7 +21,7 @@ from bpy_extras.io_utils import ImportHelper
 from numpy.typing import NDArray
 
 from ...blender.read.grids.vdb import openvdb
-from ...blender.settings.grid import positions_text
+from ...blender.settings.grid_values import positions_text
 from ...blender.settings.limits import scan_limits
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
@@ -35,7 +35,6 @@ from ..findings import (
     FILE_EXISTS,
     NO_IMPORT_FILE,
     OPENVDB_MISSING,
-    POLL_OBJECT_MODE,
     SCAN_CT_NUMBERS,
     SCAN_DRAWN_EVENLY,
     SCAN_IMPORTED,
@@ -120,7 +119,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return True
 
     def execute(self, context: Context) -> set[str]:

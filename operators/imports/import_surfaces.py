@@ -20,7 +20,7 @@ from ...core.cad.surface_file import SUFFIXES, read_surfaces
 from ...core.numerics.float32 import shortest_decimal
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
-from ..findings import NO_SURFACE_FILE, NOT_IMPORTED, POLL_OBJECT_MODE, SURFACES_IMPORTED
+from ..findings import NO_SURFACE_FILE, NOT_IMPORTED, SURFACES_IMPORTED
 
 
 class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
@@ -46,7 +46,7 @@ class OBJECT_OT_body_moments_import_surfaces(Operator, ImportHelper):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return True
 
     def draw(self, _context: Context) -> None:

@@ -6,7 +6,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender.scene.transforms import require_editable
-from ...blender.session.tracking import marks, staleness
+from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, section
 from ...core.verdict.finding import finding
 from .. import selection
@@ -40,7 +40,7 @@ class OBJECT_OT_body_moments_clear(Operator):
         objects = [
             obj
             for obj in context.view_layer.objects.selected
-            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY)) or marks.of_symmetry(obj)
+            if any(key in obj for key in (*properties.DESCRIPTIONS, section.KEY)) or stamps.of_symmetry(obj)
         ]
 
         def remove(obj: Object) -> bool:
@@ -48,7 +48,7 @@ class OBJECT_OT_body_moments_clear(Operator):
             staleness.note_edits(obj)
             removed = "MASS" in self.kinds and properties.clear(obj)
             removed |= "SECTION" in self.kinds and section.clear(obj)
-            if "SYMMETRY" in self.kinds and marks.of_symmetry(obj):
+            if "SYMMETRY" in self.kinds and stamps.of_symmetry(obj):
                 obj.property_unset("body_moments_symmetry")
                 removed = True
             return removed

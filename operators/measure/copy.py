@@ -16,7 +16,7 @@ from ...blender.write.text_report import stored_document, text
 from ...blender.write.translations import localized
 from ...core.verdict.finding import Finding, finding
 from .. import selection
-from ..findings import NO_VALUE_TO_COPY, POLL_MEASURE_SELECTED, REPORT_COPIED, VALUE_COPIED
+from ..findings import NO_VALUE_TO_COPY, REPORT_COPIED, VALUE_COPIED
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: Finding) -> None:
@@ -55,7 +55,7 @@ def poll_stored(cls: type[Operator], context: Context) -> bool:
     if not selection.poll_selection(cls, context, any_mode=True):
         return False
     if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
-        return reports.unavailable(cls, finding(POLL_MEASURE_SELECTED))
+        return reports.unavailable(cls, "Measure the selected objects first")
     return True
 
 

@@ -24,13 +24,10 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
 from .. import files
 from ..findings import (
-    CANCELED_FOURIER,
     FOURIER_FOLDER_MISSING,
     FOURIER_PATH_MISSING,
     FOURIER_WRITTEN,
     PANEL_FOURIER_DEFAULT,
-    POLL_ACTIVE_SURFACE,
-    PROGRESS_FOURIER,
 )
 from ..modal import ModalSteps
 
@@ -97,7 +94,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or not measurable(context.object):
-            return reports.unavailable(cls, finding(POLL_ACTIVE_SURFACE))
+            return reports.unavailable(cls, "Make an object with a surface active")
         return True
 
     def invoke(self, context: Context, event: Event) -> set[str]:
@@ -137,8 +134,8 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
     bl_idname = "object.body_moments_fourier_run"
     bl_label = "Fourier Transform"
     bl_options = {"UNDO", "INTERNAL"}
-    PROGRESS = finding(PROGRESS_FOURIER)
-    CANCELED = finding(CANCELED_FOURIER)
+    PROGRESS = "Fourier transform: {share:.0%}. Esc to cancel"
+    CANCELED = "Fourier transform canceled; nothing was written"
 
     poll = OBJECT_OT_body_moments_fourier.poll
 

@@ -21,12 +21,10 @@ from ...core.files.whole_file import whole_file
 from ...core.measurement.page import to_html
 from ...core.verdict.finding import MeasureError, finding, system_reason
 from ..findings import (
-    CANCELED_LIBRARY,
     LIBRARY_FAILED,
     LIBRARY_MEASURED,
     LIBRARY_MEASURED_WITH_FAILURES,
     LIBRARY_NOT_STARTED,
-    PROGRESS_LIBRARY,
 )
 from ..modal import ModalSteps
 
@@ -54,8 +52,8 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     bl_idname = "object.body_moments_measure_library"
     bl_label = "Measure Library"
     bl_options = {"REGISTER"}
-    PROGRESS = finding(PROGRESS_LIBRARY)
-    CANCELED = finding(CANCELED_LIBRARY)
+    PROGRESS = "Measuring the library: {share:.0%}. Esc to stop"
+    CANCELED = "Stopped. The files measured so far stand in the journal"
 
     directory: StringProperty(name="Folder", description="Folder with the files to measure", subtype="DIR_PATH")
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})

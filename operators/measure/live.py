@@ -7,12 +7,10 @@ from __future__ import annotations
 from bpy.types import Context, Object, Operator
 
 from ...blender.read.visibility import measurable
-from ...blender.session.live import live
+from ...blender.session import live
 from ...blender.session.tracking import posed
 from ...blender.write import reports
-from ...core.verdict.finding import finding
 from .. import selection
-from ..findings import POLL_SELECT_OBJECTS
 from ..modal import redraw
 
 
@@ -30,20 +28,20 @@ class OBJECT_OT_body_moments_live(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or not _subjects(context):
-            return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
+            return reports.unavailable(cls, "Select objects")
         return True
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        if any(live.is_live(obj) for obj in posed.subjects([context.object])):
+        if any(live.following.is_live(obj) for obj in posed.subjects([context.object])):
             for obj in objects:
-                live.stop(obj)
+                live.live.stop(obj)
             redraw(context)
             return {"FINISHED"}
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
         for obj in objects:
-            result = live.start(obj, depsgraph)
+            result = live.live.start(obj, depsgraph)
             if result.refusal is not None:
                 refusals.append(reports.failure(obj.name, result.refusal))
         if refusals:

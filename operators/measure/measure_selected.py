@@ -12,6 +12,7 @@ from bpy.props import EnumProperty
 from ...blender.bodies.measure_object import Measured
 from ...blender.bodies.stacks.many import measure_many
 from ...blender.bodies.stacks.stack import Stacked
+from ...blender.session import displayed
 from ...blender.session.stored import outcome, results
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
@@ -21,13 +22,10 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity, finding
 from ...core.verdict.sentences import of_severity
 from ..findings import (
-    CANCELED_MEASURING,
     MEASURED_ONE,
     MEASURED_ONE_WITH_WARNINGS,
     MEASURED_SEVERAL,
     OBJECT_WARNINGS,
-    POLL_SELECT_OBJECTS,
-    PROGRESS_MEASURING,
     WITH_WARNINGS,
 )
 from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
@@ -41,8 +39,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_MEASURING)
-    CANCELED = finding(CANCELED_MEASURING)
+    PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
+    CANCELED = "Measuring canceled; nothing was changed"
 
     # Settings for the redo panel; by default the objects keep their own settings.
     material: EnumProperty(
@@ -78,7 +76,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         if not context.selected_objects:
-            return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
+            return reports.unavailable(cls, "Select objects")
         return True
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -129,13 +127,13 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         stored: list[bpy.types.Object] = []
         refusals: dict[bpy.types.Object, Finding | Exception] = {**self._refusals}
         for obj, refusal in results.store_many(self._results, context.scene):
-            results.remember_failure(obj, None)
+            displayed.remember_failure(obj, None)
             if refusal is None:
                 stored.append(obj)
             else:
                 refusals[obj] = refusal
         for obj, refusal in self._refusals.items():
-            results.remember_failure(obj, refusal)
+            displayed.remember_failure(obj, refusal)
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
         shapes = {obj: found.shape_digest for obj, found in self._results if isinstance(found, Stacked)}
         mark_up_to_date(context, stored, shapes)

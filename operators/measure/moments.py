@@ -10,7 +10,6 @@ from bpy.types import Context, Object, Operator
 
 from ...blender.bodies.flat.flat import area_findings, clearer_refusal, flat_region
 from ...blender.bodies.measure_object import THREADS, measure_object
-from ...blender.read.fingerprint import matrix_hash, settings_hash
 from ...blender.read.visibility import measurable
 from ...blender.session.stored.moments import (
     ComputedMoments,
@@ -20,7 +19,6 @@ from ...blender.session.stored.moments import (
     computed_moments,
     reference_of,
 )
-from ...blender.session.tracking import updates
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import reports
 from ...core.flat.regions import plane_positions
@@ -30,8 +28,6 @@ from .. import selection
 from ..findings import (
     MOMENTS_COMPUTED,
     MOMENTS_COPIED,
-    POLL_ACTIVE_MEASURABLE,
-    POLL_COMPUTE_MOMENTS,
     WIRE_WITHOUT_MOMENTS,
 )
 from .copy import copy_text
@@ -40,7 +36,7 @@ from .copy import copy_text
 def _active(cls: type[Operator], context: Context) -> Object | None:
     obj = context.object
     if obj is None or not measurable(obj):
-        reports.unavailable(cls, finding(POLL_ACTIVE_MEASURABLE))
+        reports.unavailable(cls, "Make a measurable object active")
         return None
     return obj
 
@@ -63,25 +59,22 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
     def execute(self, context: Context) -> set[str]:
         obj, scene = context.object, context.scene
         order: int = scene.body_moments.moments_order
-        key = (matrix_hash(obj), settings_hash(obj, scene), updates.last_change_of_geometry(obj))
         try:
-            computed, findings = _compute(context, obj, order, key)
+            computed, findings = _compute(context, obj, order)
         except MeasureError as error:
             selection.report(self, reports.failure(obj.name, error))
             return {"CANCELLED"}
         if computed is None:
             reports.report(self, finding(WIRE_WITHOUT_MOMENTS, object=obj.name))
             return {"CANCELLED"}
-        cache_moments(obj, computed)
+        cache_moments(obj, computed, context.evaluated_depsgraph_get())
         count = len(plane_positions(order)) if computed.volume is None else len(computed.volume.raw)
         done = finding(MOMENTS_COMPUTED, count=count, object=obj.name)
         reports.report(self, done, *reports.first(findings))
         return {"FINISHED"}
 
 
-def _compute(
-    context: Context, obj: Object, order: int, key: tuple[str, str, int]
-) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
+def _compute(context: Context, obj: Object, order: int) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
     """Return the moments of a body, of a flat shape, or of both, or None for a wire that bounds nothing.
 
     Raises MeasureError if the object is neither.
@@ -102,7 +95,7 @@ def _compute(
     if measurement is None or measurement.length is not None:
         if region is None or flat is None:
             return None, ()
-        computed = ComputedMoments(obj.name, None, None, None, region.rotation, region.location, key, flat)
+        computed = ComputedMoments(obj.name, None, None, None, region.rotation, region.location, flat)
         return computed, (*region.findings, *area_findings(region, flat.moments.total))
     area = measurement.area_moments.truncate(order)
     volume = (measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)).truncate(
@@ -116,7 +109,6 @@ def _compute(
         mass,
         measurement.rotation,
         measurement.location,
-        key,
         flat,
         not_flat and not_flat.finding,
     )
@@ -135,7 +127,7 @@ class OBJECT_OT_body_moments_copy_moments(Operator):
         obj = _active(cls, context)
         if obj is None:
             return False
-        return computed_moments(obj) is not None or reports.unavailable(cls, finding(POLL_COMPUTE_MOMENTS))
+        return computed_moments(obj) is not None or reports.unavailable(cls, "Compute the moments first")
 
     def execute(self, context: Context) -> set[str]:
         settings, computed = context.scene.body_moments, computed_moments(context.object)

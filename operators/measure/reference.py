@@ -15,7 +15,7 @@ from ...blender.write.findings import NO_STORED_RESULTS
 from ...core.inertia.reference import ReferredInertia
 from ...core.verdict.finding import MeasureError, QueryError, finding
 from .. import selection
-from ..findings import AXIS_NEEDS_TWO_POINTS, POLL_MEASURE_SELECTED, REFERENCE_STORED, REPORT_COPIED
+from ..findings import AXIS_NEEDS_TWO_POINTS, REFERENCE_STORED, REPORT_COPIED
 from ..modal import redraw
 from .copy import copy_text
 
@@ -55,7 +55,7 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or not properties.is_stored(context.object):
-            return reports.unavailable(cls, finding(POLL_MEASURE_SELECTED))
+            return reports.unavailable(cls, "Measure the selected objects first")
         return True
 
     def execute(self, context: Context) -> set[str]:

@@ -4,15 +4,14 @@
 
 from __future__ import annotations
 
-import bpy
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, Operator
 
 from ...blender.bodies.flat.flat import area_findings, flat_region
 from ...blender.read.fingerprint import fingerprint, matrix_hash, settings_hash
-from ...blender.read.section import SECTION_TYPES
+from ...blender.read.visibility import SECTION_TYPES
 from ...blender.session.stored import outcome
-from ...blender.session.tracking import staleness
+from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
 from ...blender.write import section as record
 from ...core.flat.section import Section, measure_section
@@ -23,10 +22,7 @@ from ..findings import (
     MEASURED_SECTION,
     MEASURED_SECTION_WITH_WARNINGS,
     MEASURED_SECTIONS,
-    POLL_MEASURE_SECTION,
-    POLL_SECTION,
     SECTION_COPIED,
-    STALE_UNIT_SCALE,
     WITH_WARNINGS,
 )
 from ..modal import redraw
@@ -43,13 +39,6 @@ def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[F
     return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
-def stale_reason(obj: Object, scene: bpy.types.Scene, stored: record.StoredSection) -> str | None:
-    """Return the code of the reason why the stored section is out of date, or None."""
-    if stored.unit != shortest_decimal(scene.unit_settings.scale_length):
-        return STALE_UNIT_SCALE
-    return staleness.section_stale_reason(obj)
-
-
 class OBJECT_OT_body_moments_measure_section(Operator):
     """Compute the section properties of the selection."""
 
@@ -64,7 +53,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not _objects_with_sections(context):
-            return reports.unavailable(cls, finding(POLL_SECTION))
+            return reports.unavailable(cls, "Select faces in Edit Mode, or a flat mesh, 2D curve or text")
         return True
 
     def execute(self, context: Context) -> set[str]:
@@ -89,7 +78,7 @@ class OBJECT_OT_body_moments_measure_section(Operator):
             )
             mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
             record.store(obj, section, what, findings, mark, unit)
-        staleness.mark_fingerprints(context, [(obj, record.fingerprint(obj)) for obj, *_ in sections])
+        staleness.mark_stamps(context, [(obj, stamp) for obj, *_ in sections if (stamp := stamps.of_section(obj))])
         redraw(context)
         warned = [obj.name for obj, *_, found in sections if of_severity(found, Severity.WARNING, Severity.ERROR)]
         if len(sections) > 1:
@@ -113,15 +102,14 @@ class OBJECT_OT_body_moments_copy_section(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.object is None or record.stored(context.object) is None:
-            return reports.unavailable(cls, finding(POLL_MEASURE_SECTION))
+            return reports.unavailable(cls, "Measure a section first")
         return True
 
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         stored = record.stored(obj)
         assert stored is not None
-        code = stale_reason(obj, context.scene, stored)
-        text = record.text(obj.name, stored, None if code is None else Finding(code))
+        text = record.text(obj.name, stored, staleness.stale_reason(obj, context.scene, stamps.of_section))
         copy_text(self, context, text, finding(SECTION_COPIED, object=obj.name))
         return {"FINISHED"}
 

@@ -22,7 +22,7 @@ from ...core.verdict.finding import EditRefusedError, finding
 from ...core.verdict.findings import FLIPPED_FACES
 from ...core.verdict.health import DefectiveElements
 from .. import selection
-from ..findings import MODIFIED_MESH, NO_DEFECTS, OBJECT_DEFECTS, POLL_OBJECT_MODE, POLL_SELECT_MESHES, WITH_DEFECTS
+from ..findings import MODIFIED_MESH, NO_DEFECTS, OBJECT_DEFECTS, WITH_DEFECTS
 
 DEFECTS = {field.name: "defect_" + field.name for field in fields(DefectiveElements)}
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
@@ -84,9 +84,9 @@ class OBJECT_OT_body_moments_select_faults(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         if not any(obj.type == "MESH" for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, finding(POLL_SELECT_MESHES))
+            return reports.unavailable(cls, "Select mesh objects")
         return True
 
     def execute(self, context: Context) -> set[str]:

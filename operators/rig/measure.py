@@ -5,7 +5,6 @@
 from bpy.types import Context, Operator
 
 from ...blender.bodies.rig import measure_rig
-from ...blender.read.findings import NO_ACTIVE_ARMATURE
 from ...blender.read.rig import require_armature
 from ...blender.session.stored import rig as stored_rig
 from ...blender.write import reports
@@ -19,7 +18,7 @@ from ..modal import redraw
 def poll_armature(cls: type[Operator], context: Context) -> bool:
     """Return whether the active object is an armature; report why not."""
     if context.object is None or context.object.type != "ARMATURE":
-        return reports.unavailable(cls, finding(NO_ACTIVE_ARMATURE))
+        return reports.unavailable(cls, "The active object is not an armature. Select one.")
     return True
 
 

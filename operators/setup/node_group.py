@@ -22,7 +22,7 @@ from ...blender.settings.density import object_density
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import finding
-from ..findings import NODE_GROUP_ADDED, NODE_MARKER_ADDED, NODE_MARKER_IS_OF_SOLID, POLL_OBJECT_MODE
+from ..findings import NODE_GROUP_ADDED, NODE_MARKER_ADDED, NODE_MARKER_IS_OF_SOLID
 
 GROUP_NAME, MARKER_NAME = "Center of Mass", "Center of Mass Marker"
 KEY = "body_moments_nodes"  # ID property of our groups: the version of their nodes
@@ -51,7 +51,7 @@ class OBJECT_OT_body_moments_add_nodes(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return True
 
     def execute(self, context: Context) -> set[str]:

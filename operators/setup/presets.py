@@ -20,8 +20,6 @@ from ..findings import (
     MATERIAL_NOT_LOCAL,
     MATERIAL_SET,
     MATERIAL_SET_ALREADY,
-    POLL_SELECT_OBJECTS,
-    POLL_SELECT_OTHERS,
     SETTINGS_COPIED,
     SETTINGS_EQUAL,
 )
@@ -57,7 +55,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not _targets(context):
-            return reports.unavailable(cls, finding(POLL_SELECT_OBJECTS))
+            return reports.unavailable(cls, "Select objects")
         return True
 
     def invoke(self, context: Context, _event) -> set[str]:
@@ -139,7 +137,7 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
     def poll(cls, context: Context) -> bool:
         active = context.view_layer.objects.active
         if active is None or not any(obj != active for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, finding(POLL_SELECT_OTHERS))
+            return reports.unavailable(cls, "Select other objects besides the active one")
         return True
 
     def execute(self, context: Context) -> set[str]:

@@ -26,9 +26,6 @@ from ..findings import (
     LIBRARY_OVERRIDE_SETTINGS,
     NO_REVERSED_FACES,
     NOTHING_TO_DO,
-    POLL_ACTIVE_MEASURABLE,
-    POLL_ACTIVE_MESH,
-    POLL_OBJECT_MODE,
 )
 from ..measure.select_faults import require_editable_mesh
 
@@ -46,11 +43,11 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
 def _poll_active(cls: type[Operator], context: Context, mesh: bool = False) -> bool:
     obj = context.object
     if obj is None or not measurable(obj):
-        return reports.unavailable(cls, finding(POLL_ACTIVE_MEASURABLE))
+        return reports.unavailable(cls, "Make a measurable object active")
     if mesh and obj.type != "MESH":
-        return reports.unavailable(cls, finding(POLL_ACTIVE_MESH))
+        return reports.unavailable(cls, "Make a mesh object active")
     if mesh and context.mode != "OBJECT":
-        return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+        return reports.unavailable(cls, "Switch to Object Mode")
     return True
 
 
@@ -237,7 +234,7 @@ class OBJECT_OT_body_moments_select_refused(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         return outcome.last() is not None
 
     def execute(self, context: Context) -> set[str]:

@@ -29,17 +29,9 @@ from ...core.shape.signatures import Likeness, Signature, similarity
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from .. import selection
 from ..findings import (
-    CANCELED_SEARCH,
     LIBRARY_FILE_UNREADABLE,
-    NEAREST_SHAPE,
-    NONE_SIMILAR,
     OBJECT_NOT_IN_VIEW_LAYER,
-    POLL_ACTIVE_WANTED,
-    POLL_OBJECT_MODE,
-    PROGRESS_COMPARING,
     RECORDS_LEFT_OUT,
-    SHAPE_COUNTS,
-    SHAPES_COMPARED,
 )
 from ..modal import ModalSteps, redraw
 
@@ -67,7 +59,18 @@ class BodyMomentsSearch(PropertyGroup):
     found: CollectionProperty(type=BodyMomentsSimilar)
 
 
-SHAPES = {similarity: "shapes_" + similarity for similarity in Similarity}  # codes of how many there are
+COUNTS = {  # texts of the report, by similarity
+    Similarity.COPY: ("{count} copy", "{count} copies"),
+    Similarity.SCALED_COPY: ("{count} scaled copy", "{count} scaled copies"),
+    Similarity.MIRROR: ("{count} mirror image", "{count} mirror images"),
+    Similarity.SCALED_MIRROR: ("{count} scaled mirror image", "{count} scaled mirror images"),
+    Similarity.COPY_OR_MIRROR: ("{count} copy or mirror image", "{count} copies or mirror images"),
+    Similarity.SCALED_COPY_OR_MIRROR: (
+        "{count} scaled copy or mirror image",
+        "{count} scaled copies or mirror images",
+    ),
+    Similarity.SIMILAR: ("{count} similar", None),
+}
 
 
 class _SearchMixin:
@@ -81,9 +84,9 @@ class _SearchMixin:
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode != "OBJECT":
-            return reports.unavailable(cls, finding(POLL_OBJECT_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode")
         if context.object is None:
-            return reports.unavailable(cls, finding(POLL_ACTIVE_WANTED))
+            return reports.unavailable(cls, "Make an object active to compare with")
         return True
 
     def measure_active(self, context: Context) -> Iterator[float]:
@@ -111,17 +114,13 @@ class _SearchMixin:
 
     def report_found(self, rows: list[tuple[Entry, Likeness]], failures: list[Finding]) -> set[str]:
         counts = Counter(classify(likeness) for _, likeness in rows)
-        alike = [
-            finding(SHAPES[similarity], count=counts[similarity]).as_record()
-            for similarity in Similarity
-            if counts[similarity] and similarity != Similarity.DIFFERENT
-        ]
-        found = finding(SHAPE_COUNTS, counts=alike) if alike else finding(NONE_SIMILAR)
-        done = [finding(SHAPES_COMPARED, count=len(rows)), found]
+        alike = [reports.phrase(*COUNTS[kind], count=counts[kind]) for kind in COUNTS if counts[kind]]
+        found = ", ".join(alike) if alike else reports.phrase("none is similar")
+        done = [reports.phrase("Compared {count} shape", "Compared {count} shapes", count=len(rows)), found]
         if rows:
             entry, likeness = rows[0]
             distance = likeness.distance(self.scaled, self.mirrored)
-            done.append(finding(NEAREST_SHAPE, object=entry.name, distance=distance))
+            done.append(reports.phrase("nearest is {object}, at {distance:.2e}", object=entry.name, distance=distance))
         outcome.remember(self.bl_label, failures)
         reports.report(self, *done, *reports.first(failures))
         return {"FINISHED"}
@@ -136,8 +135,8 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
         "Compare the shapes of all visible objects with the active object, in any pose, size and triangulation, and "
         "list copies, mirror images and similar shapes"
     )
-    PROGRESS = finding(PROGRESS_COMPARING)
-    CANCELED = finding(CANCELED_SEARCH)
+    PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
+    CANCELED = "Search canceled; nothing was changed"
 
     select: BoolProperty(
         name="Select Copies",

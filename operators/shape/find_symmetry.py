@@ -27,17 +27,14 @@ from ...blender.bodies.flat.flat_shape import FlatShape, comparable_shape_of, di
 from ...blender.bodies.shape.shape import Shape
 from ...blender.read.fingerprint import scale_hash
 from ...blender.scene.transforms import require_storable_data
-from ...blender.session.tracking import staleness
-from ...blender.session.tracking.marks import Mark
+from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
 from ...core.shape.symmetries import Symmetry
 from ...core.verdict.finding import Finding, finding
 from .. import selection
 from ..findings import (
-    CANCELED_SEARCH,
     LIBRARY_OVERRIDE_SYMMETRY,
     NOTHING_MEASURABLE,
-    PROGRESS_SYMMETRY,
     SYMMETRY_AXES,
     SYMMETRY_FOUND,
     SYMMETRY_FOUND_OF_DISPLAY_MESH,
@@ -96,8 +93,8 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         "allow and the surface, or of flat shapes the outline, confirms"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_SYMMETRY)
-    CANCELED = finding(CANCELED_SEARCH)
+    PROGRESS = "Finding symmetry: {share:.0%}. Esc to cancel"
+    CANCELED = "Search canceled; nothing was changed"
 
     tolerance: FloatProperty(
         name="Tolerance",
@@ -142,8 +139,8 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         for obj, shape, found_symmetry, allowed in self._results:
             _store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
         # Blender reports what was written as a change of the object.
-        staleness.mark_fingerprints(
-            context, [(obj, obj.body_moments_symmetry.fingerprint) for obj, *_ in self._results]
+        staleness.mark_stamps(
+            context, [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))]
         )
         symmetries = [
             finding(
@@ -169,8 +166,7 @@ def _store_symmetry(
     stored = obj.body_moments_symmetry
     stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
     stored.of_display_mesh = shape.is_display_mesh
-    mark = Mark(*shape.fingerprint.split(":"))
-    stored.fingerprint = ":".join(mark._replace(transform=scale_hash(obj)))
+    stored.fingerprint = stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
     stored.elements.clear()
     turn = shape.rotation.T
     for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:

@@ -20,15 +20,12 @@ from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, fin
 from .. import selection
 from ..findings import (
     ACTIVE_IS_CHILD,
-    CANCELED_MATCH_POSE,
     FLAT_AND_BODY,
     FLAT_MIRROR_IMAGE,
     MIRROR_IMAGE,
-    POLL_MATCH_SELECTION,
     POSE_DISTANCE,
     POSE_NOT_A_COPY,
     POSES_MATCHED,
-    PROGRESS_COMPARING,
 )
 from ..modal import ModalSteps
 from ..snap import base as snapping
@@ -45,15 +42,15 @@ class OBJECT_OT_body_moments_match_pose(ModalSteps, Operator):
         "are left unchanged"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_COMPARING)
-    CANCELED = finding(CANCELED_MATCH_POSE)
+    PROGRESS = "Comparing: {share:.0%}. Esc to cancel"
+    CANCELED = "Match Pose canceled; nothing was moved"
 
     @classmethod
     def poll(cls, context: Context) -> bool:
         if not selection.poll_selection(cls, context):
             return False
         if context.object is None or not any(obj != context.object for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, finding(POLL_MATCH_SELECTION))
+            return reports.unavailable(cls, "Select the objects to move, then the object to match")
         return True
 
     def execute(self, context: Context) -> set[str]:

@@ -13,7 +13,7 @@ from mathutils import Matrix
 from ...blender.write import reports
 from ...core.verdict.finding import MeasureError, finding
 from .. import selection
-from ..findings import ORIENTATION_CREATED, ORIENTATION_NEEDS_VIEWPORT, POLL_ACTIVE_SELECTED
+from ..findings import ORIENTATION_CREATED, ORIENTATION_NEEDS_VIEWPORT
 from . import base as snapping
 
 
@@ -38,7 +38,7 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.view_layer.objects.active
         if obj is None or not obj.select_get():
-            return reports.unavailable(cls, finding(POLL_ACTIVE_SELECTED))
+            return reports.unavailable(cls, "Make an object active and select it")
         return selection.poll_selection(cls, context)
 
     def execute(self, context: Context) -> set[str]:

@@ -21,10 +21,8 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
 from ..findings import (
-    CANCELED_MEASURING,
     LIBRARY_OVERRIDE_MASS,
     NOT_A_RIGID_BODY,
-    PROGRESS_MEASURING,
     RIGID_BODY_CENTER_ELSEWHERE,
     RIGID_BODY_DISPLAY_SCALED,
     RIGID_BODY_MASS_TOO_SMALL,
@@ -47,8 +45,8 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, Operator):
         "of mass; use Axes to Principal Axes as well"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_MEASURING)
-    CANCELED = finding(CANCELED_MEASURING)
+    PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
+    CANCELED = "Measuring canceled; nothing was changed"
 
     add: BoolProperty(
         name="Add Rigid Bodies",

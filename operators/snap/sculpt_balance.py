@@ -52,9 +52,6 @@ from ..findings import (
     BALANCE_WALL,
     BALANCE_ZERO_SCALE,
     BALANCED,
-    POLL_ACTIVE_MESH,
-    POLL_EDIT_VERTICES,
-    POLL_VERTICES_OR_GROUP,
 )
 from . import base as snapping
 
@@ -120,11 +117,11 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
     def poll(cls, context: Context) -> bool:
         obj = context.active_object
         if obj is None or obj.type != "MESH":
-            return reports.unavailable(cls, finding(POLL_ACTIVE_MESH))
+            return reports.unavailable(cls, "Make a mesh object active")
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return reports.unavailable(cls, finding(POLL_EDIT_VERTICES))
+            return reports.unavailable(cls, "Switch to Edit Mode and select the vertices that may move")
         if context.mode == "OBJECT" and not obj.vertex_groups:
-            return reports.unavailable(cls, finding(POLL_VERTICES_OR_GROUP))
+            return reports.unavailable(cls, "Select the vertices that may move in Edit Mode, or add a vertex group")
         return True
 
     def draw(self, context: Context) -> None:

@@ -30,10 +30,7 @@ from ..findings import (
     BALANCE_GROUP_INSIDE,
     BALANCE_GROUP_MADE,
     BALANCE_GROUP_WITHOUT_CONTACTS,
-    CANCELED_BALANCE,
     NO_SUCH_COLLECTION,
-    POLL_OBJECT_OR_POSE_MODE,
-    PROGRESS_BALANCE,
 )
 from ..modal import ModalSteps, redraw
 
@@ -50,8 +47,8 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
         "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = finding(PROGRESS_BALANCE)
-    CANCELED = finding(CANCELED_BALANCE)
+    PROGRESS = "Following the center of mass: {share:percent}. Esc to cancel"
+    CANCELED = "Balance Group canceled; nothing was changed"
     _assembly: bpy.types.Collection | None = None  # the collection, where its mass is given
     _is_interactive = False  # its dialog has just been confirmed; False in a script, and from the redo panel
 
@@ -91,7 +88,7 @@ class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         if context.mode not in {"OBJECT", "POSE"}:
-            return reports.unavailable(cls, finding(POLL_OBJECT_OR_POSE_MODE))
+            return reports.unavailable(cls, "Switch to Object Mode or Pose Mode")
         return True
 
     def draw(self, _context: Context) -> None:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ...blender.scene import reframe
 from ...blender.scene.transforms import world
+from ...blender.session.displayed import drawn
 from ...blender.session.stored import stability
-from ...blender.session.stored.shown import shown_body
 from ...blender.session.tracking import staleness
 from ...blender.write.translations import localized
 from ...core.statics.findings import NO_STABLE_POSE
@@ -91,7 +91,7 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         measured: list[Object] = []
         findings.extend(check_stability(context, obj, measured))
         staleness.mark_up_to_date(context, measured)
-        poses, body = stability.poses(obj, context.scene), shown_body(obj, context.scene)
+        poses, body = stability.poses(obj, context.scene), drawn(obj, context.scene)
         if poses is None:  # its stored numbers are damaged
             raise EditRefusedError(NO_STABLE_POSE)
         if isinstance(poses, Finding):
@@ -102,11 +102,11 @@ class OBJECT_OT_body_moments_rest_on_ground(Operator):
         normals = poses.normals @ rotation.T
         place = (self.pose - 1) % len(normals) if self.pose else int((normals @ down).argmax())
         turn = shortest_turn(normals[place], down)
-        size = float(body.gyration.max())
+        center, size = np.array(body.world.center) / body.unit, max(body.world.gyration) / body.unit
         target = world(obj)
         target[:3, :3] = turn @ target[:3, :3]
-        target[:3, 3] = body.center + turn @ (target[:3, 3] - body.center)
-        target[:3, 3] += (self._ground(context, obj, body.center, down) - poses.heights[place]) * down
+        target[:3, 3] = center + turn @ (target[:3, 3] - center)
+        target[:3, 3] += (self._ground(context, obj, center, down) - poses.heights[place]) * down
         off = np.abs(target - world(obj))
         is_turned = off[:, :3].max() > 1e-6 * np.abs(target[:, :3]).max()
         is_moved = is_turned or off[:, 3].max() > reframe.location_tolerance(obj, size)

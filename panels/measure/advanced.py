@@ -7,13 +7,14 @@ The moments to a chosen order, sections and shapes are sub-panels of it.
 
 from __future__ import annotations
 
-import numpy as np
 from bpy.types import Context, Object, UILayout
 
-from ...blender.session.live import live
-from ...blender.session.stored import results
+from ...blender.session import stored
+from ...blender.session.displayed import displayed
+from ...blender.session.tracking.staleness import stale_reason
 from ...blender.write import properties
-from ...blender.write.units import SI_UNITS, Units
+from ...blender.write.units import Units
+from ...core.lazy import loaded_module
 from .. import rows
 from ..places import in_both_places
 
@@ -37,10 +38,11 @@ class AdvancedPanel:
         layout, obj, scene = self.layout, context.object, context.scene
         layout.use_property_decorate = False
         units = Units.from_settings(scene.unit_settings)
-        shown = results.of_object(obj, scene)
-        if shown is not None and live.current_numbers(obj) is None:
-            _bounds(layout, obj, units, shown)
-            _display_mesh(layout, obj, units, shown)
+        shown = displayed(obj, scene)
+        if shown is not None and shown.live is None:
+            numbers = shown.in_frame(scene.body_moments.frame)
+            _bounds(layout, obj, units, numbers)
+            _display_mesh(layout, obj, units, numbers)
         rows.button(
             layout,
             context,
@@ -71,21 +73,55 @@ def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.Store
     sizes = {
         "volume": shown.volume,
         "area": shown.area,
-        "center_of_mass": np.abs(shown.body.center).max(),
-        "inertia": shown.body.principal.moments.max(),
+        "center_of_mass": max(map(abs, shown.center)),
+        "inertia": max(shown.moments),
     }
     for heading, bound in BOUNDS:
         column = body.column(align=True)
         column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
         values = shown.error_bound if bound is None else shown.error_bound[bound]
-        rows.table(
-            column,
-            [
-                (label, units.bound(quantity, values[name], sizes[name]), repr(values[name]), SI_UNITS[quantity])
-                for name, (label, quantity) in BOUND_LABELS.items()
-                if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
-            ],
-        )
+        entries = [
+            (label, quantity, values[name], sizes[name])
+            for name, (label, quantity) in BOUND_LABELS.items()
+            if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
+        ]
+        rows.bounds(column, units, entries)
 
 
-CLASSES = VIEW3D_PT_body_moments_advanced, OBJECT_PT_body_moments_advanced = in_both_places(AdvancedPanel, "advanced")
+class MomentsPanel:
+    """Moments to a chosen order"""
+
+    bl_label = "Moments"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        layout, obj, settings = self.layout, context.object, context.scene.body_moments
+        layout.use_property_decorate = False
+        column = layout.column()
+        rows.setting(column, settings, "moments_order")
+        rows.setting(column, settings, "moments_of")
+        rows.setting(column, settings, "moments_about")
+        rows.setting(column, settings, "frame", expand=True)
+        rows.button(layout, context, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
+        table = loaded_module(stored, "moments")
+        computed = None if table is None else table.computed_moments(obj)
+        if computed is None:
+            return
+        rows.stale_row(layout, context, stale_reason(obj, context.scene, table.stamp_of))
+        degrees, missing = table.current_numbers(obj, context.scene)
+        if missing is not None:
+            rows.message(layout, context, missing)
+        for degree in degrees:
+            column = layout.column(align=True)
+            rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
+            rows.table(column, [(*row, degree.unit) for row in degree.rows])
+        if computed.order > table.MAX_SHOWN_ORDER:
+            text, first = "Orders {first} to {last} are only in the copy.", table.MAX_SHOWN_ORDER + 1
+            rows.remark(layout, context, text, first=first, last=computed.order)
+        rows.button(layout, context, "object.body_moments_copy_moments", "COPYDOWN", short="Copy as CSV")
+
+
+CLASSES = (
+    *in_both_places(AdvancedPanel, "advanced"),
+    *in_both_places(MomentsPanel, "orders", parent="advanced"),
+)

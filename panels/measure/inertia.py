@@ -1,26 +1,24 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sub-panel of the inertia: principal moments and axes, radii of gyration, tensor."""
+"""The sub-panels of the inertia: principal moments and axes, radii of gyration, tensor; and about any reference."""
 
 from __future__ import annotations
 
-import numpy as np
 from bpy.types import Context
 
-from ...blender.session.stored import results
-from ...blender.write import properties
+from ...blender.session import stored
+from ...blender.session.displayed import displayed
+from ...blender.write.properties import tensor_entries
 from ...blender.write.units import Units
-from ...core.verdict.finding import finding
+from ...core.verdict.finding import Finding
 from .. import rows
-from ..findings import PANEL_EQUAL_MOMENTS_12, PANEL_EQUAL_MOMENTS_23, PANEL_EQUAL_MOMENTS_ALL
 from ..places import in_both_places
-from .numbers import PRINCIPAL_LABELS
 
 ERROR_OF_A_DIFFERENCE = 6.0  # each principal moment is off by at most 3 times the error of a tensor entry
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
-    (True, True): PANEL_EQUAL_MOMENTS_ALL,
-    (True, False): PANEL_EQUAL_MOMENTS_12,
-    (False, True): PANEL_EQUAL_MOMENTS_23,
+    (True, True): "All principal moments are equal",
+    (True, False): "Principal moments 1 and 2 are equal",
+    (False, True): "Principal moments 2 and 3 are equal",
 }
 
 
@@ -32,38 +30,83 @@ class InertiaPanel:
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return context.object is not None and results.of_object(context.object, context.scene) is not None
+        return context.object is not None and displayed(context.object, context.scene) is not None
 
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
         layout.use_property_decorate = False
         units = Units.from_settings(scene.unit_settings)
-        shown = results.of_object(context.object, scene)
-        if shown is None:
+        current = displayed(context.object, scene)
+        if current is None:
             return
+        shown = current.in_frame(scene.body_moments.frame)
         layout.row().prop(scene.body_moments, "frame", expand=True)
+        moments = shown.moments
+        rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", moments)
         column = layout.column(align=True)
-        moments = shown.body.principal.moments
-        rows.heading(column, "Principal Moments", "inertia", moments)
-        rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
-        column = layout.column(align=True)
-        rows.heading(column, "Principal Axes", "", shown.body.principal.axes.T)
-        for label, axis in zip(PRINCIPAL_LABELS, shown.body.principal.axes.T):
+        rows.heading(column, "Principal Axes", "", shown.axes)
+        for label, axis in zip(rows.PRINCIPAL_LABELS, shown.axes):
             rows.direction(column, label, axis)
         error = shown.error_bound["inertia"] + shown.error_bound["input"]["inertia"]
-        code = EQUAL_MOMENTS.get(tuple((np.diff(moments) <= ERROR_OF_A_DIFFERENCE * error).tolist()))
-        if code:
-            rows.message(column, context, finding(code))
-        column = layout.column(align=True)
-        rows.heading(column, "Radii of Gyration", "length", shown.body.radii_of_gyration)
-        rows.values(column, units, PRINCIPAL_LABELS, "length", shown.body.radii_of_gyration)
+        equal = [b - a <= ERROR_OF_A_DIFFERENCE * error for a, b in zip(moments, moments[1:])]
+        text = EQUAL_MOMENTS.get(tuple(equal))
+        if text:
+            rows.remark(column, context, text)
+        rows.group(layout, units, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", shown.gyration)
         header, body = layout.panel("body_moments_tensor")
         header.label(text="Inertia Tensor")
         if body is not None:
-            column = body.column(align=True)
-            entries = properties.tensor_entries(shown.body.inertia)
-            rows.heading(column, "About the center of mass, Ixy = −∫xy dm", "inertia", entries)
-            rows.values(column, units, ["I" + name for name in properties.ENTRIES], "inertia", entries)
+            rows.group(
+                body, units, "About the center of mass, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", shown.inertia
+            )
 
 
-CLASSES = VIEW3D_PT_body_moments_inertia, OBJECT_PT_body_moments_inertia = in_both_places(InertiaPanel, "inertia")
+class ReferencePanel:
+    """Inertia about a point, a frame or an axis"""
+
+    bl_label = "Inertia about Reference"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Context) -> None:
+        layout, scene = self.layout, context.scene
+        layout.use_property_decorate = False
+        settings = scene.body_moments_reference
+        column = layout.column()
+        rows.setting(column, settings, "about")
+        if settings.about == "OBJECT":
+            rows.setting(column, settings, "object")
+        elif settings.about == "AXIS":
+            rows.setting(column, settings, "first")
+            rows.setting(column, settings, "second")
+            rows.button(
+                layout, context, "object.body_moments_axis_from_selection", "EYEDROPPER", short="From Selection"
+            )
+        result = stored.reference.referred(context.object, scene) if "body_mass" in context.object else None
+        if result is None:
+            return
+        if isinstance(result, Finding):
+            rows.message(layout, context, result)
+            return
+        units = Units.from_settings(scene.unit_settings)
+        if settings.about == "AXIS":
+            column = layout.column(align=True)
+            rows.value(column, units, "About Axis", "inertia", result.about_z)
+            distances = result.radius_about_z, result.distance_from_z
+            rows.values(column, units, ("Radius of Gyration", "Distance of Center"), "length", distances)
+        center, reach = result.center, max(map(abs, result.center))
+        rows.group(layout, units, "Center of Mass from There", rows.AXIS_LABELS, "length", center, reach)
+        entries = tensor_entries(result.inertia)
+        rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", entries)
+        sources = ("Rounding, at Most", result.rounding_error), ("Float32, at Most", result.input_error)
+        size = max(map(abs, entries))
+        bounds = [(label, "inertia", error["inertia"], size) for label, error in sources]
+        rows.bounds(layout.column(align=True), units, bounds)
+        row = layout.row(align=True)
+        rows.button(row, context, "object.body_moments_store_reference", "FILE_TICK", text="Store")
+        rows.button(row, context, "object.body_moments_copy_reference", "COPYDOWN", text="Copy")
+
+
+CLASSES = (
+    *in_both_places(InertiaPanel, "inertia"),
+    *in_both_places(ReferencePanel, "reference", parent="inertia"),
+)

@@ -35,12 +35,11 @@ from ...core.solid.findings import (
     SELF_INTERSECTING,
     VERTICES_WELDED,
 )
-from ...core.verdict.finding import Finding, Severity, finding, truncate
-from ...core.verdict.findings import AND_MORE, FLIPPED_FACES, SELF_INTERSECTION
+from ...core.verdict.finding import Finding, Severity, truncate
+from ...core.verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
 from ...core.verdict.sentences import of_severity, severity
 from ...operators.findings import RIGID_BODY_CENTER_ELSEWHERE
 from .. import rows
-from ..findings import PANEL_UNIT_QUESTION
 
 UNION = ("object.body_moments_count_as_union", "MOD_BOOLEAN")
 OUTSIDE = ("object.body_moments_recalculate_outside", "NORMALS_FACE")
@@ -136,7 +135,7 @@ def last_action(layout: UILayout, context: Context) -> None:
         rows.message(column, context, refused, icon="NONE", boxed=True)
         remedies(column, context, refused)
     if more:
-        rows.message(column, context, finding(AND_MORE, count=more), icon="NONE")
+        rows.filled(column, "And {:d} more", more)
     if len(last.objects) > 1 or last.objects and last.objects[0] != context.object.name_full:
         rows.button(box, context, "object.body_moments_select_refused", "RESTRICT_SELECT_OFF")
 
@@ -148,14 +147,14 @@ def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -
         scene.body_moments.units_answered
         or scene.unit_settings.scale_length != 1.0
         or length < MIN_QUESTIONED_LENGTH
-        or shown.body.mass < MIN_QUESTIONED_MASS
+        or shown.mass < MIN_QUESTIONED_MASS
     ):
         return
     box = layout.box()
     units = replace(Units.from_settings(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
-    texts = {"length": units.text("length", length), "mass": units.text("mass", shown.body.mass)}
-    question = finding(PANEL_UNIT_QUESTION, **texts)
-    rows.message(box, context, question, icon="QUESTION", boxed=True)
+    texts = {"length": units.text("length", length), "mass": units.text("mass", shown.mass)}
+    question = "{length} long and {mass}: is a unit of this scene a millimeter?"
+    rows.remark(box, context, question, icon="QUESTION", boxed=True, **texts)
     column = box.column(align=True)
     rows.button(column, context, "scene.body_moments_set_millimeters", "DRIVER_DISTANCE")
     rows.button(column, context, "scene.body_moments_keep_units", "X")

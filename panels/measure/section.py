@@ -8,16 +8,16 @@ from math import degrees
 
 from bpy.types import Context, UILayout
 
-from ...blender.read.section import SECTION_TYPES
+from ...blender.read.visibility import SECTION_TYPES
+from ...blender.session.tracking.staleness import stale_reason
+from ...blender.session.tracking.stamps import of_section
 from ...blender.write import section as record
 from ...blender.write.translations import localized
-from ...blender.write.units import SI_UNITS, Units, number
-from ...operators.measure import section as sections
+from ...blender.write.units import Units, number
 from .. import rows
 from ..places import in_both_places
 from . import remedies
 
-AXIS_LABELS = ("X", "Y", "Z")
 ABOUT_LABELS = ("x", "y", "1", "2")
 BOUND_LABELS = {
     "area": ("Area", "area"),
@@ -47,7 +47,7 @@ class SectionPanel:
             layout.label(text="Not Measured", icon="RADIOBUT_OFF")
             return
         units = Units.from_settings(context.scene.unit_settings)
-        _verdict(layout, context, stored, sections.stale_reason(obj, context.scene, stored))
+        _verdict(layout, context, stored, stale_reason(obj, context.scene, of_section))
         remedies.warnings(layout, context, "body_moments_section_warnings", stored.findings, can_accept=False)
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)
@@ -70,16 +70,10 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
     column = layout.column(align=True)
     rows.quantities(column, units, [("Area", "area", section.area), ("Perimeter", "length", section.perimeter)])
     size = section.area**0.5
-    column = layout.column(align=True)
-    rows.heading(column, "Centroid (World)", "length", section.center)
-    rows.values(column, units, AXIS_LABELS, "length", section.center, size)
-    column = layout.column(align=True)
-    rows.heading(column, "Second Moments of Area", "area_moment", section.second)
-    second = *section.second, section.polar
-    rows.values(column, units, ("Ix", "Iy", "Ixy", "Polar Jp"), "area_moment", second, section.polar)
-    column = layout.column(align=True)
-    rows.heading(column, "Principal", "area_moment", section.principal)
-    rows.values(column, units, ("I1", "I2"), "area_moment", section.principal)
+    rows.group(layout, units, "Centroid (World)", rows.AXIS_LABELS, "length", section.center, size)
+    second, labels = (*section.second, section.polar), ("Ix", "Iy", "Ixy", "Polar Jp")
+    rows.group(layout, units, "Second Moments of Area", labels, "area_moment", second, section.polar)
+    column = rows.group(layout, units, "Principal", ("I1", "I2"), "area_moment", section.principal)
     if section.axes_undetermined:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
@@ -97,12 +91,9 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
     header, body = layout.panel("body_moments_section_moduli", default_closed=True)
     header.label(text="Section Moduli and Radii of Gyration")
     if body is not None:
-        column = body.column(align=True)
-        rows.heading(column, "Elastic, at the Outermost Corner", "volume", section.moduli)
-        rows.values(column, units, ["W" + name for name in ABOUT_LABELS], "volume", section.moduli)
-        column = body.column(align=True)
-        rows.heading(column, "Radii of Gyration", "length", section.radii)
-        rows.values(column, units, ["i" + name for name in ABOUT_LABELS], "length", section.radii)
+        moduli, radii = (["{:s}{:s}".format(letter, name) for name in ABOUT_LABELS] for letter in "Wi")
+        rows.group(body, units, "Elastic, at the Outermost Corner", moduli, "volume", section.moduli)
+        rows.group(body, units, "Radii of Gyration", radii, "length", section.radii)
     header, body = layout.panel("body_moments_section_plane", default_closed=True)
     header.label(text="Plane")
     if body is not None:
@@ -110,9 +101,9 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
         rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
         for label, axis in zip(("x", "y", "n"), section.plane.axes.T):
             rows.direction(column, label, axis)
-        column = body.column(align=True)
-        rows.heading(column, "Centroid from Object Origin", "length", section.centroid)
-        rows.values(column, units, ("x", "y"), "length", section.centroid, section.area**0.5)
+        column = rows.group(
+            body, units, "Centroid from Object Origin", ("x", "y"), "length", section.centroid, section.area**0.5
+        )
         column.label(text="About the centroid, Ix = ∫y² dA, Ixy = +∫xy dA")
         column.label(text="Jp = Ix + Iy is not the torsion constant")
     header, body = layout.panel("body_moments_section_bounds", default_closed=True)
@@ -130,13 +121,8 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
         ):
             column = body.column(align=True)
             column.label(text=title)
-            rows.table(
-                column,
-                [
-                    (label, units.bound(quantity, bounds[name], sizes[name]), repr(bounds[name]), SI_UNITS[quantity])
-                    for name, (label, quantity) in BOUND_LABELS.items()
-                ],
-            )
+            entries = [(*BOUND_LABELS[name], bounds[name], size) for name, size in sizes.items()]
+            rows.bounds(column, units, entries)
 
 
 CLASSES = VIEW3D_PT_body_moments_section, OBJECT_PT_body_moments_section = in_both_places(

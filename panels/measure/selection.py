@@ -7,18 +7,12 @@ from __future__ import annotations
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
-from ...blender.session.stored import results
+from ...blender.session import displayed
+from ...blender.session.displayed import Trust, drawn
 from ...blender.session.stored.listing import SortBy, listed_masses, listing
-from ...blender.session.stored.shown import shown_body
-from ...blender.session.stored.trust import Trust
-from ...blender.write.translations import localized
 from ...blender.write.units import Units
-from ...core.verdict.finding import finding
-from ...core.verdict.sentences import truncate_list
 from .. import rows
-from ..findings import PANEL_NOTHING_MEASURED
 from ..places import in_both_places
-from .numbers import AXIS_LABELS, PRINCIPAL_LABELS
 
 VERDICT_ICONS = {  # the form says it, not the color alone
     Trust.EXACT: "CHECKMARK",
@@ -46,14 +40,14 @@ class BODY_MOMENTS_UL_measured(UIList):
     )
 
     def draw_item(self, context, layout, _data, obj, _icon, _active_data, _active_property, _index) -> None:
-        body = shown_body(obj, context.scene)
+        body = drawn(obj, context.scene)
         if body is None:
             layout.label(text=obj.name, translate=False)
             return
         row = layout.row(align=True)
-        row.alert = body.verdict == Trust.OUT_OF_DATE
+        row.alert = body.trust == Trust.OUT_OF_DATE
         row.active = obj.select_get()
-        row.label(text=obj.name, icon=VERDICT_ICONS[body.verdict], translate=False)
+        row.label(text=obj.name, icon=VERDICT_ICONS[body.trust], translate=False)
         if not rows.is_narrow(context):
             cell = row.row(align=True)
             cell.alignment = "RIGHT"
@@ -107,36 +101,32 @@ def _listed(layout: UILayout, context: Context) -> None:
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:
     rows.title(layout, "Total of Selection")
-    total = results.total(context)
+    total = displayed.total(context)
     column = layout.column(align=True)
     if not total.count:
-        rows.message(column, context, finding(PANEL_NOTHING_MEASURED))
+        rows.remark(column, context, "No selected object is measured")
         return
     rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
     for names, text in (
-        (total.missing, "Not measured: {:s}"),
-        (total.stale, "Out of date: {:s}"),
-        (total.doubtful, "Doubtful: {:s}"),
+        (total.missing, "Not measured: {objects}"),
+        (total.stale, "Out of date: {objects}"),
+        (total.doubtful, "Doubtful: {objects}"),
     ):
         if names:
             row = column.row()
             row.alert = True
-            rows.sentence(row, context, localized(text).format(truncate_list(names, translate=localized)), icon="ERROR")
+            rows.remark(row, context, text, icon="ERROR", objects=names)
     for caveat in total.findings:
         rows.message(column, context, caveat)
     column = layout.column(align=True)
-    mass = None if total.body is None else total.body.mass
+    numbers = total.numbers
+    mass = None if numbers is None else numbers.mass
     entries = [("Mass", "mass", mass), ("Volume", "volume", total.volume), ("Area", "area", total.area)]
     rows.quantities(column, units, [(label, quantity, si) for label, quantity, si in entries if si])
-    if total.body is None:
+    if numbers is None:
         return
-    column = layout.column(align=True)
-    rows.heading(column, "Center of Mass (World)", "length", total.body.center)
-    rows.values(column, units, AXIS_LABELS, "length", total.body.center, total.body.radii_of_gyration.max())
-    column = layout.column(align=True)
-    moments = total.body.principal.moments
-    rows.heading(column, "Principal Moments", "inertia", moments)
-    rows.values(column, units, PRINCIPAL_LABELS, "inertia", moments)
+    rows.center(layout, units, "Center of Mass (World)", numbers)
+    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
 
 
 PANELS = VIEW3D_PT_body_moments_selection, OBJECT_PT_body_moments_selection = in_both_places(

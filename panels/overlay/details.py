@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,10 +11,8 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...blender.session.stored import balance_groups, faults, stability
-from ...blender.settings.overlay import BodyMomentsOverlaySettings
 from ...core.statics.support import Support
 from . import appearance as look
-from .bodies import drawn_objects
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, of the support polygon's extent
@@ -30,22 +27,22 @@ class Detail:
     triangles: Colored
 
 
-def objects_details(context: Context, settings: BodyMomentsOverlaySettings) -> Iterator[Detail]:
-    """Yield the enabled details of each drawn object."""
+def list_details(context: Context, objects: list[Object]) -> list[Detail]:
+    """Return the enabled details of drawn objects, and the paths of balance groups."""
+    settings, details = context.scene.body_moments.overlay, []
     if settings.show_path:
         for empty in balance_groups.groups(context.scene):
             if empty.visible_in_viewport_get(context.space_data) and (path := balance_groups.path(empty)) is not None:
-                yield _path(path)
+                details.append(_path(path))
                 stood = balance_groups.support(empty, context.scene.frame_current) if settings.show_support else None
                 if stood is not None:
-                    yield support_detail(stood)
-    if not (settings.show_faults or settings.show_support):
-        return
-    for obj in drawn_objects(context, settings.show_all):
+                    details.append(support_detail(stood))
+    for obj in objects:
         if settings.show_faults and (found := faults.of_object(obj)) is not None:
-            yield _faults(obj, found)
+            details.append(_faults(obj, found))
         if settings.show_support and (support := stability.support(obj, context.scene)) is not None:
-            yield support_detail(support)
+            details.append(support_detail(support))
+    return details
 
 
 def _path(path: balance_groups.Path) -> Detail:

@@ -4,56 +4,157 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...blender.settings.overlay import BodyMomentsOverlaySettings
+from ...blender.settings.scene import BodyMomentsOverlaySettings
 from . import appearance as look
-from . import glyphs, solids
+from . import glyphs
 from .bodies import Bodies
-from .view import View
 
 MARGIN = 40.0  # pixels around the view in which discs are still made
 MIN_NAMED = 8.0  # pixels of the longest axis from which on axes are named
 Segments = tuple[NDArray[np.float64], NDArray[np.float32]]  # (k, 2, 3) in the world, (k, 4) colors
+CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)
+RING = CIRCLE[::3]
+DASHES = 12  # dashes of a drop line
+EDGES = np.array([[i, i | 1 << axis] for i in range(8) for axis in range(3) if not i & 1 << axis])
+CORNERS = np.array([[(i >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for i in range(8)])
 
 
-def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> Iterator[Segments]:
-    """Yield the segments of the enabled drawings."""
+def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> list[Segments]:
+    """Return the segments of the enabled drawings."""
     place = bodies.centers, bodies.axes, bodies.gyration
+    drawings = []
     if settings.show_axes:
-        yield _colored(solids.axis_lines(*place), bodies)
+        drawings.append(axis_lines(*place))
     if settings.show_drop_line:
-        yield _colored(solids.drop_lines(bodies.centers, bodies.gyration), bodies)
+        drawings.append(drop_lines(bodies.centers, bodies.gyration))
     if settings.equivalent == "BOX":
-        yield _colored(solids.box_lines(*place), bodies)
+        drawings.append(box_lines(*place))
     elif settings.equivalent == "ELLIPSOID":
-        yield _colored(solids.ellipsoid_lines(*place), bodies)
+        drawings.append(ellipsoid_lines(*place))
+    colors = look.COLORS[bodies.verdicts]
+    return [(lines.reshape(-1, 2, 3), colors.repeat(lines.shape[1], axis=0)) for lines in drawings]
 
 
-def _colored(segments: NDArray, bodies: Bodies) -> Segments:
-    return segments.reshape(-1, 2, 3), look.COLORS[bodies.verdicts].repeat(segments.shape[1], axis=0)
+def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+    """Each axis through the center, a radius of gyration long to both sides."""
+    arms = (axes * gyration[:, None, :]).transpose(0, 2, 1)
+    return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
+
+
+def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArray[np.float64]:
+    """Return a dashed line from each center to the floor, and a ring at its foot."""
+    feet = centers.copy()
+    feet[:, 2] = floor
+    steps = np.arange(2 * DASHES).reshape(-1, 2) / (2.0 * DASHES - 1.0)
+    dashes = feet[:, None, None] + steps[None, :, :, None] * (centers - feet)[:, None, None]
+    ring = np.stack([np.cos(RING), np.sin(RING), np.zeros_like(RING)], axis=1)
+    ring = np.stack([ring[:-1], ring[1:]], axis=1)
+    return np.concatenate(
+        [dashes, feet[:, None, None] + 0.15 * gyration.max(axis=1)[:, None, None, None] * ring], axis=1
+    )
+
+
+def _spread(gyration: NDArray) -> NDArray[np.float64]:
+    """Return (n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration.
+
+    The values are twice the mean square distance along axis i.
+    """
+    squares = gyration**2
+    return np.maximum(squares.sum(axis=1, keepdims=True) - 2.0 * squares, 0.0)
+
+
+def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+    """Return the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i) / m."""
+    half = np.sqrt(6.0 * _spread(gyration)) / 2.0
+    corners = centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half)
+    return corners[:, EDGES]
+
+
+def ellipsoid_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
+    """Return the ellipsoid with the same mass and inertia as three ellipses.
+
+    Its semi-axes are a_i² = 5 (I_j + I_k - I_i) / (2 m).
+    """
+    half = np.sqrt(2.5 * _spread(gyration))
+    circles = np.zeros((3, len(CIRCLE), 3))
+    for axis in range(3):
+        circles[axis, :, axis - 1], circles[axis, :, axis - 2] = np.cos(CIRCLE), np.sin(CIRCLE)
+    points = centers[:, None, None] + np.einsum("nij,ckj,nj->ncki", axes, circles, half)
+    return np.stack([points[:, :, :-1], points[:, :, 1:]], axis=3).reshape(len(centers), 3 * (len(CIRCLE) - 1), 2, 3)
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A projection of the world to the screen: (4, 4) world to view, (4, 4) view to clip space, (2,) size in pixels."""
+
+    view: NDArray[np.float64]
+    projection: NDArray[np.float64]
+    size: NDArray[np.float64]
+
+    def depths(self, points: NDArray) -> NDArray[np.float64]:
+        """Return (n,) distances of (n, 3) points from the eye along the view, negative behind it in perspective."""
+        return -(points @ self.view[2, :3] + self.view[2, 3])
+
+    def pixels(self, points: NDArray) -> NDArray[np.float64]:
+        """Return (n, 2) screen positions of (n, 3) points, from the lower left corner.
+
+        Positions of points behind the eye are meaningless.
+        """
+        seen = points @ self.view[:3, :3].T + self.view[:3, 3]
+        clip = seen @ self.projection[:, :3].T + self.projection[:, 3]
+        scale = np.where(clip[:, 3] == 0.0, 1.0, clip[:, 3])
+        return (clip[:, :2] / scale[:, None] + 1.0) / 2.0 * self.size
+
+    def pixel_sizes(self, points: NDArray) -> NDArray[np.float64]:
+        """Return (n, 2) lengths of a pixel at (n, 3) points, along the width and the height; 0 behind the eye."""
+        seen = points @ self.view[:3, :3].T + self.view[:3, 3]
+        w = seen @ self.projection[3, :3] + self.projection[3, 3]
+        return np.maximum(w, 0.0)[:, None] * 2.0 / (self.size * np.diagonal(self.projection)[:2])
+
+    def place(self, anchors: NDArray, offsets: NDArray) -> NDArray[np.float64]:
+        """Return (n, k, 3) world points of shapes of constant screen size at (n, 3) anchors, in the offsets' type.
+
+        The (n, k, 2) offsets are pixels right and up; the points lie in the plane through the anchor facing the view.
+        """
+        lengths = self.pixel_sizes(anchors)[:, :, None] * self.view[:2, :3]
+        right, up = offsets[..., 0], offsets[..., 1]
+        placed = np.empty((*right.shape, 3), offsets.dtype)
+        for axis in range(3):
+            across, above, base = (
+                values.astype(offsets.dtype)[:, None]
+                for values in (lengths[:, 0, axis], lengths[:, 1, axis], anchors[:, axis])
+            )
+            placed[..., axis] = right * across + up * above + base
+        return placed
 
 
 def disc_triangles(
     bodies: Bodies, view: View, scale: float, with_digits: bool
-) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
+) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]] | None:
     """Make the discs at the centers, and the digits at the ends of the axes if `with_digits`.
 
     Return (k, 3) points, (2, k, 4) colors, hidden by something in front and visible, and (l, 3) triangles, the nearest
-    bodies last. `scale` is in pixels for one of `appearance`.
+    bodies last; None if none is in view. `scale` is in pixels for one of `appearance`.
     """
     sizes = view.pixel_sizes(bodies.centers).max(axis=1)
-    reach = np.divide(bodies.gyration.max(axis=1), sizes, out=np.zeros(len(bodies)), where=sizes > 0.0)  # in pixels
-    away = np.abs(view.pixels(bodies.centers) - view.size / 2.0) - view.size / 2.0
+    reach = np.divide(bodies.gyration.max(axis=1), sizes, out=np.zeros(len(sizes)), where=sizes > 0.0)  # in pixels
+    pixels = view.pixels(bodies.centers)
+    away = np.abs(pixels - view.size / 2.0) - view.size / 2.0
     seen = np.flatnonzero((sizes > 0.0) & (away <= (reach + scale * MARGIN)[:, None]).all(axis=1))
     seen = seen[np.argsort(-view.depths(bodies.centers[seen]), kind="stable")]
     named = with_digits & (reach[seen] >= scale * MIN_NAMED)
     parts = [
-        _glyphs(bodies, group, view, scale, digits) for group, digits in ((seen[~named], False), (seen[named], True))
+        _glyphs(bodies, group, view, scale, pixels if has_digits else None)
+        for group, has_digits in ((seen[~named], False), (seen[named], True))
+        if len(group)
     ]
+    if not parts:
+        return None
     starts = np.cumsum([0, *(len(points) for points, _, _ in parts)], dtype=np.int32)
     points, colors, triangles = zip(*parts)
     numbered = [corners + start for corners, start in zip(triangles, starts)]
@@ -61,18 +162,18 @@ def disc_triangles(
 
 
 def _glyphs(
-    bodies: Bodies, group: NDArray[np.intp], view: View, scale: float, with_digits: bool
+    bodies: Bodies, group: NDArray[np.intp], view: View, scale: float, pixels: NDArray | None
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
-    """Make the `disc_triangles` of some bodies, in this order."""
+    """Make the `disc_triangles` of some bodies, in this order; digits if the `pixels` of all centers are given."""
     count, centers, verdicts = len(group), bodies.centers[group], bodies.verdicts[group]
     discs = glyphs.discs()
     points, colors = [view.place(centers, scale * discs.corners[verdicts])], [discs.colors[:, verdicts]]
     triangles = [discs.triangles[verdicts]]
-    if with_digits:
+    if pixels is not None:
         digits = glyphs.digits()
         arms = bodies.axes[group] * bodies.gyration[group][:, None, :]
         tips = (centers[:, None] + arms.transpose(0, 2, 1)).reshape(-1, 3)
-        away = _digit_offsets(view.pixels(centers), view.pixels(tips).reshape(-1, 3, 2), scale).astype(np.float32)
+        away = _digit_offsets(pixels[group], view.pixels(tips).reshape(-1, 3, 2), scale).astype(np.float32)
         offsets = (scale * digits.corners + away[:, :, None]).reshape(3 * count, digits.corners.shape[1], 2)
         points.append(view.place(tips, offsets).reshape(count, 3 * digits.corners.shape[1], 3))
         tints = digits.colors.reshape(2, 1, -1, 4)

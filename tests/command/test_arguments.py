@@ -6,7 +6,7 @@ import pytest
 
 pytest.importorskip("bpy")
 from body_moments.command.options import arguments
-from body_moments.core.measurement.documents import FORMATS
+from body_moments.command.options.formats import FORMATS
 
 from tests.blender.batch_files import sentence
 

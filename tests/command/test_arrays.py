@@ -80,20 +80,24 @@ def test_given_mass_object_names_and_notes(tmp_path):
     assert {"given_density_ignored", "scan_without_spacing"} <= {*codes(document["objects"][0])}
 
 
-def damaged(file: str, code: str) -> str:
-    return sentence("file_damaged", file=file, cause={"code": code, "values": {}})
+def damaged(file: str, code: str, **values) -> str:
+    return sentence("file_damaged", file=file, cause={"code": code, "values": values})
 
 
 @pytest.mark.parametrize(
     "data, options, reason",
     [
-        (b"nonsense", (), sentence("nrrd_unrecognized")),
+        (b"nonsense", (), sentence("file_unrecognized", format="NRRD")),
         (nrrd(-box()), (), sentence("values_negative", density=-1.0)),
         (nrrd(box("f4", 0.0)), (), sentence("grid_empty")),
         (nrrd(box("f4", np.nan)), (), sentence("density_non_finite")),
         (nrrd(box()), ("--kind", "shell"), sentence("grid_as_shell")),
         (nrrd(box()), ("--write",), sentence("results_need_blend")),
-        (nrrd(box(), encoding="gzip")[:-1] + b"!", (), damaged("a.nrrd", "damage_unpacked_length")),
+        (
+            nrrd(box(), encoding="gzip")[:-1] + b"!",
+            (),
+            damaged("a.nrrd", "damage_packed", error="incorrect length check"),
+        ),
     ],
 )
 def test_unmeasurable_array_is_an_error(tmp_path, data, options, reason):
@@ -169,10 +173,10 @@ def test_uneven_slices_are_measured_in_place(tmp_path):
 @pytest.mark.parametrize(
     "row, words",
     [
-        ([0, 1, 2, 3, 4], "has 5 positions along z, and the scan 6"),
-        ([0, 1, 2, 2, 4, 5], "is not greater"),
-        ([0, 1, 2, np.nan, 4, 5], "is not finite"),
-        (None, "does not exist"),
+        ([0, 1, 2, 3, 4], "are not one row of 6 numbers"),
+        ([0, 1, 2, 2, 4, 5], "Position 3 along z"),
+        ([0, 1, 2, np.nan, 4, 5], "Position 3 along z"),
+        (None, "“z.npy” is missing"),
     ],
 )
 def test_wrong_positions_are_an_error_of_the_file(tmp_path, row, words):

@@ -38,7 +38,7 @@ def test_a_report_lists_links_with_findings_and_the_repair(tmp_path):
     right, wrong = found["links"]
     assert right["findings"] == [] and right["repaired"] is None
     codes = [entry["code"] for entry in wrong["findings"]]
-    assert codes == ["inertial_spread_outside", "audit_inertia_unit"]
+    assert codes == ["inertial_spread_outside", "audit_unit"]
     assert abs(wrong["repaired"]["inertia"][0][0] / 5333.3333 - 1.0) < 1e-6
     assert answer(description(tmp_path / "s.urdf", RIGHT))[1] == 0
 
@@ -55,10 +55,10 @@ def test_several_files_are_a_list_with_unreadable_ones(tmp_path):
 def test_tables_and_pages_carry_nothing_out_of_the_file_as_code(tmp_path):
     path = description(tmp_path / "r.urdf", RIGHT, WRONG)
     rows = list(csv.DictReader(io.StringIO(answer("--format", "csv", path)[0])))
-    assert [row["code"] for row in rows] == ["ok", "inertial_spread_outside", "audit_inertia_unit"]
+    assert [row["code"] for row in rows] == ["ok", "inertial_spread_outside", "audit_unit"]
     assert rows[1]["link"] == "'=cmd|x<b>"
     page = answer("--format", "html", path)[0]
-    assert "&lt;b&gt;" in page and "<b>" not in page and "<script" not in page and "audit_inertia_unit" in page
+    assert "&lt;b&gt;" in page and "<b>" not in page and "<script" not in page and "audit_unit" in page
 
 
 def test_a_repaired_copy_is_written_elsewhere_and_is_right(tmp_path):

@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.command.files import files as opening
+from body_moments.core.streams.stl_text import BY_WORD
 from body_moments.core.verdict.finding import FileError
 
 from tests.blender import batch_files as files
@@ -160,7 +161,7 @@ def test_half_a_file_is_an_error(tmp_path, suffix):
 
 def test_a_text_stl_cut_short_is_not_measured_as_half_a_body(tmp_path):
     text = files.stl_text(faces=files.FACES[:2], end="facet normal 0 0 0\nouter loop\n")
-    assert reason(files.write_text(tmp_path / "cut.stl", text)) == sentence("stl_cut_short")
+    assert reason(files.write_text(tmp_path / "cut.stl", text)) == sentence("stl_cut_short", end=BY_WORD)
 
 
 def test_binary_stl_with_a_solid_header_is_binary(tmp_path):
@@ -170,7 +171,7 @@ def test_binary_stl_with_a_solid_header_is_binary(tmp_path):
     path.write_bytes(b"solid binary".ljust(80) + struct.pack("<I", 4) + b"".join(facets))
     assert measured(path)["volume"] == pytest.approx(1.0)
     path.write_bytes(path.read_bytes()[:-1])
-    assert reason(path) == sentence("stl_cut_short")  # it says that it is text
+    assert reason(path) == sentence("stl_cut_short", end=BY_WORD)  # it says that it is text
 
 
 @needs_usd

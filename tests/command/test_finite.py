@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.files import finite
+from body_moments.core.streams.misread import NUMBER
 from body_moments.core.verdict.finding import FileError, finding
 
 from tests.blender import batch_files as files
@@ -69,8 +70,8 @@ def test_text_with_nan_or_infinity_is_refused(tmp_path, name):
     for word in WORDS:
         text, line = texts(word)[name]
         files.write_text(tmp_path / name, text)
-        cause = finding("field_not_number", text=word[:60]).as_record()
-        assert checked(tmp_path / name) == finding("line_misread", line=line, cause=cause)
+        values = {"text": word[:60], "expected": NUMBER}
+        assert checked(tmp_path / name) == finding("line_misread", line=line, **values)
     for word in FINITE:
         files.write_text(tmp_path / name, texts(word)[name][0])
         assert checked(tmp_path / name) is None, word
@@ -83,9 +84,9 @@ def test_words_that_are_no_numbers_are_refused_streamed_or_not(tmp_path, name):
     for word in (*NO_NUMBERS, "1,0"):
         text, line = texts(word)[name]
         files.write_text(path, text)
-        cause = finding("field_not_number", text=word).as_record()
+        values = {"text": word, "expected": NUMBER}
         for stream in ("never", "always")[: 1 + (name != "t.obj")]:
-            assert reason(path, "--stream", stream) == sentence("line_misread", line=line, cause=cause)
+            assert reason(path, "--stream", stream) == sentence("line_misread", line=line, **values)
     text, line = texts("")[name]  # one number is missing
     files.write_text(path, text)
     for stream in ("never", "always")[: 1 + (name != "t.obj")]:
@@ -117,12 +118,12 @@ def test_binary_ply_is_read_in_its_byte_order(tmp_path, order):
     assert checked(path) is None
     rows["z"][123456], rows["y"][150000], rows["x"][123457] = math.inf, 1e39, math.nan
     write()
-    said(path, 3, "at_vertex", vertex=123456)
+    said(path, 3, "at_row", element="vertex", row=123456)
     lists = [*lines[:1], "property list uchar short l", *AXES]
     lists[0] = "element vertex 3"
     body = [struct.pack(order + "Bh3f", 1, 7, 0, 0, 0), struct.pack(order + "B3f", 0, 0, 0, math.nan)]
     path.write_bytes(ply_head(kind, *lists).encode() + b"".join(body) + body[0])
-    said(path, 1, "at_vertex", vertex=1)
+    said(path, 1, "at_row", element="vertex", row=1)
 
 
 def test_a_binary_stl_may_have_any_normals(tmp_path):
@@ -138,10 +139,10 @@ def test_a_binary_stl_may_have_any_normals(tmp_path):
     facets["at"][69999, 2, 1] = -math.inf
     facets["at"][65000, 0, 0] = facets["at"][65000, 2, 2] = math.nan
     write()
-    said(path, 3, "at_triangle", triangle=65000)
+    said(path, 3, "at_row", element="triangle", row=65000)
     facets = facets[-1:]
     write()
-    assert reason(path) == refused(1, "at_triangle", triangle=0)
+    assert reason(path) == refused(1, "at_row", element="triangle", row=0)
 
 
 @pytest.fixture
@@ -279,7 +280,7 @@ def test_the_vertices_of_an_fbx_are_looked_at(tmp_path, packed):
     assert checked(path) is None
     values[[299_999, 200_000]] = math.nan, 1e39
     fbx_file(path, values, packed)
-    said(path, 2, "at_vertex", vertex=66_666)
+    said(path, 2, "at_row", element="vertex", row=66_666)
 
 
 @pytest.mark.parametrize("head", ["Vertices: *12 {\n\t\t\ta: ", "Vertices: "])
@@ -291,11 +292,11 @@ def test_the_vertices_of_an_fbx_of_text_are_looked_at(tmp_path, head):
     for word in (*FINITE, *WORDS, *NO_NUMBERS):
         files.write_text(path, text + head + "0,0,0,1,0,0,0,\n" + word + ",0,\n0,0,3" + after)
         line = (text + head).count("\n") + 2
-        cause = finding("field_not_number", text=word[:60]).as_record()
-        assert checked(path) == (None if word in FINITE else finding("line_misread", line=line, cause=cause))
-    cause = finding("field_not_number", text="nan").as_record()
+        values = {"text": word[:60], "expected": NUMBER}
+        assert checked(path) == (None if word in FINITE else finding("line_misread", line=line, **values))
+    values = {"text": "nan", "expected": NUMBER}
     files.write_text(path, "; Vertices: are numbers\nVertices: 0,0,0,nan,0,0")
-    assert checked(path) == finding("line_misread", line=2, cause=cause)
+    assert checked(path) == finding("line_misread", line=2, **values)
     files.write_text(path, "Vertices: 0,0,0,1,\n0,0\nPolygonVertexIndex: 0,nan\nOther: *1 {\na: nan}")
     assert checked(path) is None
 
@@ -311,7 +312,7 @@ def test_an_fbx_of_blender_is_looked_at(tmp_path):
     stored = zlib.compress(bytes(raw), 9).ljust(size, b"\0")
     assert packed and len(stored) == size
     path.write_bytes(data[: at + 13] + stored + data[at + 13 + size :])
-    assert reason(path) == refused(24, "at_vertex", vertex=0)
+    assert reason(path) == refused(24, "at_row", element="vertex", row=0)
 
 
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".ply", ".glb", ".gltf", ".fbx"])

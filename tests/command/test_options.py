@@ -194,7 +194,7 @@ def test_a_density_that_nobody_set_is_a_finding():
     bpy.ops.curve.primitive_bezier_circle_add()
     wire = bpy.context.object
     wire.body_moments.kind = "WIRE"
-    assert codes(measured("--object", wire.name)) == ["linear_density_defaulted"]
+    assert codes(measured("--object", wire.name)) == ["density_defaulted"]
     wire.body_moments.linear_density = 1.0
     assert measured("--object", wire.name)["findings"] == []
 

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from body_moments.command.files import output
 from body_moments.command.measure.run import Run
-from body_moments.core.measurement import documents
+from body_moments.command.options.formats import FORMATS
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.verdict.finding import finding
 
@@ -49,7 +49,7 @@ def text(*words):
     line = Run(parsed(*words))
     line.measure()
     assert not line.errors
-    found = "".join(documents.FORMATS[line.options.format](line.documents))
+    found = "".join(FORMATS[line.options.format](line.documents))
     if line.options.output is not None:
         output.write(found, line.options.output, -1)
     return found

@@ -10,6 +10,7 @@ from body_moments.blender.bodies.files import stream as stream_bodies
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.command.files import bare_files
 from body_moments.command.supervisor import processes
+from body_moments.core.streams.stl_text import BY_COUNT, BY_WORD
 from body_moments.operators import batch
 
 from tests.blender.batch_files import codes, in_process, sentence
@@ -143,13 +144,13 @@ def test_damaged_and_empty_files_are_errors(tmp_path):
     whole = path.read_bytes()
     points, triangles = soup(part())
     points[7] = np.nan
-    place = {"code": "at_triangle", "values": {"triangle": 2}}
+    place = {"code": "at_row", "values": {"element": "triangle", "row": 2}}
     for data, reason in (
-        (whole[:-1], sentence("stl_size")),
+        (whole[:-1], sentence("stl_cut_short", end=BY_COUNT)),
         (b"", sentence("file_empty")),
         (stl((points, triangles)), sentence("non_finite_coordinates", count=3, place=place)),
-        (stl((points[:0], triangles[:0])), sentence("file_without_faces")),
-        (stl_text(part())[:-40], sentence("stl_cut_short")),
+        (stl((points[:0], triangles[:0])), sentence("file_without_objects", content="faces")),
+        (stl_text(part())[:-40], sentence("stl_cut_short", end=BY_WORD)),
     ):
         path.write_bytes(data)
         code, document = run(tmp_path, path, "--stream", "always")

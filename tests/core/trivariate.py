@@ -54,11 +54,8 @@ def exact_moments(coefficients: np.ndarray, axes, order: int, about) -> list[Fra
     tables = []
     for axis, center in zip(axes, about):
         knots = [Fraction(float(knot)) - Fraction(float(center)) for knot in axis.knots]
-        domain = (
-            (None, None) if axis.domain is None else [Fraction(end) - Fraction(float(center)) for end in axis.domain]
-        )
         tables.append(
-            [[integral(knots, i, axis.order, power, *domain) for i in range(axis.count)] for power in range(order + 1)]
+            [[integral(knots, i, axis.order, power) for i in range(axis.count)] for power in range(order + 1)]
         )
     result = []
     for p, q, r in monomials(order).tolist():

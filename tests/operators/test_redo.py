@@ -4,7 +4,8 @@
 
 import bpy
 import pytest
-from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking import staleness, stamps
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import section
 
 from tests.blender.objects import add, mesh_body
@@ -41,8 +42,8 @@ def test_cleared_kinds_leave_other_results_current(kinds):
     kept["SYMMETRY"] = obj.is_property_set("body_moments_symmetry")
     assert {kind for kind in kept if not kept[kind]} == kinds
     assert staleness.stale_reason(obj, bpy.context.scene) is None
-    assert staleness.section_stale_reason(obj) is None or not kept["SECTION"]
-    assert staleness.symmetry_stale_reason(obj) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_section) is None or not kept["SECTION"]
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
     assert bpy.ops.object.body_moments_clear(kinds=kinds) == {"CANCELLED"}
     assert bpy.ops.object.body_moments_clear() == {"FINISHED"} and "body_mass" not in obj
 
@@ -55,7 +56,7 @@ def test_edit_before_clearing_makes_symmetry_stale():
     obj.data.update()
     assert bpy.ops.object.body_moments_clear(kinds={"MASS"}) == {"FINISHED"}
     bpy.context.view_layer.update()
-    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
 
 
 def test_undo_of_clearing_stale_results_keeps_them_stale():
@@ -69,4 +70,4 @@ def test_undo_of_clearing_stale_results_keeps_them_stale():
     bpy.ops.ed.undo()
     bpy.context.view_layer.update()
     obj = bpy.data.objects["Body"]
-    assert "body_mass" in obj and staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+    assert "body_mass" in obj and staleness.stale_reason(obj, bpy.context.scene) == Stale.GEOMETRY

@@ -288,7 +288,7 @@ CASES = {  # scene, operator, options, code of the refusal
         lambda: (edited(), out_of_reach(None)),
         "object.sculpt_balance",
         {"limit": 0.01},
-        "balance_short_by_limit",
+        "balance_short",
     ),
     "group without mass": (massless_group, "object.balance_group", {}, "zero_mass"),
     "rest of damaged numbers": (damaged, "object.rest_on_ground", {}, "already_on_ground"),

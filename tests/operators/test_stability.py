@@ -96,13 +96,14 @@ def test_a_wedge_tips_over_its_edge(scene, size):
 
 def test_an_edit_puts_it_out_of_date(scene):
     from body_moments.blender.session.stored import stability
+    from body_moments.blender.session.tracking.staleness import stale_reason
 
     obj = objects.add(box((4.0, 2.0, 6.0)))
     bpy.ops.object.body_moments_stability()
     for vertex in obj.data.vertices[:4]:
         vertex.co.x -= 1.0
     obj.data.update()
-    assert support(obj) is None and stability.is_stale(obj)
+    assert support(obj) is None and stale_reason(obj, scene, stability.stamp_of)
     bpy.ops.object.body_moments_stability()
     assert close(obj["body_volume"], 60.0, BLENDER) and support(obj).stands
 

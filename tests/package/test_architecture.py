@@ -47,15 +47,16 @@ def shipped() -> dict[tuple[str, ...], Path]:
 MODULES = shipped()
 
 
-def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool]]:
-    """Return a module's imports from the add-on: (module or package, line, whether at the top of the file)."""
+def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool, bool]]:
+    """Return a module's imports from the add-on: (module or package, line, at the top of the file, when it runs)."""
     result = []
     package = module[:-1]
     tree = ast.parse(MODULES[module].read_text(encoding="utf-8"))
     checked = [
         node.body for node in tree.body if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
     ]
-    top = {id(node) for body in (tree.body, *checked) for node in body}
+    runs = {id(node) for node in tree.body}
+    top = runs.union(id(node) for body in checked for node in body)
     for node in ast.walk(tree):
         if not (isinstance(node, ast.ImportFrom) and node.level):
             continue
@@ -65,7 +66,7 @@ def imports(module: tuple[str, ...]) -> list[tuple[tuple[str, ...], int, bool]]:
         for alias in node.names:
             target = (*base, alias.name)
             known = target in MODULES or (*target, "__init__") in MODULES
-            result.append((target if known else base, node.lineno, id(node) in top))
+            result.append((target if known else base, node.lineno, id(node) in top, id(node) in runs))
     return result
 
 
@@ -78,7 +79,7 @@ def rank(order: tuple[tuple[str, ...], ...], package: str) -> int:
 def complaints() -> list[str]:
     result = []
     for module in MODULES:
-        for target, line, at_top in imports(module):
+        for target, line, at_top, _ in imports(module):
             place = f"{'/'.join(module)}:{line} imports {'/'.join(target)}"
             if not at_top and MODULES[module].relative_to(ROOT).as_posix() not in LATE:
                 result.append(place + " inside a function")
@@ -105,7 +106,9 @@ def cycles() -> list[list[str]]:
     """Modules that import each other, however far around; a package stands for its own __init__."""
     graph = {}
     for module in MODULES:
-        targets = {target if target in MODULES else (*target, "__init__") for target, _, top in imports(module) if top}
+        targets = {
+            target if target in MODULES else (*target, "__init__") for target, *_, runs in imports(module) if runs
+        }
         graph["/".join(module)] = sorted("/".join(target) for target in targets if target in MODULES)
     done, path, result = set(), [], []
 

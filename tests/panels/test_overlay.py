@@ -2,18 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the overlay draws, as arrays: where it is, how large, in which form. tests/window looks at its pixels."""
 
-import bpy
 import numpy as np
 import pytest
 
-from tests.blender import objects
 from tests.close import close
 
 
 @pytest.fixture
 def view(registered):
     """A perspective of 60° from (3, -4, 5) at an odd size, rolled."""
-    from body_moments.panels.overlay.view import View
+    from body_moments.panels.overlay.lines import View
 
     rotation = np.linalg.qr(np.random.default_rng(3).standard_normal((3, 3)))[0]
     rotation *= np.sign(np.linalg.det(rotation))
@@ -45,66 +43,32 @@ def test_shapes_have_their_size_in_pixels_wherever_they_are(view):
 
 
 def test_an_equal_box_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import solids
+    from body_moments.panels.overlay import lines
 
     sides = np.array([1.0, 2.0, 5.0])
     inertia = (sides @ sides - sides**2) / 12.0  # of a box of mass 1
     centers, axes = np.array([[10.0, 20.0, 30.0]]), np.eye(3)[None]
-    corners = solids.box_lines(centers, axes, np.sqrt(inertia)[None]).reshape(-1, 3)
+    corners = lines.box_lines(centers, axes, np.sqrt(inertia)[None]).reshape(-1, 3)
     assert close(np.ptp(corners, axis=0), sides, 1e-12)
     assert close(corners.mean(axis=0), centers[0], 1e-12)
 
 
 def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
-    from body_moments.panels.overlay import solids
+    from body_moments.panels.overlay import lines
 
     half = np.array([1.0, 2.0, 5.0])
     inertia = (half @ half - half**2) / 5.0
     turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
-    points = solids.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(-1, 3)
+    points = lines.ellipsoid_lines(np.zeros((1, 3)), turn[None], np.sqrt(inertia)[None]).reshape(-1, 3)
     assert close(((points @ turn / half) ** 2).sum(axis=1), 1.0, 1e-12)
     assert close(np.abs(points @ turn).max(axis=0), half, 1e-12)
 
 
 def test_axes_are_as_long_as_the_radii_of_gyration(registered):
-    from body_moments.panels.overlay import solids
+    from body_moments.panels.overlay import lines
 
     gyration = np.array([[1.0, 2.0, 3.0]])
     turn = np.linalg.qr(np.random.default_rng(2).standard_normal((3, 3)))[0]
-    segments = solids.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
+    segments = lines.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
     assert close(segments.mean(axis=1), 1.0, 1e-12)
     assert close(segments[:, 1] - segments[:, 0], 2.0 * (turn * gyration).T, 1e-12)
-
-
-def test_overlay_body_has_world_center_and_gyration(scene):
-    from body_moments.blender.session.stored.shown import shown_body
-
-    scene.unit_settings.scale_length = 0.001
-    obj = objects.add(objects.mesh_body(), location=(7, -3, 2), rotation=(0.3, 1.1, -0.4), scale=(2, 2, 2))
-    bpy.ops.object.body_moments_measure()
-    measurement = objects.measured(obj)
-    body = shown_body(obj)
-    assert close(body.center, measurement.mass_properties.center / 0.001, 1e-6)
-    assert close(body.gyration, measurement.mass_properties.radii_of_gyration / 0.001, 1e-6)
-    assert close(np.abs((body.axes * measurement.mass_properties.principal.axes).sum(axis=0)), 1.0, 1e-6)
-    assert body.verdict == "exact"
-
-
-def test_unmeasured_object_is_not_drawn(scene):
-    from body_moments.blender.session.stored.shown import shown_body
-
-    assert shown_body(objects.add(objects.mesh_body())) is None
-
-
-def test_an_open_body_is_doubtful_and_an_edited_one_out_of_date(scene):
-    from body_moments.blender.session.stored.shown import shown_body
-
-    strip = objects.add(objects.strip_mesh())
-    bpy.ops.object.body_moments_measure()
-    assert shown_body(strip) is None or shown_body(strip).verdict == "doubtful"
-    body = objects.add(objects.mesh_body())
-    bpy.ops.object.body_moments_measure()
-    body.data.vertices[0].co.z -= 0.5
-    body.data.update()
-    bpy.context.view_layer.update()
-    assert shown_body(body).verdict == "out of date"

@@ -5,7 +5,6 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.core.verdict.finding import finding
 
 from tests.blender.objects import add, measured, mesh_body, only
 from tests.panels.drawing import copied, findings_of, labels, shown, shows
@@ -18,11 +17,11 @@ def test_a_refusal_is_not_held_against_other_settings():
     settings = obj.body_moments
     settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000+"
     bpy.ops.object.body_moments_measure()
-    assert shows(shown(), "polynomial_syntax_at", part="1000+")
+    assert shows(shown(), "polynomial_syntax", part="1000+")
     settings.density_from = "VALUE"
-    assert "Not Measured" in labels(shown()) and not shows(shown(), "polynomial_syntax_at", part="1000+")
+    assert "Not Measured" in labels(shown()) and not shows(shown(), "polynomial_syntax", part="1000+")
     settings.density_from = "POLYNOMIAL"
-    assert shows(shown(), "polynomial_syntax_at", part="1000+")
+    assert shows(shown(), "polynomial_syntax", part="1000+")
 
 
 def test_values_are_shown_with_units_and_copied_with_all_digits():
@@ -40,14 +39,14 @@ def test_values_are_shown_with_units_and_copied_with_all_digits():
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])
 @pytest.mark.parametrize("unit", [1.0, 0.001])
 def test_the_frame_shown_is_the_frame_chosen(frame, unit):
-    from body_moments.blender.session.stored import results
+    from body_moments.blender.session.displayed import displayed
 
     scene = bpy.context.scene
     scene.unit_settings.scale_length = unit
     obj = add(mesh_body(), location=(1, 2, 3), rotation=(0.3, 0.2, 0.1), scale=(1, 2, -1))
     bpy.ops.object.body_moments_measure()
     scene.body_moments.frame = frame
-    shown, truth = results.of_object(obj, scene).body, measured(obj)
+    shown, truth = displayed(obj, scene).in_frame(frame).body, measured(obj)
     truth = truth.mass_properties if frame == "WORLD" else truth.in_object_frame()
     assert np.abs(shown.center - truth.center).max() < 1e-12 * max(1.0, np.abs(truth.center).max())
     assert np.abs(shown.inertia - truth.inertia).max() < 1e-12 * np.trace(truth.inertia)
@@ -57,24 +56,24 @@ def test_the_frame_shown_is_the_frame_chosen(frame, unit):
 
 def test_total_names_boolean_operands(capfd):
     """Without a window there is no clipboard: the whole report goes to the standard output."""
-    from body_moments.blender.session.stored import results
+    from body_moments.blender.session import displayed
 
     body, cutter = add(mesh_body(), "Body"), add(mesh_body(), "Cutter", location=(1, 1, 1))
     cutter.display_type = "WIRE"
     body.modifiers.new("Cut", "BOOLEAN").object = cutter
     only(body, cutter)
     bpy.ops.object.body_moments_measure()
-    (caveat,) = results.total(bpy.context).findings
+    (caveat,) = displayed.total(bpy.context).findings
     assert caveat.code == "total_boolean_operands" and "“Cutter” of “Body”" in str(caveat)
     assert shows(shown(), caveat.code, **caveat.values)
     bpy.ops.object.body_moments_copy_report()
     assert str(caveat) in capfd.readouterr().out
     body.modifiers.clear()
     bpy.context.view_layer.update()
-    assert [one.code for one in results.total(bpy.context).findings] == ["total_hidden_objects"]
+    assert [one.code for one in displayed.total(bpy.context).findings] == ["total_hidden_objects"]
     only(cutter)
     bpy.context.view_layer.update()
-    assert results.total(bpy.context).findings == ()
+    assert displayed.total(bpy.context).findings == ()
 
 
 def test_rounding_in_total_center_is_shown_as_zero():
@@ -88,7 +87,7 @@ def test_rounding_in_total_center_is_shown_as_zero():
 
 
 def test_totals_have_parallel_axis_terms():
-    from body_moments.blender.session.stored import results
+    from body_moments.blender.session import displayed
 
     objects = [add(mesh_body(), str(i), location=(10 * i, 2 * i, -i), rotation=(i, 0, 0)) for i in range(3)]
     only(*objects)
@@ -99,12 +98,12 @@ def test_totals_have_parallel_axis_terms():
     from body_moments.core.inertia.mass_properties import combine
 
     truth = combine([measured(obj).mass_moments for obj in objects])
-    total = results.total(bpy.context)
+    total = displayed.total(bpy.context)
     assert total.count == 3 and total.missing == ("Not Measured",)
-    assert abs(total.body.mass / truth.mass - 1.0) < 1e-12
-    assert np.abs(total.body.center - truth.center).max() < 1e-9
+    assert abs(total.numbers.mass / truth.mass - 1.0) < 1e-12
+    assert np.abs(np.array(total.numbers.center) - truth.center).max() < 1e-9
     moments = truth.principal.moments
-    assert np.abs(total.body.principal.moments - moments).max() < 1e-9 * moments.max()
+    assert np.abs(np.array(total.numbers.moments) - moments).max() < 1e-9 * moments.max()
     found = labels(shown())
     assert "3 Objects" in found
     assert "Not measured: “Not Measured”" in " ".join(found)
@@ -166,10 +165,8 @@ def test_drawing_changes_nothing_and_measures_nothing(monkeypatch):
 
 
 def outdated():
-    """The code of the reason that is shown, if any."""
-    text = " ".join(labels(shown(without=("selection",))))
-    codes = ("settings", "geometry", "transform")
-    return [code for code in codes if "Out of date: {}".format(finding("stale_" + code)) in text]
+    """Whether the numbers are shown as out of date."""
+    return "Out of date: " in " ".join(labels(shown(without=("selection",))))
 
 
 def test_undo_of_renaming_keeps_results_current():

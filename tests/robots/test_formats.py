@@ -11,8 +11,8 @@ import pytest
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Inertial, Joint, Link, Pose, Robot
 from body_moments.core.robots.write import mjcf, sdf, urdf, usd
-from body_moments.core.robots.write.formats import robot_text
 from body_moments.core.robots.write.text import roll_pitch_yaw
+from body_moments.core.robots.write.texts import robot_text
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 from urdf_parser_py.urdf import URDF
 

@@ -15,10 +15,10 @@ from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.model import Joint, Link, Pose, Robot, Shape
 from body_moments.core.robots.primitives import equal_inertia_shape
 from body_moments.core.robots.write import gltf, mjcf, usd
-from body_moments.core.robots.write.formats import robot_text
 from body_moments.core.robots.write.marker import is_ours
 from body_moments.core.robots.write.shapes import with_meshes, with_primitives
 from body_moments.core.robots.write.stl import to_stl
+from body_moments.core.robots.write.texts import robot_text
 from pxr import Sdf, Usd, UsdGeom, UsdPhysics
 
 from tests.robots.links import bodies, inertial, rotation, shaped, shapes

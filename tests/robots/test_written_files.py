@@ -8,7 +8,7 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots.model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from body_moments.core.robots.write import mjcf
-from body_moments.core.robots.write.formats import robot_text, with_geometry
+from body_moments.core.robots.write.texts import robot_text, with_geometry
 
 from tests.core.bodies import box
 from tests.robots.links import inertial, rotation, shaped

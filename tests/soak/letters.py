@@ -25,7 +25,7 @@ def outline(character: str, font_name: str, resolution: int):
     """(n, 2) the corners of a letter and its directed edges."""
     import bpy
     from body_moments.blender.read.section import read_section
-    from body_moments.core.flat import orient_loops
+    from body_moments.core.flat.polygon import orient_loops
 
     from tests.blender.flat_objects import text
 
@@ -40,7 +40,7 @@ def outline(character: str, font_name: str, resolution: int):
 
 def signed(points, edges):
     from body_moments.core.flat import region_moments
-    from body_moments.core.shape import flat_signature
+    from body_moments.core.shape.flat_signatures import flat_signature
 
     moments = region_moments(points, edges, 20)
     return flat_signature(moments, float(np.hypot(*(points - moments.about[:2]).T).max()))

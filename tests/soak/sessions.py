@@ -16,9 +16,9 @@ from collections import Counter
 import bmesh
 import bpy
 import numpy as np
-from body_moments.blender.read.fingerprint import MAX_DIGESTED_FACES
-from body_moments.blender.session.live import live
-from body_moments.blender.session.stored import results, trust
+from body_moments.blender.read.shapes import MAX_DIGESTED_FACES
+from body_moments.blender.session import displayed
+from body_moments.blender.session.live import following, live
 from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError
@@ -100,8 +100,9 @@ class Session:
     def check_object(self, obj, place):
         scene = bpy.context.scene
         is_stored = properties.is_stored(obj) and staleness.stale_reason(obj, scene) is None
-        shown = results.in_world(obj, scene) if live.is_live(obj) else None
-        if not is_stored and (shown is None or trust.trust(obj, scene) == trust.Trust.OUT_OF_DATE):
+        current = displayed.displayed(obj, scene) if following.is_live(obj) else None
+        shown = None if current is None or current.trust == displayed.Trust.OUT_OF_DATE else current.world
+        if not is_stored and shown is None:
             return
         try:
             truth = measured(obj)
@@ -110,7 +111,7 @@ class Session:
         body = truth.mass_properties
         reach = np.linalg.norm(body.center) + np.linalg.norm(body.radii_of_gyration)
         if is_stored:
-            stored = properties.from_numbers(properties.numbers(obj)).in_world(obj.matrix_world, 1.0)
+            stored = properties.stored(obj).in_world(obj.matrix_world, 1.0)
             same = np.allclose([stored.body.mass, stored.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
             assert same and np.linalg.norm(stored.body.center - body.center) <= RTOL * reach, (
                 place,
@@ -119,7 +120,7 @@ class Session:
             )
             spread = np.abs(stored.body.inertia - body.inertia).max()
             assert spread <= 10.0 * RTOL * body.principal.moments.max(), (place, obj.name, "stored inertia")
-        if shown is not None and trust.trust(obj, scene) != trust.Trust.OUT_OF_DATE:
+        if shown is not None:
             same = np.allclose([shown.body.mass, shown.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
             assert same and np.linalg.norm(shown.body.center - body.center) <= RTOL * reach, (place, obj.name, "live")
 
@@ -291,7 +292,7 @@ def adds_empty(session):
 
 
 def totals(session):
-    results.total(bpy.context)
+    displayed.total(bpy.context)
 
 
 HISTORY = (undoes, redoes)

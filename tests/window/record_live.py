@@ -43,8 +43,8 @@ view.view_perspective, view.view_distance = "ORTHO", 12.0
 view.view_location = (1.3, 0.0, 1.9)
 area.spaces.active.show_region_toolbar = False
 """
-LIVE = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.live']"
-CURRENT = f"not {LIVE}.is_pending(bpy.context.object)"  # Blender draws slowly without a graphics card
+LIVE = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.following']"
+CURRENT = f"not {LIVE}.followed[bpy.context.object].is_pending"  # Blender draws slowly without a graphics card
 CROP = (slice(80, 700), slice(300, 1300))  # rows and columns of the window
 
 

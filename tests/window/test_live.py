@@ -13,7 +13,7 @@ bpy.context.scene.unit_settings.scale_length = 1.0
 bpy.ops.surface.primitive_nurbs_surface_torus_add()
 bpy.ops.view3d.view_selected()
 """
-MODULE = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.live']"
+MODULE = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.following']"
 LIVE = MODULE + ".current_numbers(bpy.context.object)"
 VOLUME = f"getattr({LIVE}, 'measurement', None) and {LIVE}.measurement.volume"
 TORUS = 2.0 * math.pi**2 * 0.75 * 0.0625 * (1.0 - 1.9e-7)

@@ -14,7 +14,7 @@ bpy.ops.object.body_moments_live()
 bpy.ops.object.mode_set(mode="SCULPT")
 """
 SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
-LIVE, STALENESS, RESULTS = (SESSION.format(name) for name in ("live.live", "tracking.staleness", "stored.results"))
+LIVE, STALENESS, RESULTS = (SESSION.format(name) for name in ("live.following", "tracking.staleness", "displayed"))
 SPHERE = "bpy.context.object"
 VOLUME = f"{LIVE}.current_numbers({SPHERE}).measurement.volume"
 TRUTH = f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
@@ -43,7 +43,7 @@ def test_numbers_follow_a_stroke_when_it_stops(window):
     truth = window.ask(TRUTH)
     assert abs(truth / before - 1.0) > 1e-5
     assert window.get(VOLUME) == pytest.approx(truth, rel=1e-6)
-    assert window.ask(f"result = {STALENESS}.stale_reason({SPHERE}, bpy.context.scene)") == "stale_geometry"
+    assert window.ask(f"result = {STALENESS}.stale_reason({SPHERE}, bpy.context.scene)") == "Geometry changed"
     window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
     assert "Traceback" not in window.output()
 

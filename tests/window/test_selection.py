@@ -103,8 +103,8 @@ def test_live_follows_a_drag_in_the_list_and_the_panel(listed):
         "bpy.context.view_layer.objects.active = obj"
     )
     window.press("object.body_moments_live")
-    module = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.stored.results']"
-    volume = f"{module}.in_world(bpy.data.objects['Large'], bpy.context.scene).volume"
+    module = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.displayed']"
+    volume = f"{module}.displayed(bpy.data.objects['Large'], bpy.context.scene).world.volume"
     window.wait(f"abs({volume} - 27.0) < 1e-4")
     window.ask("bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.mesh.select_all(action='SELECT')")
     window.point_at_view()
@@ -175,7 +175,7 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
     window.ask("bpy.ops.object.select_all(action='SELECT')")
     window.redraw()
     window.picture("list-warnings-first")
-    results = "bl_ext.user_default.body_moments.blender.session.stored.results"
+    results = "bl_ext.user_default.body_moments.blender.session.displayed"
     total = f"__import__('sys').modules['{results}'].total(bpy.context)"
     assert window.get(f"[{total}.count, {total}.stale, {total}.doubtful]") == [3, ["C"], []]
 

@@ -29,8 +29,7 @@ from ....core.verdict.finding import Finding, ReadError, finding, truncate_findi
 from ....core.verdict.method import Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.reading import Reading, attribute_to_source, to_si
-from ...settings.density import DensityField, material_density
-from ...settings.digest import density_key
+from ...settings.density import DensityField, density_key, material_density
 from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
 from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (

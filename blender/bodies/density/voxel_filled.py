@@ -20,6 +20,7 @@ from ...read.grids.volume import VolumeReading, volume_reading
 from ...read.reading import attribute_to_source, to_si
 from ...read.tracking import tracking_paused
 from ...settings.grid import GridOptions
+from ...settings.grid_values import density_function, empty_background_note
 from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
     DENSITY_FROM_GRID,
@@ -94,7 +95,7 @@ def voxel_filled_body(
     meaning = replace(options, spline_order=1).meaning()
     findings = [
         finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()).of_sources([reading.name]),
-        *options.empty_background_note(reading.background),
+        *empty_background_note(options, reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)
     if outside > MAX_OUTSIDE_SHARE:
@@ -120,7 +121,7 @@ def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
 
 def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
     """Return the densities of the voxels from `low` to `high`."""
-    to_densities = options.to_densities(reading.background)
+    to_densities = density_function(options, reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():
         start = np.array(start)

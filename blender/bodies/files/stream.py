@@ -16,8 +16,8 @@ from ....core.measurement.measurement import Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Moments
 from ....core.solid.findings import INVERTED_COMPONENTS
-from ....core.streams import StreamIntegrals, measure_stream, open_mesh_file
-from ....core.streams.mesh_file import MeshFile
+from ....core.streams.measure import StreamIntegrals, measure_stream
+from ....core.streams.mesh_file import MeshFile, open_mesh_file
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import SELF_INTERSECTION
 from ....core.verdict.health import MeshHealth

@@ -23,8 +23,9 @@ from ....core.verdict.method import Method, Source, Verdict
 from ...read.grids.volume import VolumeReading, volume_reading
 from ...read.reading import Part, Reading, to_si
 from ...read.tracking import tracking_paused
-from ...settings.digest import density_key, grid_key
+from ...settings.density import density_key, grid_key
 from ...settings.grid import GridOptions
+from ...settings.grid_values import density_function, empty_background_note, sample_positions
 from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
     DENSITY_FROM_GRID,
@@ -76,7 +77,7 @@ class _Weights:
     """Densities of blocks of samples, kg/m³."""
 
     def __init__(self, options: GridOptions, background: float | None, slope: float, intercept: float):
-        self._weigh = options.to_densities(background)
+        self._weigh = density_function(options, background)
         self._slope, self._intercept = slope, intercept
 
     def densities(self, block: NDArray) -> NDArray[np.float64]:
@@ -140,7 +141,7 @@ def grid_body(
         return _solid(reading, unit, threads)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
-    positions = options.positions(reading.grid, reading.low, reading.shape)
+    positions = sample_positions(options, reading.grid, reading.low, reading.shape)
     first = np.eye(4)
     first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
@@ -209,7 +210,7 @@ def density_body(
     if not mass.total > 0.0:
         raise ReadError(GRID_EMPTY)
     volume = _occupied(samples, shape, matrix, weigh, 3, positions)
-    findings += (*options.empty_background_note(background), finding(GRID_WITHOUT_SURFACE))
+    findings += (*empty_background_note(options, background), finding(GRID_WITHOUT_SURFACE))
     return GridBody(
         volume,
         Moments(np.zeros(1), volume.about, Measure.AREA),

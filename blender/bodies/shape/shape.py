@@ -33,8 +33,8 @@ from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
 from ....core.shape.symmetries import Symmetry, confirm, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
-from ....core.solid.findings import OBJECT_TOO_LARGE
 from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.findings import OBJECT_TOO_LARGE
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
 from ..body import with_input_error

@@ -26,13 +26,15 @@ from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, stack_moments
 from ....core.numerics.rotations import rotation_matrix
-from ....core.polyhedron import area_of_images, polyhedron_moments
+from ....core.polyhedron import polyhedron_moments
+from ....core.polyhedron.sheared_areas import area_of_images
 from ....core.solid.measure import SolidIntegrals, measure_solid
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import fingerprint, surface_digest, transform_keys
+from ...read.fingerprint import fingerprint
+from ...read.shapes import surface_digest, transform_keys
 from ...settings.accepted import accepted_codes, with_acceptance
 from ..body import own_moments, with_known
 

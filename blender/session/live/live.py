@@ -15,8 +15,6 @@ Live is switched in memory, too: a property of the object would make Blender rep
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field, replace
-from enum import StrEnum
 from operator import itemgetter
 
 import bpy
@@ -32,7 +30,7 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.verdict import internal_error
-from ....core.verdict.finding import Finding, MeasureError
+from ....core.verdict.finding import MeasureError
 from ....core.verdict.method import Method, Source, Verdict
 from ...bodies.measure_object import measure_body
 from ...bodies.measurement import measurement_of
@@ -44,7 +42,7 @@ from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
 from ...write.properties import StoredProperties
 from ..tracking import handlers, updates
-from ..tracking.cache import SessionCache
+from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface
 
 BUDGET = 0.01  # s a redraw, where there are no preferences
@@ -52,139 +50,55 @@ MAX_PASS = 5.0  # budgets that the only pass of a redraw may take
 RETRY = 0.7  # applied to the time of a pass that was left out
 IDLE = 0.25  # s without an update, after which what takes longer than the budget is measured
 POLL = 0.1  # s between two looks whether that is so
-
-
-class Lag(StrEnum):
-    """Lag of live numbers behind the displayed object."""
-
-    NONE = ""
-    FIRST_ORDER = "first order"  # volume, mass and center are current, inertia is that of the last measurement
-    BEHIND = "behind"
-
-
-@dataclass(frozen=True, eq=False)
-class LiveResult:
-    """An object's current numbers.
-
-    measurement: None if there are none; refusal: then the reason. seconds: spent on it. settings: the digest of its
-    settings.
-    """
-
-    measurement: Measurement | None
-    refusal: Finding | None
-    seconds: float
-    settings: str
-
-
-@dataclass(eq=False)
-class _Followed:
-    """An object with Live on.
-
-    matrix, transform: its place at the measurement, and the key of its numbers' dependence on that. number: of the last
-    update then. tracked: its body, if that is followed rather than measured each time. surface: its faces, if a light
-    pass can follow them; first_order: volume and center in its own coordinates after the last such pass. is_pending: it
-    was evaluated anew since the measurement.
-    """
-
-    result: LiveResult | None = None
-    matrix: NDArray[np.float64] = field(default_factory=lambda: np.eye(4))
-    transform: str = ""
-    number: int = 0
-    tracked: TrackedSolid | None = None
-    surface: MovingSurface | None = None
-    first_order: tuple[float, NDArray[np.float64]] | None = None
-    pass_seconds: float = 0.0
-    shows_others: bool = False
-    is_pending: bool = False
-
-
-_followed: SessionCache[_Followed] = SessionCache()
 _last_event = 0.0  # time of the last update
 
 
-def is_live(obj: Object) -> bool:
-    """Return whether Live is on for the object."""
-    return obj in _followed
-
-
-def is_pending(obj: Object) -> bool:
-    """Return whether an object with Live on is going to be measured: Blender has evaluated it anew."""
-    followed = _followed.get(obj)
-    return followed is not None and followed.is_pending
-
-
-def current_numbers(obj: Object) -> LiveResult | None:
-    """Return the numbers of an object with Live on when it was last measured, None before that."""
-    followed = _followed.get(obj)
-    return None if followed is None else followed.result
-
-
-def lag(obj: Object) -> Lag:
-    """Return the lag of an object's live numbers behind the displayed object."""
-    followed = _followed.get(obj)
-    if followed is None or not (followed.is_pending or _is_of_another_scale(obj, followed)):
-        return Lag.NONE
-    return Lag.BEHIND if followed.first_order is None else Lag.FIRST_ORDER
-
-
-def is_stale(obj: Object, scene: Scene) -> bool:
-    """Return whether settings changed since the live measurement: Blender does not report every such change."""
-    now = current_numbers(obj)
-    return now is not None and now.settings != settings_hash(obj, scene)
-
-
-def current_properties(obj: Object, scene: Scene) -> StoredProperties | None:
-    """Return the current numbers of an object with Live on, in its own frame, mapped to its place and stretch.
-
-    None if Live is off, or it could not be measured. The scene's unit scale counts.
-    """
-    followed = _followed.get(obj)
-    if followed is None or followed.result is None or followed.result.measurement is None:
-        return None
-    measured = followed.result.measurement
-    shown = StoredProperties(
-        measured.density, measured.volume, measured.area, measured.in_object_frame(), measured.error_bound
+def map_properties(obj: Object, current: Followed, measured: Measurement, scene: Scene) -> StoredProperties:
+    """Return the numbers of an object with Live on, in its own frame, mapped to its place and stretch."""
+    shown = StoredProperties.of_body(
+        measured.in_object_frame(), measured.density, measured.volume, measured.area, measured.error_bound
     )
-    if followed.first_order is None and has_transform(obj, followed.transform):
+    if current.first_order is None and has_transform(obj, current.transform):
         return shown
-    return _mapped(obj, followed, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
+    return _mapped(obj, current, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
 
 
-def _is_of_another_scale(obj: Object, followed: _Followed) -> bool:
+def is_of_another_scale(obj: Object, current: Followed) -> bool:
     """Return whether the numbers belong to another scale and cannot follow it, until the next measurement."""
-    measured = None if followed.result is None else followed.result.measurement
-    if measured is None or has_transform(obj, followed.transform):
+    measured = None if current.result is None else current.result.measurement
+    if measured is None or has_transform(obj, current.transform):
         return False
-    return _linear_map(obj, followed, measured) is None
+    return _linear_map(obj, current, measured) is None
 
 
-def _linear_map(obj: Object, followed: _Followed, measured: Measurement) -> NDArray | None:
+def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArray | None:
     """Return the linear map from the measured object to its current state.
 
     Return None for shells and wires, or if one of the matrices is singular.
     """
-    before, now = followed.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
+    assert current.matrix is not None
+    before, now = current.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
     if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():
         return None
     return now @ np.linalg.inv(before)
 
 
 def _mapped(
-    obj: Object, followed: _Followed, measured: Measurement, shown: StoredProperties, unit: float
+    obj: Object, current: Followed, measured: Measurement, shown: StoredProperties, unit: float
 ) -> StoredProperties:
     """Return the numbers of the stretched object, with the volume and center of the last light pass."""
-    linear = _linear_map(obj, followed, measured)
-    if linear is None:
+    linear = _linear_map(obj, current, measured)
+    if linear is None or current.matrix is None:
         return shown
     now = float64_matrix(obj.matrix_world)
     to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
-    if followed.first_order is None:
+    if current.first_order is None:
         volume = measured.volume * stretch
-        center = now[:3, :3] @ np.linalg.solve(followed.matrix[:3, :3], center - followed.matrix[:3, 3]) + now[:3, 3]
+        center = now[:3, :3] @ np.linalg.solve(current.matrix[:3, :3], center - current.matrix[:3, 3]) + now[:3, 3]
     else:
-        volume, center = followed.first_order
+        volume, center = current.first_order
         volume = volume * abs(np.linalg.det(now[:3, :3])) * unit**3
         center = now[:3, :3] @ center + now[:3, 3]
     if not volume > 0.0:
@@ -194,48 +108,42 @@ def _mapped(
     axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ shown.body.principal.axes
     image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
     location = now[:3, 3] * unit
-    return replace(
-        shown,
-        density=mass / volume,
-        volume=volume,
-        area=shown.area * stretch ** (2.0 / 3.0),
-        body=image.in_frame(to_own.T, location),
-    )
+    area = shown.area * stretch ** (2.0 / 3.0)
+    return StoredProperties.of_body(image.in_frame(to_own.T, location), mass / volume, volume, area, shown.error_bound)
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Measure an object with Live on as it is now, and keep the outcome to be shown."""
-    followed, start = _followed[obj], time.thread_time()
+    current, start = followed[obj], time.thread_time()
     measurement, refusal = None, None
     try:
-        measurement, followed.surface = _measure(obj, followed, depsgraph)
+        measurement, current.surface = _measure(obj, current, depsgraph)
     except MeasureError as error:
         refusal = error.finding
     except Exception as error:
         refusal = internal_error.finding_of(error)
-        followed.tracked = None  # a half-followed body is no start for the next edit
+        current.tracked = None  # a half-followed body is no start for the next edit
     result = LiveResult(measurement, refusal, time.thread_time() - start, settings_hash(obj, depsgraph.scene))
-    followed.result = result
-    followed.matrix, followed.transform = float64_matrix(obj.matrix_world), transform_key(obj)
-    followed.first_order, followed.is_pending, followed.number = None, False, updates.count()
+    current.result = result
+    current.matrix, current.transform = float64_matrix(obj.matrix_world), transform_key(obj)
+    current.first_order, current.is_pending, current.number = None, False, updates.count()
     handlers.count_change()
     return result
 
 
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     """Let the object's numbers follow its edits; the first of them."""
-    handlers.subscribe(handlers.on_update, _note_updates)
-    _followed[obj] = _Followed(shows_others=next(updates.shown_by(obj), None) is not None)
+    followed[obj] = Followed(shows_others=next(updates.shown_by(obj), None) is not None)
     return update(obj, depsgraph)
 
 
 def stop(obj: Object) -> None:
     """Let the object's numbers follow its edits no more."""
-    _followed.forget(obj)
+    followed.forget(obj)
     handlers.count_change()
 
 
-def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:
+def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:
     plain = MeasureOptions(compare=False)
     request = Request.resolve(obj, depsgraph, plain)
     options, unit = request.settings, request.settings.unit
@@ -252,11 +160,11 @@ def _measure(obj: Object, followed: _Followed, depsgraph: Depsgraph) -> tuple[Me
     if np.linalg.det(matrix) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]
     stored = splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
-    if followed.tracked is None:
-        followed.tracked = TrackedSolid(patches, stored)
+    if current.tracked is None:
+        current.tracked = TrackedSolid(patches, stored)
     else:
-        followed.tracked.update(patches, stored)
-    measure = followed.tracked.measure
+        current.tracked.update(patches, stored)
+    measure = current.tracked.measure
     measured_body = Body(
         measure.volume,
         measure.area,
@@ -277,23 +185,21 @@ def _budget() -> float:
     return BUDGET if settings is None else settings.live_budget / 1e3
 
 
-def _note_updates(events: handlers.Updates) -> None:
+def note_updates(events: handlers.Updates) -> None:
+    """Follow updated objects at once, as far as the budget allows, and measure them soon."""
     global _last_event
-    if not len(_followed):
-        handlers.unsubscribe(handlers.on_update, _note_updates)
-        return
     _last_event = time.monotonic()
-    changed = {uid: followed for uid in events.reshaped if (followed := _followed.by_uid(uid)) is not None}
+    changed = {uid: current for uid in events.reshaped if (current := followed.by_uid(uid)) is not None}
     active = events.depsgraph.view_layer.objects.active
-    if active is not None and active.mode == "SCULPT" and active in _followed and active.session_uid in events.others:
-        changed[active.session_uid] = _followed[active]  # strokes are drawn without evaluating
-    for followed in changed.values():
-        followed.is_pending = True
-    moved = any(_followed.by_uid(uid) is not None for uid in events.moved)
+    if active is not None and active.mode == "SCULPT" and active in followed and active.session_uid in events.others:
+        changed[active.session_uid] = followed[active]  # strokes are drawn without evaluating
+    for current in changed.values():
+        current.is_pending = True
+    moved = any(followed.by_uid(uid) is not None for uid in events.moved)
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
     others = events.collections or events.moved or events.reshaped
-    if changed or moved or others and any(followed.shows_others for followed in _followed):
+    if changed or moved or others and any(current.shows_others for current in followed):
         _schedule(0.0)
 
 
@@ -301,16 +207,16 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
     """Follow one object, and as many others as the budget of a redraw allows, quickest passes first."""
     budget, is_first = _budget(), True
     objects = [obj for obj in events.depsgraph.view_layer.objects if obj.session_uid in changed]
-    for obj in sorted(objects, key=lambda obj: _followed[obj].pass_seconds):
-        followed, start = _followed[obj], time.thread_time()
+    for obj in sorted(objects, key=lambda obj: followed[obj].pass_seconds):
+        current, start = followed[obj], time.thread_time()
         allowed = MAX_PASS * _budget() if is_first else budget
-        if followed.surface is None or followed.pass_seconds > allowed:
-            followed.first_order = None
-            followed.pass_seconds *= RETRY  # a busy moment is not for ever
+        if current.surface is None or current.pass_seconds > allowed:
+            current.first_order = None
+            current.pass_seconds *= RETRY  # a busy moment is not for ever
             continue
-        followed.first_order = followed.surface.follow(obj, events.depsgraph)
-        followed.pass_seconds = time.thread_time() - start
-        budget, is_first = budget - followed.pass_seconds, False
+        current.first_order = current.surface.follow(obj, events.depsgraph)
+        current.pass_seconds = time.thread_time() - start
+        budget, is_first = budget - current.pass_seconds, False
 
 
 def _schedule(seconds: float) -> None:
@@ -323,11 +229,13 @@ def _is_playing() -> bool:
 
 
 def _tick() -> float | None:
+    if not len(followed):  # none is any more, or the add-on is disabled
+        return None
     if bpy.app.is_job_running("RENDER"):
         return 0.5
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
-    due = [obj for obj in layer.objects if obj in _followed and _is_due(obj, depsgraph.scene)]
+    due = [obj for obj in layer.objects if obj in followed and _is_due(obj)]
     budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not _is_playing()
     waiting = False
     for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
@@ -354,25 +262,14 @@ def _is_stroking(obj: Object) -> bool:
 
 def _seconds(obj: Object) -> float:
     """Return the duration of an object's measurement, in seconds."""
-    result = _followed[obj].result
+    result = followed[obj].result
     return 0.0 if result is None else result.seconds
 
 
-def _is_due(obj: Object, scene: Scene) -> bool:
+def _is_due(obj: Object) -> bool:
     """Return whether an object has to be measured again: more than its place has changed."""
-    followed = _followed[obj]
-    if not followed.is_pending:
-        followed.is_pending = updates.last_edit(obj).number > followed.number or not has_transform(
-            obj, followed.transform
-        )
-    return followed.is_pending
-
-
-CLASSES = ()  # it listens while an object is followed
-
-
-def unregister() -> None:
-    """Follow no object any more."""
-    handlers.unsubscribe(handlers.on_update, _note_updates)
-    if bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.unregister(_tick)
+    current = followed[obj]
+    if not current.is_pending:
+        is_edited = updates.last_edit(obj).number > current.number
+        current.is_pending = is_edited or not has_transform(obj, current.transform)
+    return current.is_pending

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results of an assembly, and their staleness.
+"""The stored results of an assembly.
 
 Results are stored on the assembly, on the assemblies in it, and on the measured objects; the rows of its tree are kept
 with its settings.
@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import sqrt
 
 import bpy
 import numpy as np
@@ -21,20 +22,18 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity
 from ....core.verdict.sentences import of_severity
-from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement, members_key, structure_hash
+from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement, members_key
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import Stacked
 from ...read.assembly import Member, MemberKind, Root, is_assembly, members_of, settings_of
-from ...read.fingerprint import VERSION, digest, matrix_hash
+from ...read.fingerprint import digest
 from ...write import properties
-from ..findings import STALE_FINGERPRINT, STALE_MEMBER, STALE_MEMBERS, STALE_TRANSFORM
-from ..tracking import handlers, marks, staleness
-from ..tracking.cache import SessionCache
+from .. import displayed
+from ..tracking import handlers, staleness, stamps
 from . import reference, results
 
 SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates of the same body may change as much
-_reasons: SessionCache[tuple[int, str | None]] = SessionCache()  # by assembly: the generation, and the reason then
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
@@ -59,7 +58,7 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
         if part.measured is not None:
             measured.append((data, part.measured))
         elif part.refusal is not None and part.member.kind in (MemberKind.OBJECT, MemberKind.POINT):
-            results.remember_failure(data, part.refusal)
+            displayed.remember_failure(data, part.refusal)
         elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
             try:
                 properties.store(data, assembly_measurement(part, depsgraph, unit))
@@ -67,7 +66,7 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
                 failures.append((data.name_full, internal_error.finding_of(error)))
     stored = []
     for obj, refusal in results.store_many(measured, scene):
-        results.remember_failure(obj, None)
+        displayed.remember_failure(obj, None)
         if refusal is None:
             stored.append(obj)
         else:
@@ -85,35 +84,6 @@ def clear(root: Root) -> bool:
     return properties.clear(root)
 
 
-def stale_reason(root: Root) -> str | None:
-    """Return the code of the reason why an assembly's stored results are out of date in the window's scene.
-
-    None if they are up to date, or there are none.
-    """
-    known = _reasons.get(root)
-    if known is None or known[0] != handlers.generation():
-        known = _reasons[root] = (handlers.generation(), _stale_reason(root))
-    return known[1]
-
-
-def _stale_reason(root: Root) -> str | None:
-    mark = marks.parse(properties.fingerprint(root))
-    depsgraph = bpy.context.view_layer.depsgraph
-    if mark is None or mark.version != VERSION or depsgraph is None:
-        return STALE_FINGERPRINT if "body_mass" in root and mark is None else None
-    member = members_of(root, depsgraph)
-    if structure_hash(member) != mark.settings:
-        return STALE_MEMBERS
-    objects = [one.data for one in member.walk() if one.kind == MemberKind.OBJECT and one.is_measured]
-    stored = {obj: properties.fingerprint(obj) for obj in objects}
-    if any(staleness.stale_reason(obj, depsgraph.scene) for obj in objects):
-        return STALE_MEMBER
-    if digest(members_key(member, stored).encode()) != mark.geometry:
-        return STALE_MEMBER
-    moved = isinstance(root, bpy.types.Object) and matrix_hash(root) != mark.transform
-    return STALE_TRANSFORM if moved else None
-
-
 @contextmanager
 def kept_up_to_date(context: Context) -> Iterator[None]:
     """Keep assemblies up to date while members get other frames, and their results are stored anew.
@@ -124,19 +94,21 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
     roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
     stored = [root for root in roots if "body_fingerprint" in root and is_assembly(root)]
     depsgraph = context.evaluated_depsgraph_get()
-    before = {root: _member_bodies(members_of(root, depsgraph)) for root in stored if not stale_reason(root)}
+    before = {
+        root: _member_bodies(members_of(root, depsgraph)) for root in stored if not staleness.stale_reason(root, scene)
+    }
     yield
     depsgraph = context.evaluated_depsgraph_get()
     for root, bodies in before.items():
-        member, mark = members_of(root, depsgraph), marks.parse(properties.fingerprint(root))
+        member, stamp = members_of(root, depsgraph), stamps.of_results(root)
         now = _member_bodies(member)
-        if mark is None or bodies.keys() != now.keys():
+        if stamp is None or bodies.keys() != now.keys():
             continue
         if any(staleness.stale_reason(obj, scene) for obj in now):
             continue
         if all(_is_same(bodies[obj], now[obj]) for obj in now):
             key = members_key(member, {obj: properties.fingerprint(obj) for obj in now})
-            root["body_fingerprint"] = ":".join(mark._replace(geometry=digest(key.encode())))
+            root["body_fingerprint"] = stamp._replace(geometry=digest(key.encode())).text
     handlers.count_change()
 
 
@@ -146,14 +118,13 @@ def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64
     for member in root.walk():
         if member.kind == MemberKind.OBJECT and member.is_measured:
             obj = member.data
-            numbers = properties.numbers(obj)
-            if numbers is None:
+            stored = properties.stored(obj)
+            if stored is None:
                 continue
-            stored = properties.from_numbers(numbers).body
             location, rotation, _scale = obj.matrix_world.decompose()
             unit = bpy.context.scene.unit_settings.scale_length
             center = np.array(rotation @ Vector(stored.center) + location * unit, np.float64)
-            bodies[obj] = stored.mass, center, float(np.sqrt(np.trace(stored.inertia) / 2.0 / stored.mass))
+            bodies[obj] = stored.mass, center, sqrt(sum(stored.inertia[:3]) / 2.0 / stored.mass)
     return bodies
 
 
@@ -204,11 +175,3 @@ def _row_findings(part: MemberBody) -> list[Finding]:
     if part.measurement is not None:
         return of_severity(part.measurement.findings, Severity.WARNING, Severity.ERROR)
     return list(part.findings)
-
-
-def register() -> None:
-    staleness.reasons_by_type["EMPTY"] = stale_reason
-
-
-def unregister() -> None:
-    del staleness.reasons_by_type["EMPTY"]

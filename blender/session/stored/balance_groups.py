@@ -39,7 +39,6 @@ class Path:
 
 
 _supports: SessionCache[Mapping[int, Support]] = SessionCache()
-_paths: SessionCache[tuple[int, Path | None]] = SessionCache()  # and the generation that it is of
 
 
 def groups(scene: bpy.types.Scene) -> Iterator[Object]:
@@ -82,18 +81,6 @@ def store(empty: Object, path: Path, supports: Sequence[Support | None]) -> None
 
 def path(empty: Object) -> Path | None:
     """Return the path in an empty's keys, None if there are none."""
-    known = _paths.get(empty)
-    if known is None or known[0] != handlers.generation():
-        known = _paths[empty] = (handlers.generation(), _path(empty))
-    return known[1]
-
-
-def support(empty: Object, frame: int) -> Support | None:
-    """Return the support polygon of a group at a frame, while the file is open."""
-    return (_supports.get(empty) or {}).get(frame)
-
-
-def _path(empty: Object) -> Path | None:
     curves = _existing_curves(empty)
     keys = [keys for axis in range(3) if (keys := _keys(curves, "location", axis)) is not None]
     if len(keys) < 3 or len({len(axis_keys) for axis_keys in keys}) != 1:
@@ -102,6 +89,11 @@ def _path(empty: Object) -> Path | None:
     signal = _keys(curves, '["{:s}"]'.format(INSIDE), 0)
     inside = None if signal is None or len(signal) != len(centers) else signal[:, 1] > 0.5
     return Path(keys[0][:, 0], centers, inside)
+
+
+def support(empty: Object, frame: int) -> Support | None:
+    """Return the support polygon of a group at a frame, while the file is open."""
+    return (_supports.get(empty) or {}).get(frame)
 
 
 def _curves(empty: Object):

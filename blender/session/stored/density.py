@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Density as a multiplication: if it is one number, stored results follow it at once, without being measured again.
 
-The mark of the stored results shows that nothing but density or mass is different: it is the digest of the current
+The stamp of the stored results shows that nothing but density or mass is different: it is the digest of the current
 settings, with the stored density, or the stored mass, in place of the given one. So nothing is remembered, undo brings
 all of it back together, and an animated or driven setting, for which Blender calls no update function, leaves the
 results out of date.
@@ -11,28 +11,28 @@ results out of date.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
-from ....core.measurement.measurement import Measurement
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
 from ...read.fingerprint import VERSION, current_settings
 from ...read.tracking import tracking_paused
-from ...settings import hooks
 from ...settings.density import default_density, unset_density
 from ...write import properties
-from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULT_KEPT, LINEAR_DENSITY_DEFAULTED
-from ..tracking import marks, staleness
-from . import reference
+from .. import stored
+from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED
+from ..tracking import staleness, stamps
+
+if TYPE_CHECKING:
+    from ....core.measurement.measurement import Measurement
 
 DEFAULTS = {  # notes on an unset density, by the setting
-    "density": finding(DENSITY_DEFAULT_KEPT),
-    "linear_density": finding(LINEAR_DENSITY_DEFAULT_KEPT),
+    "density": finding(DENSITY_DEFAULT_KEPT, density="1000 kg/m³"),
+    "linear_density": finding(DENSITY_DEFAULT_KEPT, density="1 kg/m"),
 }
-OF_DEFAULT_DENSITY = frozenset(
-    {DENSITY_DEFAULTED, LINEAR_DENSITY_DEFAULTED, *(note.code for note in DEFAULTS.values())}
-)
+OF_DEFAULT_DENSITY = frozenset({DENSITY_DEFAULTED, DENSITY_DEFAULT_KEPT})
 
 
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
@@ -55,24 +55,24 @@ def follow_density(obj: Object, scene: Scene) -> None:
 
     The scene's unit scale and default density count.
     """
-    mark = marks.parse(properties.fingerprint(obj))
-    if mark is None or mark.version != VERSION or "body_density_from" in obj or not _can_store(obj):
+    stamp = stamps.of_results(obj)
+    if stamp is None or stamp.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return
-    numbers = properties.numbers(obj)
+    numbers = properties.stored(obj)
     if numbers is None:
         return
-    extent = properties.optional(obj, "body_length") or numbers[2][0]
+    extent = properties.optional(obj, "body_length") or numbers.volume
     if not extent:
         return
     if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
         return  # no mass multiplies it
-    mass = numbers[0][0]
+    mass = numbers.mass
     present = current_settings(obj, scene)
     weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
-    if mark.settings not in [replace(present, **weight).digest for weight in weights]:
+    if stamp.settings not in [replace(present, **weight).digest for weight in weights]:
         return
     now, findings = present.digest, _findings(obj, scene)
-    if now == mark.settings:  # a measured density may have more digits than the setting holds
+    if now == stamp.settings:  # a measured density may have more digits than the setting holds
         if findings != list(properties.findings(obj)):
             properties.store_findings(obj, findings)
         return
@@ -87,10 +87,11 @@ def follow_density(obj: Object, scene: Scene) -> None:
         0.0 if settings.kind == "WIRE" else density,
         mass_now,
         findings,
-        ":".join(mark._replace(settings=now)),
+        stamp._replace(settings=now).text,
     )
-    staleness.replace_mark(obj, ":".join(mark))
-    reference.follow(obj, scene, reference.stored_choice(obj))
+    staleness.replace_stamp(obj, stamp.text)
+    if "body_reference" in obj:
+        stored.reference.follow(obj, scene, stored.reference.stored_choice(obj))
 
 
 def _can_store(obj: Object) -> bool:
@@ -113,24 +114,14 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
     return [*kept, DEFAULTS[name]]
 
 
-def _on_density(settings: PropertyGroup, context: Context) -> None:
+def on_density(settings: PropertyGroup, context: Context) -> None:
+    """Let stored results follow a density or mass."""
     if context.scene is not None and not tracking_paused.depth:
         follow_density(settings.id_data, context.scene)
 
 
-def _on_default_density(settings: PropertyGroup, _context: Context) -> None:
+def on_default_density(settings: PropertyGroup, _context: Context) -> None:
+    """Let the results of objects without density follow the default of their scene."""
     for obj in settings.id_data.objects:
         if not obj.body_moments.is_property_set("density"):
             follow_density(obj, settings.id_data)
-
-
-def register() -> None:
-    """Follow densities."""
-    hooks.on_density_change.append(_on_density)
-    hooks.on_default_density_change.append(_on_default_density)
-
-
-def unregister() -> None:
-    """Follow them no more."""
-    hooks.on_density_change.remove(_on_density)
-    hooks.on_default_density_change.remove(_on_default_density)

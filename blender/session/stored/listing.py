@@ -10,10 +10,9 @@ from enum import StrEnum
 from bpy.types import Object, Scene, ViewLayer
 
 from ...write.units import Units
+from ..displayed import Displayed, Trust, drawn
 from ..tracking import handlers
-from ..tracking.cache import SessionCache
-from .shown import ShownBody, shown_body
-from .trust import Trust
+from ..tracking.cache import SessionCache, current_value
 
 Listing = tuple[list[bool], list[int]]  # for each object its visibility in the list, and its line
 RANKS = {verdict: rank for rank, verdict in enumerate(Trust)}
@@ -37,27 +36,25 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
     name: a part of the names, in any case. warnings_first: put out-of-date and doubtful objects before all others.
     """
     key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
-    cached = _listings.get(scene)
-    if cached is None or cached[0] != key:
-        cached = _listings[scene] = (key, _listing(scene, view_layer, name.lower(), sort_by, warnings_first))
-    return cached[1]
+    return current_value(
+        _listings, scene, key, lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first)
+    )
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
     """Return the masses of a view layer's measured objects by session uid, in one unit with as many decimals."""
     units = Units.from_settings(scene.unit_settings)
-    key = handlers.generation(), view_layer.name, units
-    cached = _masses.get(scene)
-    if cached is None or cached[0] != key:
-        bodies = {obj.session_uid: body for obj in view_layer.objects if (body := shown_body(obj, scene)) is not None}
-        texts = units.texts("mass", [body.mass for body in bodies.values()])
-        cached = _masses[scene] = (key, dict(zip(bodies, texts)))
-    return cached[1]
+
+    def list_masses() -> dict[int, str]:
+        bodies = {obj.session_uid: body for obj in view_layer.objects if (body := drawn(obj, scene)) is not None}
+        return dict(zip(bodies, units.texts("mass", [body.world.mass for body in bodies.values()])))
+
+    return current_value(_masses, scene, (handlers.generation(), view_layer.name, units), list_masses)
 
 
 def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
     objects = list(view_layer.objects)
-    bodies = [shown_body(obj, scene) if name in obj.name.lower() else None for obj in objects]
+    bodies = [drawn(obj, scene) if name in obj.name.lower() else None for obj in objects]
     order = sorted(range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first))
     lines = [0] * len(objects)
     for line, i in enumerate(order):
@@ -65,10 +62,10 @@ def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, wa
     return [body is not None for body in bodies], lines
 
 
-def _rank(obj: Object, body: ShownBody | None, sort_by: SortBy, warnings_first: bool) -> tuple:
+def _rank(obj: Object, body: Displayed | None, sort_by: SortBy, warnings_first: bool) -> tuple:
     if body is None:
         return (True,)
-    doubt = -RANKS[body.verdict]
-    by: dict[SortBy, Callable[[], float]] = {SortBy.MASS: lambda: -body.mass, SortBy.VERDICT: lambda: doubt}
-    is_first = warnings_first and body.verdict in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
+    doubt = -RANKS[body.trust]
+    by: dict[SortBy, Callable[[], float]] = {SortBy.MASS: lambda: -body.world.mass, SortBy.VERDICT: lambda: doubt}
+    is_first = warnings_first and body.trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
     return (False, not is_first, by[sort_by]() if sort_by in by else 0.0, obj.name.lower(), obj.name)

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from bpy.types import Object, Scene
+from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.flat.regions import plane_positions
@@ -32,30 +32,18 @@ from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.reference import ReferenceChoice
 from ...write.units import number
 from ..findings import (
-    INVARIANTS_OF_FLAT,
     INVARIANTS_ORDER,
     MASS_MOMENTS_UNKNOWN,
-    MOMENTS_OF_FLAT,
-    MOMENTS_OVERFLOW_AT_ORIGIN,
-    STALE_GEOMETRY,
-    STALE_SETTINGS,
-    STALE_TRANSFORM,
+    MOMENTS_OF_AREA_ONLY,
 )
-from ..tracking import updates
+from ..tracking import staleness, stamps, updates
 from ..tracking.cache import SessionCache
+from ..tracking.stamps import Kind, Stamp
 
 MAX_SHOWN_ORDER = 4  # the highest order whose moments a panel shows one by one
-
-
 HU_ORDER = 3  # order of Hu's invariants
-
-
 MAX_CACHED_OBJECTS = 16  # objects
-
-
 ZERO_DISPLAY_RTOL = 1e-12  # relative to the largest moment of a degree: shown as 0
-
-
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -76,7 +64,7 @@ class ComputedMoments:
     """One object's moments, SI, world axes.
 
     volume: for a shell that of its thin volume; None for flat shapes, as is area. mass: None if it is not known to that
-    order. rotation, location: the object frame. key: the state of the object. flat: the moments of a flat shape;
+    order. rotation, location: the object frame. flat: the moments of a flat shape;
     not_flat: the reason if there are none.
     """
 
@@ -86,7 +74,6 @@ class ComputedMoments:
     mass: Moments | None
     rotation: NDArray[np.float64]
     location: NDArray[np.float64]
-    key: tuple[str, str, int]
     flat: FlatMoments | None = None
     not_flat: Finding | None = None
 
@@ -121,15 +108,16 @@ class Degree:
 
 
 Display = tuple[tuple[Degree, ...], Finding | None]  # a panel's degrees, and the reason if there are none
-NOTHING: Display = ((), None)
 
 _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
-_displays: SessionCache[tuple[tuple, Display]] = SessionCache(MAX_CACHED_OBJECTS)  # and what they show
 
 
-def cache_moments(obj: Object, computed: ComputedMoments) -> None:
-    """Keep an object's computed moments."""
+def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
+    """Keep an object's freshly computed moments."""
     _computed[obj] = computed
+    settings = settings_hash(obj, depsgraph.scene)
+    stamp = stamps.carry(obj, Kind.MOMENTS, updates.count(), matrix_hash(obj), settings)
+    staleness.mark_stamp(obj, stamp, depsgraph)
 
 
 def computed_moments(obj: Object) -> ComputedMoments | None:
@@ -137,38 +125,26 @@ def computed_moments(obj: Object) -> ComputedMoments | None:
     return _computed.get(obj)
 
 
-def stale_reason(obj: Object, scene: Scene) -> str | None:
-    """Return the code of the reason why the moments are out of date, or None."""
-    computed = computed_moments(obj)
-    if computed is None:
-        return None
-    matrix, settings, geometry = computed.key
-    if settings != settings_hash(obj, scene):
-        return STALE_SETTINGS
-    if geometry != updates.last_change_of_geometry(obj):
-        return STALE_GEOMETRY
-    return STALE_TRANSFORM if matrix != matrix_hash(obj) else None
+def stamp_of(obj: Object) -> Stamp | None:
+    """Return the stamp of an object's computed moments."""
+    return stamps.carried(obj, Kind.MOMENTS)
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
     """Return the moments to MAX_SHOWN_ORDER by the scene's settings, and the reason if there are none."""
-    settings = scene.body_moments
-    # A panel is drawn at every movement of the mouse.
-    computed = computed_moments(obj)
-    reference: Reference | None = None
+    settings, computed = scene.body_moments, computed_moments(obj)
     if computed is None:
-        return NOTHING
-    if settings.moments_about == "REFERENCE":
-        try:
-            reference = reference_of(obj, computed, scene)
-        except MeasureError as error:
-            return (), error.finding
-    place = None if reference is None else (reference.origin.tobytes(), reference.axes.tobytes())
-    request = (computed, settings.moments_of, settings.moments_about, settings.frame, place)
-    cached = _displays.get(obj)
-    if cached is None or cached[0] != request:
-        cached = _displays[obj] = (request, _displayed_degrees(*request[:4], reference))
-    return cached[1]
+        return (), None
+    of, about, order = settings.moments_of, settings.moments_about, min(computed.order, MAX_SHOWN_ORDER)
+    try:
+        if about == "INVARIANT":
+            return tuple(_displayed_invariants(invariants(computed, of, order), order)), None
+        reference = reference_of(obj, computed, scene) if about == "REFERENCE" else None
+        return tuple(
+            _displayed_degrees(in_frame(computed, of, about, settings.frame, order, reference), of, about)
+        ), None
+    except MeasureError as error:
+        return (), error.finding
 
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
@@ -176,17 +152,7 @@ def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Refere
     return ReferenceChoice.from_settings(scene.body_moments_reference).resolve(obj, scene, computed.center)
 
 
-def _displayed_degrees(
-    computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None
-) -> Display:
-    try:
-        order = min(computed.order, MAX_SHOWN_ORDER)
-        if about == "INVARIANT":
-            return tuple(_displayed_invariants(invariants(computed, of, order), order)), None
-        moments = in_frame(computed, of, about, frame, order, reference)
-    except MeasureError as error:
-        return (), error.finding
-    degrees = []
+def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree]:
     for degree in range(moments.order + 1):
         part = np.arange(monomial_count(degree - 1), monomial_count(degree))
         if of == "FLAT":
@@ -195,8 +161,7 @@ def _displayed_degrees(
         noise = np.maximum(moments.rounding_error[part], ZERO_DISPLAY_RTOL * np.abs(values).max())
         texts = [number(0.0 if abs(value) <= least else float(value)) for value, least in zip(values, noise)]
         cells = zip(map(label, monomials(degree)[part].tolist()), texts, (repr(float(value)) for value in values))
-        degrees.append(Degree(degree, unit(of, about, degree), tuple(cells)))
-    return tuple(degrees), None
+        yield Degree(degree, unit(of, about, degree), tuple(cells))
 
 
 def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree]:
@@ -224,7 +189,7 @@ def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant
     Raises MeasureError if the object is not flat, or the order is below 3.
     """
     if of != "FLAT":
-        raise ReadError(INVARIANTS_OF_FLAT)
+        raise ReadError(MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:
         raise ReadError(INVARIANTS_ORDER, order=HU_ORDER)
     moments = normalize(_select_moments(computed, of).truncate(order))
@@ -253,7 +218,7 @@ def in_frame(
             moments = _select_moments(computed, of).truncate(order)
             moments = moments.in_frame(reference.axes, reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
-        raise ReadError(MOMENTS_OVERFLOW_AT_ORIGIN, order=order)
+        raise ReadError(MOMENTS_OVERFLOW, order=order)
     return moments
 
 
@@ -264,7 +229,9 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
         if of == "FLAT":
             assert computed.not_flat is not None
             raise ReadError(computed.not_flat)
-        raise ReadError(MASS_MOMENTS_UNKNOWN if computed.volume else MOMENTS_OF_FLAT, order=computed.order)
+        if computed.volume is None:
+            raise ReadError(MOMENTS_OF_AREA_ONLY)
+        raise ReadError(MASS_MOMENTS_UNKNOWN, order=computed.order)
     return moments
 
 
@@ -307,81 +274,59 @@ def unit(of: str, about: str, degree: int) -> str:
 
 def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference: Reference | None = None) -> str:
     """Return all moments as CSV: a comment that describes them, and a row for each with its bounds."""
-    if of == "FLAT":
-        return _flat_csv(computed, about, frame, reference)
-    moments = in_frame(computed, of, about, frame, computed.order, reference)
+    bounds = ["rounding", "float32"]
+    if of == "FLAT" and about == "INVARIANT":
+        heading = "invariants of the flat shape, from central moments, scaled to an area of 1"
+        columns = ["invariant", "real", "imaginary", *bounds]
+        found = invariants(computed, of, computed.order)
+        rows = [[one.name, one.value.real, one.value.imag, one.rounding_error, one.input_error] for one in found]
+    else:
+        moments = in_frame(computed, of, about, frame, computed.order, reference)
+        values = np.stack([moments.raw, moments.rounding_error, moments.input_error], axis=1)
+        if of == "FLAT":
+            heading, columns, powers = (
+                _flat_heading(computed, about, frame),
+                ["p", "q"],
+                multi_indices(2, moments.order),
+            )
+            values = values[plane_positions(moments.order)]
+        else:
+            heading, columns, powers = _heading(of, about, frame), ["p", "q", "r"], monomials(computed.order)
+        columns = [*columns, "moment", *bounds]
+        rows = [[*which, *row] for which, row in zip(powers.tolist(), values.tolist())]
     text = io.StringIO()
-    text.write(
-        "# {:s}: {:s} moments, {:s} frame, {:s}\n".format(
-            _title(computed),
-            of.lower(),
-            "reference" if about == "REFERENCE" else frame.lower(),
-            {
-                "ORIGIN": "about the frame's origin, in SI units",
-                "CENTER": "about the center, in SI units",
-                "REFERENCE": "about its origin, in SI units",
-                "NORMALIZED": "central, of the body scaled to a {:s} of 1".format(
-                    "mass and a radius of gyration" if of == "MASS" else of.lower()
-                ),
-            }[about],
-        )
-    )
-    table = csv.writer(text, lineterminator="\n")
-    table.writerow(["p", "q", "r", "moment", "rounding", "float32"])
-    values = zip(
-        monomials(computed.order).tolist(),
-        moments.raw.tolist(),
-        moments.rounding_error.tolist(),
-        moments.input_error.tolist(),
-    )
-    table.writerows([*powers, *values] for powers, *values in values)
+    title = re.sub("[,;]", " ", visible(computed.name))  # or the rest would be a cell of its own
+    text.write("# {:s}: {:s}\n".format(title, heading))
+    csv.writer(text, lineterminator="\n").writerows([columns, *rows])
     return text.getvalue()
 
 
-def _title(computed: ComputedMoments) -> str:
-    return re.sub("[,;]", " ", visible(computed.name))  # or what follows would be a cell of its own
+def _heading(of: str, about: str, frame: str) -> str:
+    return "{:s} moments, {:s} frame, {:s}".format(
+        of.lower(),
+        "reference" if about == "REFERENCE" else frame.lower(),
+        {
+            "ORIGIN": "about the frame's origin, in SI units",
+            "CENTER": "about the center, in SI units",
+            "REFERENCE": "about its origin, in SI units",
+            "NORMALIZED": "central, of the body scaled to a {:s} of 1".format(
+                "mass and a radius of gyration" if of == "MASS" else of.lower()
+            ),
+        }[about],
+    )
 
 
-def _flat_csv(computed: ComputedMoments, about: str, frame: str, reference: Reference | None) -> str:
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
-    if about == "INVARIANT":
-        text.write(
-            "# {:s}: invariants of the flat shape, from central moments, scaled to an area of 1\n".format(
-                _title(computed)
-            )
-        )
-        table.writerow(["invariant", "real", "imaginary", "rounding", "float32"])
-        for one in invariants(computed, "FLAT", computed.order):
-            table.writerow([one.name, one.value.real, one.value.imag, one.rounding_error, one.input_error])
-        return text.getvalue()
-    moments = in_frame(computed, "FLAT", about, frame, computed.order, reference)
+def _flat_heading(computed: ComputedMoments, about: str, frame: str) -> str:
     assert computed.flat is not None
     x, y, normal = (" ".join(map(repr, axis)) for axis in computed.flat.plane.axes.T.tolist())
-    text.write(
-        "# {:s}: area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}\n".format(
-            _title(computed),
-            x,
-            y,
-            normal,
-            {
-                "ORIGIN": "about the foot of the {:s} frame's origin, in SI units".format(frame.lower()),
-                "CENTER": "about the centroid, in SI units",
-                "REFERENCE": "about the foot of the reference's origin, in SI units",
-                "NORMALIZED": "central, of the shape scaled to an area of 1",
-            }[about],
-        )
+    return "area moments of the flat shape, along x = ({:s}) and y = ({:s}), front ({:s}), {:s}".format(
+        x,
+        y,
+        normal,
+        {
+            "ORIGIN": "about the foot of the {:s} frame's origin, in SI units".format(frame.lower()),
+            "CENTER": "about the centroid, in SI units",
+            "REFERENCE": "about the foot of the reference's origin, in SI units",
+            "NORMALIZED": "central, of the shape scaled to an area of 1",
+        }[about],
     )
-    table.writerow(["p", "q", "moment", "rounding", "float32"])
-    for (p, q), i in zip(multi_indices(2, moments.order).tolist(), plane_positions(moments.order).tolist()):
-        table.writerow(
-            [
-                p,
-                q,
-                *(
-                    values[i]
-                    for values in (moments.raw.tolist(), moments.rounding_error.tolist(), moments.input_error.tolist())
-                ),
-            ]
-        )
-    return text.getvalue()

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 from ....core.verdict.finding import Finding, Severity
 from ....core.verdict.sentences import of_severity
-from ..tracking import handlers
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,14 +57,3 @@ def forget() -> None:
     """Show it no more."""
     global _last
     _last = None
-
-
-def register() -> None:
-    """Forget it when another file is opened."""
-    handlers.on_load.append(forget)
-
-
-def unregister() -> None:
-    """Forget it for good."""
-    handlers.on_load.remove(forget)
-    forget()

@@ -20,10 +20,7 @@ from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.reference import ReferenceChoice
 from ...write import properties
 from ...write.findings import NO_STORED_RESULTS
-from ..tracking import handlers, staleness
-from ..tracking.cache import SessionCache
-
-_shown: SessionCache[tuple[tuple, ReferredInertia | Finding]] = SessionCache()  # the last one, after what it is of
+from ..tracking import staleness
 
 
 def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Finding | None:
@@ -32,19 +29,13 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
     Return the reason if there is none, and None if nothing is stored.
     """
     choice = ReferenceChoice.from_settings(scene.body_moments_reference)
-    key = (handlers.generation(), choice, scene.cursor.matrix.freeze() if choice.about == "CURSOR" else None)
-    cached = _shown.get(owner)
-    if cached is not None and cached[0] == key:
-        return cached[1]
     body = _stored_body(owner, scene)
     if body is None:
         return None
     try:
-        result: ReferredInertia | Finding = choice.resolve(owner, scene, body.center).refer(body)
+        return choice.resolve(owner, scene, body.center).refer(body)
     except MeasureError as error:
-        result = error.finding
-    _shown[owner] = key, result
-    return result
+        return error.finding
 
 
 def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None = None) -> None:
@@ -88,10 +79,9 @@ def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | N
 
 def _stored_body(owner: Object | Collection, scene: Scene) -> MassProperties | None:
     """Return the stored body in the world."""
-    numbers = properties.numbers(owner)
-    if numbers is None:
+    stored = properties.stored(owner)
+    if stored is None:
         return None
-    stored = properties.from_numbers(numbers)
     if isinstance(owner, bpy.types.Object):
         stored = stored.in_world(owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length))
     return stored.body

@@ -21,10 +21,10 @@ from ....core.statics.resting import RestingPoses, resting_poses
 from ....core.statics.support import CONTACT_RTOL, Support, find_support
 from ....core.verdict.finding import Finding, MeasureError
 from ...bodies.mesh.hull import object_hull
-from ...read.fingerprint import shape_digest
-from ..tracking import handlers, updates
+from ..displayed import drawn
+from ..tracking import handlers, staleness, stamps, updates
 from ..tracking.cache import SessionCache
-from .shown import shown_body
+from ..tracking.stamps import Kind, Stamp
 
 SAME_SHAPE_RTOL = 1e-5  # relative to scales and centers: a turned object's float32 matrices change as much
 
@@ -33,15 +33,11 @@ SAME_SHAPE_RTOL = 1e-5  # relative to scales and centers: a turned object's floa
 class _Remembered:
     """An object's hull, with its support and poses.
 
-    hull: in the object's coordinates. change: the last update of its geometry; edit: one that changed it. digest: of
-    the surface then, None for large meshes. shape: (4, 3) the scale and the center that `poses` are for. support: after
+    hull: in the object's coordinates. shape: (4, 3) the scale and the center that `poses` are for. support: after
     which change of which scene.
     """
 
     hull: ConvexHull
-    change: int
-    digest: bytes | None
-    edit: int = 0
     shape: NDArray | None = None
     poses: RestingPoses | Finding | None = None
     support_key: tuple = ()
@@ -61,7 +57,8 @@ def down(scene: Scene) -> NDArray[np.float64]:
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     """Compute and remember the hull of an object as it is evaluated, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
-    _remembered[obj] = _Remembered(hull, updates.last_change_of_geometry(obj), shape_digest(obj, depsgraph))
+    _remembered[obj] = _Remembered(hull)
+    staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, updates.count()), depsgraph)
     handlers.count_change()
     return hull
 
@@ -71,26 +68,9 @@ def is_known(obj: Object) -> bool:
     return obj in _remembered
 
 
-def is_stale(obj: Object) -> bool:
-    """Return whether the geometry has changed since."""
-    remembered = _remembered.get(obj)
-    if remembered is None or (change := updates.last_change_of_geometry(obj)) == remembered.change:
-        return False
-    if change == remembered.edit:
-        return True
-    # Blender also reports what is no edit, such as a setting, and undo may have brought the shape back.
-    depsgraph = bpy.context.view_layer.depsgraph
-    if remembered.digest is None or depsgraph is None or shape_digest(obj, depsgraph) != remembered.digest:
-        remembered.edit = change
-        return True
-    remembered.change = change
-    return False
-
-
-def forget(obj: Object) -> None:
-    """Forget the hull of an object."""
-    _remembered.forget(obj)
-    handlers.count_change()
+def stamp_of(obj: Object) -> Stamp | None:
+    """Return the stamp of the remembered hull."""
+    return stamps.carried(obj, Kind.HULL)
 
 
 def support(obj: Object, scene: Scene = None) -> Support | None:
@@ -101,19 +81,17 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
     """
     scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
-    if remembered is None or is_stale(obj):
+    if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
         return None
     key = (handlers.generation(), scene.session_uid)
     if remembered.support_key != key:
-        body = shown_body(obj, scene)
-        matrix = np.array(obj.matrix_world, np.float64)
-        points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
-        remembered.support = (
-            None
-            if body is None
-            else find_support(points, body.center, down(scene), _tolerance(points, remembered.hull, matrix))
-        )
-        remembered.support_key = key
+        remembered.support_key, remembered.support = key, None
+        body = drawn(obj, scene)
+        if body is not None:
+            matrix = np.array(obj.matrix_world, np.float64)
+            points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
+            center = np.array(body.world.center) / body.unit
+            remembered.support = find_support(points, center, down(scene), _tolerance(points, remembered.hull, matrix))
     return remembered.support
 
 
@@ -129,15 +107,17 @@ def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | N
     Lengths are in Blender's units, normals in the object's frame (location and rotation).
     scene: sets the unit scale; by default the context's.
     """
+    scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
-    if remembered is None or is_stale(obj):
+    if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
         return None
-    body = shown_body(obj, scene)
+    body = drawn(obj, scene)
     if body is None:
         return None
     location, rotation = frame(obj)
     scale = rotation.T @ np.array(obj.matrix_world.to_3x3(), np.float64)
-    shape = np.concatenate([scale, [rotation.T @ (body.center - location)]])
+    center = np.array(body.world.center) / body.unit
+    shape = np.concatenate([scale, [rotation.T @ (center - location)]])
     size = np.abs(np.ptp(remembered.hull.points, axis=0)) @ np.abs(scale).T
     tolerance = SAME_SHAPE_RTOL * np.r_[np.full(3, np.abs(scale).max()), size.max()]
     if remembered.shape is None or (np.abs(shape - remembered.shape).max(axis=1) > tolerance).any():

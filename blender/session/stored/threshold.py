@@ -24,10 +24,10 @@ from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
 from ...read.grids.volume import VolumeReading
 from ...settings import hooks
-from ...settings.digest import grid_key
+from ...settings.density import grid_key
 from ...settings.grid import GridOptions
 from ...write import properties
-from ..tracking import marks, staleness
+from ..tracking import staleness, stamps
 from ..tracking.cache import SessionCache
 from . import density
 
@@ -38,9 +38,9 @@ COARSE = "coarse"  # no key of settings: what is measured with it is out of date
 
 @dataclass(frozen=True, eq=False)
 class _CachedGrid:
-    """One object's grid, and the marks stored with it since.
+    """One object's grid, and the stamps stored with it since.
 
-    The marks are of the geometry at every threshold, as undo goes back to any, and of the transform.
+    The stamps are of the geometry at every threshold, as undo goes back to any, and of the transform.
     """
 
     reading: VolumeReading
@@ -56,9 +56,11 @@ _pending: list[tuple[Object, Scene]] = []  # whose exact numbers are due
 
 def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
     """Remember the grid that an object was measured with; `unit` is in meters per Blender unit."""
-    mark, reading, body = marks.Mark(*measured.measurement.fingerprint.split(":")), measured.reading, measured.body
+    stamp, reading, body = stamps.Stamp.parse(measured.measurement.fingerprint), measured.reading, measured.body
     assert isinstance(reading, VolumeReading) and isinstance(body, ThresholdGridBody)
-    _cache[obj] = _CachedGrid(reading, body.grid, {mark.geometry}, mark.transform, unit)
+    _cache[obj] = _CachedGrid(reading, body.grid, {stamp.geometry}, stamp.transform, unit)
+    if on_threshold not in hooks.on_threshold_change:
+        hooks.on_threshold_change.append(on_threshold)
 
 
 def on_threshold(settings: PropertyGroup, context: Context) -> None:
@@ -82,10 +84,10 @@ def on_threshold(settings: PropertyGroup, context: Context) -> None:
 
 def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
     """Return the kept grid of an object, if its stored numbers are of the same geometry and transform."""
-    cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
-    if cached is None or mark is None or scene is None:
+    cached, stamp = _cache.get(obj), stamps.of_results(obj)
+    if cached is None or stamp is None or scene is None:
         return None
-    same = mark.geometry in cached.geometries and mark.transform == cached.transform
+    same = stamp.geometry in cached.geometries and stamp.transform == cached.transform
     unit = shortest_decimal(scene.unit_settings.scale_length)
     if not same or unit != cached.unit or staleness.is_edited(obj):
         return None
@@ -103,7 +105,7 @@ def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, 
     except MeasureError:  # the panel says that the numbers are out of date, and Measure why there are none
         return False
     properties.store(obj, density.noted(obj, measurement, scene))
-    cached.geometries.add(marks.Mark(*measurement.fingerprint.split(":")).geometry)
+    cached.geometries.add(stamps.Stamp.parse(measurement.fingerprint).geometry)
     return True
 
 
@@ -117,16 +119,3 @@ def _finish() -> None:
             continue
         if cached is not None and _store(obj, scene, cached, cached.grid, preview=False):
             staleness.mark_object(obj)
-
-
-def register() -> None:
-    """Follow the threshold of grids."""
-    hooks.on_threshold_change.append(on_threshold)
-
-
-def unregister() -> None:
-    """Follow it no more."""
-    hooks.on_threshold_change.remove(on_threshold)
-    _pending.clear()
-    if bpy.app.timers.is_registered(_finish):
-        bpy.app.timers.unregister(_finish)

@@ -24,7 +24,7 @@ from ...bodies.wall import WallBody, Walls
 from ...read.reading import Reading
 from ...settings import hooks
 from ...write import properties
-from ..tracking import marks, staleness
+from ..tracking import staleness, stamps
 from ..tracking.cache import SessionCache
 from . import density
 
@@ -33,7 +33,7 @@ MAX_CACHED_OBJECTS = 64  # objects
 
 @dataclass(frozen=True)
 class _CachedWalls:
-    """One object's walls, and the geometry and transform in the mark stored with them."""
+    """One object's walls, and the geometry and transform in the stamp stored with them."""
 
     reading: Reading
     walls: Walls
@@ -47,11 +47,13 @@ _cache: SessionCache[_CachedWalls] = SessionCache(MAX_CACHED_OBJECTS)
 
 def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
     """Remember the walls that an object was measured with; `unit` is in meters per Blender unit."""
-    mark = marks.Mark(*measured.measurement.fingerprint.split(":"))
+    stamp = stamps.Stamp.parse(measured.measurement.fingerprint)
     reading, body = measured.reading, measured.body
     assert isinstance(reading, Reading) and isinstance(body, WallBody) and body.walls is not None
     reading = replace(reading, parts=[])
-    _cache[obj] = _CachedWalls(reading, body.walls.drop_arrays(), mark.geometry, mark.transform, unit)
+    _cache[obj] = _CachedWalls(reading, body.walls.drop_arrays(), stamp.geometry, stamp.transform, unit)
+    if on_wall_setting not in hooks.on_wall_change:
+        hooks.on_wall_change.append(on_wall_setting)
 
 
 def max_thickness(obj: Object) -> float | None:
@@ -104,17 +106,7 @@ def _walls_on_side(cached: _CachedWalls, obj: Object) -> Walls:
 
 def _current_walls(obj: Object) -> _CachedWalls | None:
     """Return the kept walls of an object, if its stored numbers are of the same geometry and transform."""
-    cached, mark = _cache.get(obj), marks.parse(properties.fingerprint(obj))
-    if cached is None or mark is None or (mark.geometry, mark.transform) != (cached.geometry, cached.transform):
+    cached, stamp = _cache.get(obj), stamps.of_results(obj)
+    if cached is None or stamp is None or (stamp.geometry, stamp.transform) != (cached.geometry, cached.transform):
         return None
     return cached
-
-
-def register() -> None:
-    """Follow the settings of walls."""
-    hooks.on_wall_change.append(on_wall_setting)
-
-
-def unregister() -> None:
-    """Follow them no more."""
-    hooks.on_wall_change.remove(on_wall_setting)

@@ -9,53 +9,43 @@ unregistered.
 
 from __future__ import annotations
 
-from collections import OrderedDict
-from collections.abc import Iterator
-from typing import Generic, TypeVar
-from weakref import WeakSet
+from collections.abc import Callable, Iterator
+from typing import Any, Generic, TypeVar
 
 from bpy.types import ID
 
 Value = TypeVar("Value")
 
-_caches: WeakSet[SessionCache] = WeakSet()
+_caches: list[SessionCache] = []
 
 
 class SessionCache(Generic[Value]):
     """One value for each original data-block; iterated over, the values.
 
-    max_size: beyond this number of values the least recently used one is forgotten. By default all are kept, as edits
-    of objects must be.
+    max_size: beyond this number of values the oldest one is forgotten. By default all are kept, as edits must be.
     """
 
     def __init__(self, max_size: int | None = None) -> None:
         self.max_size = max_size
-        self._values: OrderedDict[int, Value] = OrderedDict()  # by session uid, the last one used last
-        _caches.add(self)
+        self._values: dict[int, Value] = {}  # by session uid, the newest last
+        _caches.append(self)
 
-    def get(self, data: ID, default: Value | None = None) -> Value | None:
-        """Return the value of a data-block, or `default` if nothing is remembered."""
-        return self.by_uid(data.session_uid, default)
+    def get(self, data: ID) -> Value | None:
+        """Return the value of a data-block, None if there is none."""
+        return self._values.get(data.session_uid)
 
-    def by_uid(self, uid: int, default: Value | None = None) -> Value | None:
+    def by_uid(self, uid: int) -> Value | None:
         """Return the same as `get`, by the session uid of the data-block."""
-        if uid not in self._values:
-            return default
-        self._values.move_to_end(uid)
-        return self._values[uid]
+        return self._values.get(uid)
 
     def __getitem__(self, data: ID) -> Value:
-        value = self.get(data)
-        if value is None:
-            raise KeyError(data)
-        return value
+        return self._values[data.session_uid]
 
     def __setitem__(self, data: ID, value: Value) -> None:
-        uid = data.session_uid
-        self._values[uid] = value
-        self._values.move_to_end(uid)
+        self.forget(data)
+        self._values[data.session_uid] = value
         if self.max_size is not None and len(self._values) > self.max_size:
-            self._values.popitem(last=False)
+            del self._values[next(iter(self._values))]
 
     def __contains__(self, data: ID) -> bool:
         return data.session_uid in self._values
@@ -73,6 +63,14 @@ class SessionCache(Generic[Value]):
     def clear(self) -> None:
         """Forget everything."""
         self._values.clear()
+
+
+def current_value(cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]) -> Value:
+    """Return the value of a data-block that is kept for this key, or compute and keep it."""
+    known = cache.get(data)
+    if known is None or known[0] != key:
+        known = cache[data] = (key, compute())
+    return known[1]
 
 
 def clear_all() -> None:

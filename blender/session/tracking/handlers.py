@@ -3,8 +3,7 @@
 """Blender's reports while a file is open, heard once, and passed on to all of the session.
 
 These are the add-on's application handlers, except that of `blender/write/translations.py`. A subscriber appends a
-plain function to one of the lists below when it is registered, and removes it when it is unregistered; one that
-follows only some objects does so while there are any. A subscriber never writes data while Blender evaluates: that
+plain function to one of the lists below (`subscriptions`). A subscriber never writes data while Blender evaluates: that
 would be reported as the next change. Only before a file is saved may it write, and the written data are saved.
 """
 
@@ -16,7 +15,7 @@ from dataclasses import dataclass
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.types import ID, Collection, Depsgraph, Object, Scene
+from bpy.types import Collection, Depsgraph, Object, Scene
 
 from . import cache
 
@@ -45,10 +44,9 @@ before_undo: list[Callable[[], None]] = []
 on_undo: list[Callable[[], None]] = []  # undo and redo: before the update that follows them
 on_load: list[Callable[[], None]] = []  # after all caches were emptied
 on_save: list[Callable[[], None]] = []
+LISTS = on_update, before_undo, on_undo, on_load, on_save
 
 _generation = 0
-_moves_from = 0  # the generation after which objects have moved, and nothing else has changed
-_moved: set[int] = set()  # their session uids
 
 
 def generation() -> int:
@@ -56,32 +54,10 @@ def generation() -> int:
     return _generation
 
 
-def moved_since(generation: int) -> set[int] | None:
-    """Return session uids of the objects that have moved since a generation; None if there were other changes.
-
-    Some of the objects may have moved before it.
-    """
-    return _moved if generation >= _moves_from else None
-
-
 def count_change() -> None:
-    """Count a change that Blender does not report, such as of a note about an object."""
-    global _generation, _moves_from
+    """Count a change, also one that Blender does not report, such as of a note about an object."""
+    global _generation
     _generation += 1
-    _moves_from = _generation
-    _moved.clear()
-
-
-def subscribe(subscribers: list[Callable[..., None]], function: Callable[..., None]) -> None:
-    """Append a function to one of the lists, unless it is there."""
-    if function not in subscribers:
-        subscribers.append(function)
-
-
-def unsubscribe(subscribers: list[Callable[..., None]], function: Callable[..., None]) -> None:
-    """Remove a function from one of the lists, if it is there; also while they are called."""
-    if function in subscribers:
-        subscribers.remove(function)
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
@@ -91,40 +67,21 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
             calls.callback(subscriber, *args)
 
 
-# Evaluated data-blocks → session uids of their originals, 0 for neither objects nor collections, until Blender builds
-# another graph: looking them up takes most of the time of thousands.
-_uids: dict[ID, int] = {}
-_evaluated_collections: set[ID] = set()
-
-
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
     updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
-    if not frame_changed and depsgraph.id_type_updated("SCENE"):  # objects come, go, or are hidden
-        _forget_evaluated()
     for update in depsgraph.updates:  # no call and no attribute that is not needed
         data = update.id
-        if data in _uids:
-            uid = _uids[data]
-        else:
-            uid = _uids[data] = data.original.session_uid if isinstance(data, Object | Collection) else 0
-            if isinstance(data, Collection):
-                _evaluated_collections.add(data)
-        if not uid:
+        is_object = isinstance(data, Object)
+        if not is_object and not isinstance(data, Collection):
             continue
+        uid = data.original.session_uid
         if update.is_updated_geometry:
-            (updates.collections if data in _evaluated_collections else updates.reshaped).append(uid)
+            (updates.reshaped if is_object else updates.collections).append(uid)
         elif update.is_updated_transform:
             updates.moved.append(uid)
         else:
             updates.others.append(uid)
-    if updates.collections:  # there may be other objects
-        _forget_evaluated()
     return updates
-
-
-def _forget_evaluated() -> None:
-    _uids.clear()
-    _evaluated_collections.clear()
 
 
 @persistent
@@ -138,23 +95,13 @@ def _on_frame(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
 
 
 def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool) -> None:
-    global _generation
-    if depsgraph is None or depsgraph.mode != "VIEWPORT":
-        count_change()
-        return
-    updates = _updates(scene, depsgraph, frame_changed)
-    others = frame_changed or updates.reshaped or updates.others or updates.collections
-    if others or depsgraph.id_type_updated("SCENE"):
-        count_change()
-    else:
-        _generation += 1
-        _moved.update(updates.moved)
-    _call(on_update, updates)
+    count_change()
+    if depsgraph is not None and depsgraph.mode == "VIEWPORT":
+        _call(on_update, _updates(scene, depsgraph, frame_changed))
 
 
 @persistent
 def _before_undo(*_args) -> None:
-    _forget_evaluated()
     _call(before_undo)
 
 
@@ -167,7 +114,6 @@ def _on_undo(*_args) -> None:
 @persistent
 def _on_load(*_args) -> None:
     count_change()
-    _forget_evaluated()
     cache.clear_all()
     _call(on_load)
 
@@ -201,5 +147,4 @@ def unregister() -> None:
         functions = getattr(bpy.app.handlers, name)
         if function in functions:  # scripts and other add-ons may empty these lists
             functions.remove(function)
-    _forget_evaluated()
     cache.clear_all()

@@ -9,9 +9,9 @@ from collections.abc import Iterable
 import bpy
 from bpy.types import Object
 
-from ...read.rig import is_skin_of
+from ... import read
 from . import handlers
-from .cache import SessionCache
+from .cache import SessionCache, current_value
 
 # by armature: the number of the last change, and its meshes
 _meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
@@ -24,12 +24,13 @@ def stands_for_meshes(obj: Object) -> bool:
 
 def deformed_meshes(armature: Object) -> tuple[Object, ...]:
     """Return the meshes of the window's view layer that an original armature deforms, in the layer's order."""
-    cached = _meshes.get(armature)
-    if cached is None or cached[0] != handlers.generation():
-        objects = bpy.context.view_layer.objects
-        meshes = tuple(obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature))
-        cached = _meshes[armature] = (handlers.generation(), meshes)
-    return cached[1]
+    objects = bpy.context.view_layer.objects
+    return current_value(
+        _meshes,
+        armature,
+        handlers.generation(),
+        lambda: tuple(obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)),
+    )
 
 
 def subjects(objects: Iterable[Object]) -> list[Object]:

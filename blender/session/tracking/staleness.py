@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Staleness of stored numbers.
 
-Compared: transform and settings, by the digests in the marks that results, section and symmetry carry.
+Compared: transform and settings, by the digests in the stamps of stored data (`stamps`).
 
-Noted: a digest of the geometry would need measuring, so an edit is noted instead, in memory only: the marks that the
-object carried when Blender evaluated its geometry anew. When a file is saved, the notes become part of the marks
-(`marks.write_edited`), so that the file knows when it is opened; reading a file reports no updates.
+Noted: a digest of the geometry would need measuring, so an edit is noted instead, in memory only: the stamps that the
+object carried when Blender evaluated its geometry anew. When a file is saved, the notes become part of the stamps
+(`stamps.write_edited`), so that the file knows when it is opened; reading a file reports no updates.
 
 Times: Blender evaluates more than the changed objects, such as an object that is copied, shown again or gets a material
 slot. So the surfaces of small meshes are kept as digests when their numbers are stored, and a note is made, or taken
@@ -26,24 +26,135 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
+from typing import Any
 
 import bpy
-from bpy.types import Context, Depsgraph, Object, Scene
+from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
-from ....core.verdict.method import Verdict
-from ...read.fingerprint import VERSION, has_transform, matrix_hash, scale_hash, settings_hash, shape_digest
+from ....core.numerics.float32 import shortest_decimal
+from ... import bodies, read
+from ...bodies import assembly
+from ...read.fingerprint import VERSION, digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
 from ...write import properties
-from ..findings import STALE_FINGERPRINT, STALE_GEOMETRY, STALE_SCALE, STALE_SETTINGS, STALE_TRANSFORM
-from . import handlers, marks, updates
-from .cache import SessionCache
+from . import handlers, stamps, updates
+from .cache import SessionCache, current_value
+from .stamps import EDITED, Kind, Stale, Stamp
 
 NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
-_edited: SessionCache[frozenset[str]] = SessionCache()  # the marks that an object carried when its geometry changed
-_shapes: dict[str, bytes] = {}  # mark → digest of what was shown when it was stored: copies of an object share both
-_resolved: dict[int, int] = {}  # session uid → up to which update is noted what it means
-# Results of several objects, by the object's type: a function that compares them with the current state.
-reasons_by_type: dict[str, Callable[[Object], str | None]] = {}
+_edited: SessionCache[frozenset[str]] = SessionCache()  # the stamps that an object carried when its geometry changed
+_shapes: dict[str, bytes] = {}  # stamp → digest of the surface when it was stored: copies of an object share both
+_resolved: dict[int, int] = {}  # session uid → the last update with noted effects
+# By assembly or armature: the generation, and the present digests of its parts. Panels ask at every redraw.
+_parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
+
+
+# ---------------------------------------------------------------- What is out of date
+
+
+def stale_reason(
+    owner: Object | Collection, scene: Scene, stamp_of: Callable[[Any], Stamp | None] = stamps.of_results
+) -> Stale | None:
+    """Return the reason why stored data of an original object or a collection are out of date.
+
+    None if they are up to date, or there are none. scene: sets the unit scale. stamp_of: finds the stamp of the data,
+    by default of the results.
+    """
+    stamp = stamp_of(owner)
+    if stamp is None:
+        return None
+    if stamp.version != VERSION:
+        return Stale.FINGERPRINT
+    for reason, holds in CHECKS[stamp.kind]:
+        if not holds(owner, stamp, scene):
+            return reason
+    return None
+
+
+def _has_settings(obj: Object, stamp: Stamp, scene: Scene) -> bool:
+    return stamp.settings == settings_hash(obj, scene)
+
+
+def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
+    note_edits(obj)
+    return _is_unedited(obj, stamp)
+
+
+def _is_unedited(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool:
+    edited = _edited_stamps(obj)
+    return stamp.geometry != EDITED and not (edited and stamp.text in edited)
+
+
+def _has_transform(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
+    return has_transform(obj, stamp.transform)
+
+
+def _has_matrix(owner: Object | Collection, stamp: Stamp, _scene: Scene) -> bool:
+    return not isinstance(owner, Object) or stamp.transform == matrix_hash(owner)
+
+
+def _has_scale(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
+    return stamp.transform == scale_hash(obj)
+
+
+def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
+    return stamp.extra == shortest_decimal(scene.unit_settings.scale_length)
+
+
+def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
+    parts = _digests_of_parts(root, scene)
+    return parts is None or stamp.settings == parts[0]
+
+
+def _has_members(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
+    parts = _digests_of_parts(root, scene)
+    return parts is None or stamp.geometry == parts[1]
+
+
+def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
+    """Return the present digests of an assembly's structure and of its members' results, or of a character's bones.
+
+    The members' is empty if a member is out of date. None if Blender has evaluated nothing yet.
+    """
+    return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
+
+
+def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
+    if isinstance(root, Object) and root.type == "ARMATURE":
+        return bodies.rig.rig_hash(root, bodies.rig.rig_objects(root, scene.objects), scene), ""
+    depsgraph = bpy.context.view_layer.depsgraph
+    if depsgraph is None:
+        return None
+    member = read.assembly.members_of(root, depsgraph)
+    measured = [
+        part.data for part in member.walk() if part.kind == read.assembly.MemberKind.OBJECT and part.is_measured
+    ]
+    texts = {obj: properties.fingerprint(obj) for obj in measured}
+    is_stale = any(stale_reason(obj, scene) for obj in measured)
+    key = assembly.assembly.members_key(member, texts)
+    return assembly.assembly.structure_hash(member), "" if is_stale else digest(key.encode())
+
+
+CHECKS = {
+    Kind.RESULTS: (
+        (Stale.SETTINGS, _has_settings),
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.TRANSFORM, _has_transform),
+    ),
+    Kind.SECTION: ((Stale.UNIT_SCALE, _has_unit), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
+    Kind.SYMMETRY: ((Stale.GEOMETRY, _has_geometry), (Stale.SCALE, _has_scale)),
+    Kind.ASSEMBLY: ((Stale.MEMBERS, _has_structure), (Stale.MEMBER, _has_members), (Stale.TRANSFORM, _has_matrix)),
+    Kind.BONES: ((Stale.GEOMETRY, _is_unedited), (Stale.BONES, _has_structure)),
+    Kind.MOMENTS: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
+    Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
+    Kind.SETTINGS: ((Stale.SETTINGS, _has_settings),),
+}
+
+
+def is_edited(obj: Object) -> bool:
+    """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
+    stamp = stamps.of_results(obj)
+    return stamp is None or not (_has_geometry(obj, stamp, None) and has_transform(obj, stamp.transform))
 
 
 # ---------------------------------------------------------------- What was stored just now
@@ -59,45 +170,46 @@ def mark_up_to_date(
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
-        note_edits(obj)  # for its other marks
+        note_edits(obj)  # for its other stamps
         mark_object(obj)
-        mark = properties.fingerprint(obj)
-        shape = shapes.get(obj)
-        if shape is not None and obj.mode == "OBJECT" and not _varies(obj):
-            _shapes[mark] = shape
-        else:
-            _remember_shape(obj, mark, depsgraph)
+        if (stamp := stamps.of_results(obj)) is not None:
+            _remember_shape(obj, stamp, depsgraph, shapes.get(obj) if obj.mode == "OBJECT" else None)
 
 
-def mark_fingerprints(context: Context, stored: Iterable[tuple[Object, str]]) -> None:
-    """Take other things than results as up to date, after they were stored and nothing else was changed.
+def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:
+    """Take other data than results as up to date, after they were stored and nothing else was changed.
 
-    stored: objects of the context's view layer, and the marks of the stored data.
+    fresh: objects of the context's view layer, and the stamps of the data.
     """
     with tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
-    for obj, mark in stored:
-        note_edits(obj)
-        _set_edited(obj, mark, False)
-        _remember_shape(obj, mark, depsgraph)
+    for obj, stamp in fresh:
+        mark_stamp(obj, stamp, depsgraph)
+
+
+def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
+    """Take the data with a stamp as up to date with an original object as it is evaluated."""
+    note_edits(obj)
+    set_edited(obj, stamp.text, False)
+    _remember_shape(obj, stamp, depsgraph)
 
 
 def mark_object(obj: Object) -> None:
     """Take the stored results as up to date with an original object's current geometry."""
     _resolved[obj.session_uid] = updates.count()
-    _set_edited(obj, properties.fingerprint(obj), False)
+    set_edited(obj, properties.fingerprint(obj), False)
     handlers.count_change()
 
 
-def replace_mark(obj: Object, before: str) -> None:
+def replace_stamp(obj: Object, before: str) -> None:
     """Take over the notes on the results, after numbers and settings were changed together and the shape was not.
 
-    before: the mark of the results that were replaced.
+    before: the stamp of the results that were replaced.
     """
-    mark = properties.fingerprint(obj)
-    _set_edited(obj, mark, before in _edited_marks(obj))
+    text = properties.fingerprint(obj)
+    set_edited(obj, text, before in _edited_stamps(obj))
     if before in _shapes:
-        _shapes[mark] = _shapes[before]
+        _shapes[text] = _shapes[before]
 
 
 def pin(obj: Object) -> None:
@@ -105,170 +217,84 @@ def pin(obj: Object) -> None:
 
     obj: an original object that can hold results.
     """
-    mark = marks.parse(before := properties.fingerprint(obj))
-    if mark is not None and has_transform(obj, mark.transform):
-        obj["body_fingerprint"] = ":".join(mark._replace(transform=matrix_hash(obj)))
-        replace_mark(obj, before)
+    stamp = stamps.of_results(obj)
+    if stamp is not None and stamp.version and has_transform(obj, stamp.transform):
+        obj["body_fingerprint"] = stamp._replace(transform=matrix_hash(obj)).text
+        replace_stamp(obj, stamp.text)
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
     """Note that objects have other axes than before: directions that are stored in these no longer hold."""
     for obj in objects:
-        if mark := marks.of_symmetry(obj):
-            _set_edited(obj, mark, True)
-
-
-# ---------------------------------------------------------------- What is out of date
-
-
-def is_edited(obj: Object) -> bool:
-    """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
-    mark = marks.parse(properties.fingerprint(obj))
-    return mark is None or _has_new_geometry(obj, mark) or not has_transform(obj, mark.transform)
-
-
-def stale_reason(obj: Object, scene: Scene) -> str | None:
-    """Return the code of the reason why an original object's stored results are out of date.
-
-    None if they are up to date, or there are none. scene: sets the unit scale.
-    """
-    mark = marks.parse(properties.fingerprint(obj))
-    if mark is None or mark.version != VERSION:
-        return STALE_FINGERPRINT if "body_mass" in obj else None
-    if obj.get("body_method") == Verdict.ASSEMBLY and obj.type in reasons_by_type:
-        return reasons_by_type[obj.type](obj)
-    if mark.settings != settings_hash(obj, scene):
-        return STALE_SETTINGS
-    if _has_new_geometry(obj, mark):
-        return STALE_GEOMETRY
-    return None if has_transform(obj, mark.transform) else STALE_TRANSFORM
-
-
-def has_transform_of_results(obj: Object) -> bool:
-    """Return whether an object has the scale of its stored results, and a place that they hold in."""
-    mark = marks.parse(properties.fingerprint(obj))
-    return mark is not None and has_transform(obj, mark.transform)
-
-
-def section_stale_reason(obj: Object) -> str | None:
-    """Return the code of the reason why an original object's stored section is out of date.
-
-    None if it is up to date, or there is none.
-    """
-    mark = marks.parse(marks.of_section(obj))
-    if mark is None:
-        return None
-    if _has_new_geometry(obj, mark):
-        return STALE_GEOMETRY
-    return STALE_TRANSFORM if mark.transform != matrix_hash(obj) else None
-
-
-def symmetry_stale_reason(obj: Object) -> str | None:
-    """Return the code of the reason why an original object's stored symmetry is out of date.
-
-    None if it is up to date, or there is none.
-    """
-    mark = marks.parse(marks.of_symmetry(obj))
-    if mark is None:
-        return None
-    if _has_new_geometry(obj, mark):
-        return STALE_GEOMETRY
-    return STALE_SCALE if mark.transform != scale_hash(obj) else None
-
-
-def _edited_marks(obj: Object) -> frozenset[str]:
-    return _edited.get(obj) or frozenset()
-
-
-def _has_new_geometry(obj: Object, mark: marks.Mark) -> bool:
-    note_edits(obj)
-    return mark.geometry == marks.EDITED or ":".join(mark) in _edited_marks(obj)
+        if (stamp := stamps.of_symmetry(obj)) is not None:
+            set_edited(obj, stamp.text, True)
 
 
 # ---------------------------------------------------------------- What is noted
 
 
-def _set_edited(obj: Object, mark: str, is_edited: bool) -> None:
-    """Note that the geometry behind this mark has changed, or that it has not."""
-    noted = _edited_marks(obj)
-    if is_edited != (mark in noted):
+def _edited_stamps(obj: Object) -> frozenset[str]:
+    return _edited.get(obj) or frozenset()
+
+
+def set_edited(obj: Object, text: str, is_edited: bool) -> None:
+    """Note that the geometry behind this stamp has changed, or that it has not."""
+    noted = _edited_stamps(obj)
+    if is_edited != (text in noted):
         handlers.count_change()
-        _edited[obj] = noted | {mark} if is_edited else noted - {mark}
+        _edited[obj] = noted | {text} if is_edited else noted - {text}
 
 
 def note_edits(obj: Object) -> None:
-    """Note the effects of all updates since the last call on the marks of an original object.
+    """Note the effects of all updates since the last call on the stamps of an original object.
 
-    Call it before its marks are replaced: later nobody could say whether the geometry has changed since.
+    Call it before its stamps are replaced: later nobody could say whether the geometry has changed since.
     """
     uid, newest = obj.session_uid, updates.count()
     seen = _resolved.get(uid, 0)
     if seen >= newest:
         return
     _resolved[uid] = newest
-    edit, returned = updates.last_edit(obj, seen), updates.last_return(obj)
-    last = max(edit, returned)
+    edit, last = updates.last_since(obj, seen)
     if last.number <= seen:
         return
-    carried = marks.of_object(obj)
-    shape = _shape(obj, updates.depsgraph_of(last)) if any([mark in _shapes for mark in carried]) else None
-    for mark in carried:
-        if shape is not None and mark in _shapes:
-            _set_edited(obj, mark, shape != _shapes[mark])
-        elif edit.number or mark in _shapes:  # redo brings back an edit whose note may have been taken back
-            _set_edited(obj, mark, True)
+    carried = stamps.with_geometry(obj)
+    depsgraph = updates.depsgraph_of(last) if any([text in _shapes for text in carried]) else None
+    shape = None if depsgraph is None else read.shapes.shape_digest(obj, depsgraph)
+    for text, kind in carried.items():
+        if shape is not None and text in _shapes:
+            set_edited(obj, text, shape != _shapes[text])
+        elif edit.number or text in _shapes or kind in (Kind.MOMENTS, Kind.HULL):
+            # Redo brings back an edit whose note may have been taken back; undo brings back no data in memory.
+            set_edited(obj, text, True)
 
 
-def _remember_shape(obj: Object, mark: str, depsgraph: Depsgraph) -> None:
-    shape = _shape(obj, depsgraph)
-    if shape is not None:  # else what another object with these very numbers showed still holds
-        _shapes[mark] = shape
+def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None) -> None:
+    """Keep the digest of the surface behind a stamp, if the data have no other inputs but settings and transform."""
+    varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
+    if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
+        return
+    shape = shape or read.shapes.shape_digest(obj, depsgraph)
+    if shape is not None:  # else the shape of another object with these very numbers still holds
+        _shapes[stamp.text] = shape
 
 
-def _shape(obj: Object, depsgraph: Depsgraph | None) -> bytes | None:
-    """Return a digest of all inputs of the numbers beside settings and transform; None if there is none."""
-    return None if depsgraph is None or _varies(obj) else shape_digest(obj, depsgraph)
-
-
-def _varies(obj: Object) -> bool:
-    """Return whether the numbers may have further inputs."""
-    return obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
-
-
-def _note_all_edits() -> None:
+def note_all_edits() -> None:
+    """Note the effects of all updates on all objects."""
     for obj in bpy.data.objects if updates.count() else ():  # while the add-on is enabled Blender gives no data
         note_edits(obj)
 
 
-def _forget_file() -> None:
+def forget_file() -> None:
+    """Forget all notes that belong to no object."""
     _resolved.clear()
     _shapes.clear()
 
 
-def _write_notes() -> None:
-    _note_all_edits()
+def write_notes() -> None:
+    """Make the notes part of the stored stamps."""
+    note_all_edits()
     for obj in bpy.data.objects if len(_edited) else ():
         edited = _edited.get(obj)
         if edited and obj.is_editable:
-            marks.write_edited(obj, edited)
-
-
-SUBSCRIPTIONS = (
-    (handlers.before_undo, _note_all_edits),
-    (handlers.on_load, _forget_file),
-    (handlers.on_save, _write_notes),
-)
-
-
-def register() -> None:
-    """Note edits from now on."""
-    for subscribers, function in SUBSCRIPTIONS:
-        subscribers.append(function)
-
-
-def unregister() -> None:
-    """Stop noting edits, but write the existing notes first, for the file may outlive the add-on."""
-    _write_notes()
-    for subscribers, function in reversed(SUBSCRIPTIONS):
-        subscribers.remove(function)
-    _forget_file()
+            stamps.write_edited(obj, edited)

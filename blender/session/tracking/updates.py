@@ -9,18 +9,17 @@ of undo.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any, NamedTuple
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 import bpy
 from bpy.types import ID, Context, Depsgraph, Object, PropertyGroup
 
 from ...read.tracking import tracking_paused
-from ...settings import hooks
 from . import handlers
 
 
-class Stamp(NamedTuple):
+class Update(NamedTuple):
     """An update of a scene's view layer.
 
     number: grows from update to update; 0 if there was none. scene: session uid of the evaluated scene.
@@ -32,12 +31,12 @@ class Stamp(NamedTuple):
     view_layer: str
 
 
-NEVER = Stamp(0, 0, "")
+NEVER = Update(0, 0, "")
 # session uid → the last update of a data-block
-_edits: dict[int, Stamp] = {}  # updates of geometry that may be edits
-_returns: dict[int, Stamp] = {}  # updates of geometry that are no edits
-_moves: dict[int, Stamp] = {}  # updates of the transform alone
-_touches: dict[int, Stamp] = {}  # all other updates
+_edits: dict[int, Update] = {}  # updates of geometry that may be edits
+_returns: dict[int, Update] = {}  # updates of geometry that are no edits
+_moves: dict[int, Update] = {}  # updates of the transform alone
+_touches: dict[int, Update] = {}  # all other updates
 _count = 0  # updates
 _set_since: set[int] = set()  # session uids of objects with settings changed since the last update
 _undo_pending = False  # true if the next update is that of undo or redo
@@ -73,7 +72,7 @@ def density_source(obj: Object) -> Object | None:
     return settings.density_volume if settings.density_from == "VOLUME" else None
 
 
-def last_edit(obj: Object, since: int = 0) -> Stamp:
+def last_edit(obj: Object, since: int = 0) -> Update:
     """Return the last update of an original object, or of its instances, that may be an edit.
 
     since: number of an update. Return `NEVER` if no edit came after it.
@@ -86,27 +85,28 @@ def last_edit(obj: Object, since: int = 0) -> Stamp:
     return last if last.number > since else NEVER
 
 
-def last_return(obj: Object) -> Stamp:
-    """Return the last update of an object's geometry that was of a setting, or after undo, else `NEVER`."""
-    return _returns.get(obj.session_uid, NEVER)
+def last_since(obj: Object, since: int) -> tuple[Update, Update]:
+    """Return the last update of an object or its instances that may be an edit, and of the geometry for any reason.
+
+    since: number of an update. An edit is `NEVER` if it did not come after it.
+    """
+    edit = last_edit(obj, since)
+    return edit, max(edit, _returns.get(obj.session_uid, NEVER))
 
 
 def last_change_of_geometry(obj: Object) -> int:
     """Return the number of the last update of an object's geometry, of any kind, or of its instances."""
-    return max(last_edit(obj).number, last_return(obj).number)
+    return last_since(obj, 0)[1].number
 
 
-def last_change_but_moves(obj: Object) -> int:
-    """Return the number of the last update of an object or of its instances, except for its own transform."""
-    return max(last_change_of_geometry(obj), _touches.get(obj.session_uid, NEVER).number)
+def last_change_and_move(obj: Object) -> tuple[int, int]:
+    """Return the numbers of the last update of an object or of its instances, and of its transform alone."""
+    uid = obj.session_uid
+    change = max(last_change_of_geometry(obj), _touches.get(uid, NEVER).number)
+    return change, _moves.get(uid, NEVER).number
 
 
-def last_change(obj: Object) -> int:
-    """Return the number of the last update of any kind of an object, or of its instances."""
-    return max(last_change_but_moves(obj), _moves.get(obj.session_uid, NEVER).number)
-
-
-def depsgraph_of(stamp: Stamp) -> Depsgraph | None:
+def depsgraph_of(stamp: Update) -> Depsgraph | None:
     """Return the dependency graph that an update was of, as it was evaluated last; None if it is gone."""
     for scene in bpy.data.scenes:
         if scene.session_uid == stamp.scene:
@@ -115,14 +115,15 @@ def depsgraph_of(stamp: Stamp) -> Depsgraph | None:
     return None
 
 
-def _note_updates(updates: handlers.Updates) -> None:
+def note_updates(updates: handlers.Updates) -> None:
+    """Write down the updated data-blocks."""
     global _count, _undo_pending, _set_since
     if tracking_paused.depth:
         return
     undone, _undo_pending = _undo_pending, False
     changed_settings, _set_since = _set_since, set()
     _count += 1
-    stamp = Stamp(_count, updates.scene.session_uid, updates.depsgraph.view_layer.name)
+    stamp = Update(_count, updates.scene.session_uid, updates.depsgraph.view_layer.name)
     if undone:
         edits = _edited_by_undo(updates)
         _edits.update(dict.fromkeys(edits, stamp))
@@ -151,38 +152,20 @@ def _edited_by_undo(updates: handlers.Updates) -> set[int]:
     return edited.intersection(updates.reshaped)
 
 
-def _note_setting(settings: PropertyGroup, _context: Context) -> None:
+def note_setting(settings: PropertyGroup, _context: Context) -> None:
+    """Write down the object of a changed setting: its next update is no edit."""
     _set_since.add(settings.id_data.session_uid)
 
 
-def _note_undo() -> None:
+def note_undo() -> None:
+    """Expect the update of undo or redo."""
     global _undo_pending
     _undo_pending = True
 
 
-def _forget_file() -> None:
+def forget_file() -> None:
+    """Forget all updates."""
     global _undo_pending, _count
     _undo_pending, _count = False, 0
     for remembered in (_edits, _returns, _moves, _touches, _set_since):
         remembered.clear()
-
-
-SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
-    (handlers.on_update, _note_updates),
-    (handlers.on_undo, _note_undo),
-    (handlers.on_load, _forget_file),
-    (hooks.on_change, _note_setting),
-)
-
-
-def register() -> None:
-    """Write down updates from now on."""
-    for subscribers, function in SUBSCRIPTIONS:
-        subscribers.append(function)
-
-
-def unregister() -> None:
-    """Write down no more."""
-    for subscribers, function in reversed(SUBSCRIPTIONS):
-        subscribers.remove(function)
-    _forget_file()

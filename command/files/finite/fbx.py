@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.streams.findings import AT_VERTEX
+from ....core.streams.findings import AT_ROW
 from ....core.streams.misread import SHORT, Data, find_number_fault, refuse_line
 from ....core.verdict.finding import finding
 from .numbers import BLOCK, MALFORMED, bad_in_table, refuse
@@ -49,7 +49,7 @@ def check_fbx(data: Data, _path: str) -> None:
                         more, row = bad_in_table(numbers[:, None])
                         first = first if count else (begin + row) // 3
                         count += more
-                    refuse(count, finding(AT_VERTEX, vertex=first))
+                    refuse(count, finding(AT_ROW, element="vertex", row=first))
 
 
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")

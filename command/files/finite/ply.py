@@ -10,7 +10,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from ....core.streams.findings import AT_VERTEX
+from ....core.streams.findings import AT_ROW
 from ....core.streams.misread import Data
 from ....core.streams.ply_header import MAX_HEADER, Header, Property, parse_header
 from ....core.streams.ply_text import check_ply_text
@@ -23,7 +23,7 @@ def check_ply(data: Data, _path: str) -> None:
     with suppress(*MALFORMED):
         header = parse_header(data[:MAX_HEADER])
         count, first = _check_binary_ply(data, header) if header.order else (0, 0)
-    refuse(count, finding(AT_VERTEX, vertex=first))
+    refuse(count, finding(AT_ROW, element="vertex", row=first))
     if header is not None and not header.order:
         check_ply_text(data, header)
 

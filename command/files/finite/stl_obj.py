@@ -9,7 +9,7 @@ import struct
 import numpy as np
 
 from ....core.cad.obj_text import check_obj_text
-from ....core.streams.findings import AT_TRIANGLE
+from ....core.streams.findings import AT_ROW
 from ....core.streams.misread import Data
 from ....core.streams.stl_text import check_stl_text
 from ....core.verdict.finding import finding
@@ -22,7 +22,7 @@ def check_stl(data: Data, _path: str) -> None:
         return
     facet = np.dtype({"names": ["at"], "formats": ["9<f4"], "offsets": [12], "itemsize": 50})
     count, first = bad_in_table(np.frombuffer(data, facet, -1, 84)["at"])
-    refuse(count, finding(AT_TRIANGLE, triangle=first))
+    refuse(count, finding(AT_ROW, element="triangle", row=first))
 
 
 def check_obj(data: Data, _path: str) -> None:

@@ -10,28 +10,24 @@ rotation that it asks for is returned beside them.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...verdict.number_text import parse_number, parse_numbers, parse_whole, parse_wholes
-from .limits import MAX_DEPTH
-from .usda import fan
-from .xml import Node, parse
+from .triangles import Arrays, Gathered, fan
+from .xml import MAX_DEPTH, Node, parse
 
 TURNS = {
     "Y_UP": np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]),
     "X_UP": np.array([[0, -1.0, 0], [0, 0, -1.0], [1.0, 0, 0]]),
 }
-Arrays = tuple[NDArray[np.float64], NDArray[np.int64]]
 
 
-def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
-    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up.
-
-    Raises ValueError, KeyError or FileError if there are none.
-    """
-    root = parse(data)
+def read_dae(path: Path) -> tuple[*Arrays, NDArray[np.float64] | None]:
+    """Return points (meters, the file's axes), triangles, and the rotation to z up, None if z is up."""
+    root = parse(path.read_bytes())
     for node in root.walk():
         node.tag = node.tag.rpartition("}")[2]
     by_id = {node.get("id"): node for node in root.walk() if node.get("id")}
@@ -40,15 +36,11 @@ def read_dae(data: bytes) -> tuple[*Arrays, NDArray[np.float64] | None]:
     scale = parse_number(unit.get("meter", "1")) if unit else 1.0
     up = asset.find("up_axis") if asset else None
     matrix = np.diag([scale, scale, scale, 1.0])
-    points: list[NDArray] = []
-    triangles: list[NDArray] = []
+    gathered = Gathered()
     for geometry, place in _instances(root, by_id):
-        whole = matrix @ place
-        for corners, faces in _geometry(geometry, by_id):
-            faces = faces[:, ::-1] if np.linalg.det(whole[:3, :3]) < 0.0 else faces
-            triangles.append(faces + sum(map(len, points)))
-            points.append(corners @ whole[:3, :3].T + whole[:3, 3])
-    return np.concatenate(points), np.concatenate(triangles), TURNS.get(up.text.strip() if up else "Y_UP")
+        for points, triangles in _geometry(geometry, by_id):
+            gathered.add(points, triangles, matrix @ place)
+    return *gathered.arrays(), TURNS.get(up.text.strip() if up else "Y_UP")
 
 
 def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArray]]:

@@ -10,10 +10,9 @@ import stat
 from pathlib import Path
 
 from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
-from ...streams.findings import FILE_UNREADABLE
+from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE
 from ...verdict.finding import FileError, system_reason
 from ..findings import (
-    DESCRIPTION_TOO_LARGE,
     DESCRIPTION_UNKNOWN,
     DESCRIPTION_WITHOUT_LINKS,
     INCLUDE_TWICE,
@@ -21,28 +20,30 @@ from ..findings import (
     USD_NOT_TEXT,
     XML_INVALID,
 )
+from ..formats import AUDITED
 from ..stated import Description
-from . import mjcf, sdf, urdf, usda
-from .limits import MAX_DESCRIPTION, MAX_LINKS
 from .paths import Roots
 from .xml import NOWHERE, Node, parse
 
-ROOTS = {"robot": urdf.read, "sdf": sdf.read, "mujoco": mjcf.read}
 _WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
-SUFFIXES = (".urdf", ".sdf", ".xml", ".usda", ".usd", ".world")
+_USD = "#usda"
+MAX_DESCRIPTION = 64 << 20  # bytes
+MAX_LINKS = 100_000
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return the description of a robot in a file.
+    """Return the description of a robot in a file. FileError if it is none, or is refused.
 
-    roots: places of files that it includes, by default the allowed places of its meshes. Raises FileError if it is
-    none, or is refused.
+    roots: places of files that it includes, by default the allowed places of its meshes.
     """
     data = _bytes(path)
-    description = usda.read(data) if data.startswith(b"#usda") else _xml(data, roots or Roots.for_file(path))
+    if data.startswith(_USD.encode()):
+        description = AUDITED[_USD].reader_module.read(data)
+    else:
+        description = _xml(data, roots or Roots.for_file(path))
     if len(description.links) > MAX_LINKS:
-        raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
+        raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
     if not description.links:
         raise FileError(DESCRIPTION_WITHOUT_LINKS)
     return description
@@ -58,9 +59,13 @@ def _bytes(path: Path) -> bytes:
         raise FileError(FILE_MISSING) from error
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    if len(data) > MAX_DESCRIPTION:
-        raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
+    _check_bytes(len(data))
     return data
+
+
+def _check_bytes(count: int) -> None:
+    if count > MAX_DESCRIPTION:
+        raise FileError(FILE_TOO_LARGE, limit=MAX_DESCRIPTION, content="bytes")
 
 
 def _xml(data: bytes, roots: Roots) -> Description:
@@ -68,11 +73,11 @@ def _xml(data: bytes, roots: Roots) -> Description:
         raise FileError(USD_NOT_TEXT)
     data = _narrow(data)
     root = parse(data)
-    if root.tag not in ROOTS:
+    if root.tag not in AUDITED:
         raise FileError(DESCRIPTION_UNKNOWN, tag=root.tag)
     if root.tag == "mujoco":
         _include(root, roots)
-    return ROOTS[root.tag](root, data)
+    return AUDITED[root.tag].reader_module.read(root, data)
 
 
 def _narrow(data: bytes) -> bytes:
@@ -91,7 +96,7 @@ def _include(root: Node, roots: Roots) -> None:
 
     They have no place in the model's own file, so their inertials are judged and not repaired.
     """
-    included, left = set(), MAX_DESCRIPTION
+    included, total = set(), 0
     waiting = [root]
     while waiting:
         node = waiting.pop()
@@ -107,9 +112,8 @@ def _include(root: Node, roots: Roots) -> None:
                 data = _bytes(path)
             except FileError as error:
                 raise FileError(INCLUDE_UNREADABLE, name=name) from error
-            left -= len(data)
-            if left < 0:
-                raise FileError(DESCRIPTION_TOO_LARGE, limit=MAX_DESCRIPTION >> 20)
+            total += len(data)
+            _check_bytes(total)
             if path in included:  # MuJoCo refuses that too; so includes cannot go round in a circle.
                 raise FileError(INCLUDE_TWICE, name=name)
             included.add(path)

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import json
-import re
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -16,79 +15,67 @@ from numpy.typing import NDArray
 from ...cad.obj_text import check_obj_text
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
-from ...streams.findings import LINE_MISREAD
-from ...streams.stl_text import check_stl_text
-from ...verdict.finding import FileError, system_reason
-from ..findings import MESH_DAMAGED, MESH_EMPTY, MESH_TOO_LARGE, MESH_UNREADABLE
+from ...scans.findings import FILE_TYPE
+from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...streams.stl import StlFile
+from ...verdict.finding import FileError, finding, system_reason
+from ..findings import MESH_UNREADABLE
+from ..write.gltf import BINARY, JSON, chunks
 from .dae import read_dae
-from .limits import MAX_MESH, MAX_TRIANGLES
-from .usda import fan
+from .triangles import Arrays, Gathered, fan
 
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-_VERTEX = re.compile(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
+MAX_MESH = 1 << 30  # bytes
+MAX_TRIANGLES = 50_000_000
 _COMPONENTS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _DAMAGE = (
     *(ValueError, IndexError, KeyError, TypeError, OverflowError, RecursionError, struct.error),
     AttributeError,  # JSON with a text or a number in the place of an object.
 )
-Arrays = tuple[NDArray[np.floating], NDArray[np.integer]]
 
 
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up.
 
-    The rotation is given if the file says that another axis is up, which readers obey or not.
-
-    Raises FileError if it cannot be read.
+    The rotation is given if the file says that another axis is up, which readers obey or not. FileError, with the
+    file's name, if it cannot be read.
     """
+    try:
+        return _read_mesh(path)
+    except FileError as error:
+        cause = error.finding
+    except OSError as error:
+        cause = finding(FILE_UNREADABLE, error=system_reason(error))
+    except _DAMAGE as error:
+        cause = finding(FILE_UNREADABLE, error=type(error).__name__)
+    raise FileError(MESH_UNREADABLE, name=path.name, cause=cause.as_record())
+
+
+def _read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     reader = READERS.get(path.suffix.lower())
     if reader is None:
-        raise FileError(MESH_UNREADABLE, name=path.name, suffixes=" ".join(READERS))
-    try:
-        with open(path, "rb") as file:
-            data = file.read(MAX_MESH + 1)
-    except OSError as error:
-        raise FileError(MESH_DAMAGED, name=path.name, error=system_reason(error)) from error
-    if len(data) > MAX_MESH:
-        raise FileError(MESH_TOO_LARGE, name=path.name)
-    try:
-        points, triangles, *upright = reader(data)
-    except FileError as error:
-        if error.finding.code != LINE_MISREAD:
-            raise
-        raise FileError(MESH_DAMAGED, name=path.name, error=error.finding.as_record()) from error
-    except _DAMAGE as error:
-        raise FileError(MESH_DAMAGED, name=path.name, error=type(error).__name__) from error
-    if not len(triangles) or len(triangles) > MAX_TRIANGLES:
-        raise FileError(MESH_TOO_LARGE if len(triangles) else MESH_EMPTY, name=path.name)
+        raise FileError(FILE_TYPE, suffixes=" ".join(READERS))
+    if path.stat().st_size > MAX_MESH:
+        raise FileError(FILE_TOO_LARGE, limit=MAX_MESH, content="bytes")
+    points, triangles, *upright = reader(path)
+    if not len(triangles):
+        raise FileError(FILE_WITHOUT_OBJECTS, content="faces")
+    if len(triangles) > MAX_TRIANGLES:
+        raise FileError(FILE_TOO_LARGE, limit=MAX_TRIANGLES, content="faces")
     if triangles.min() < 0 or triangles.max() >= len(points) or not np.isfinite(points).all():
-        raise FileError(MESH_DAMAGED, name=path.name, error="ValueError")
+        raise ValueError("corners")
     return Surface.from_triangles(points, triangles), upright[0] if upright else None
 
 
-def read_stl(data: bytes) -> Arrays:
-    """Return triangles of binary or text STL."""
-    if len(data) >= 84:
-        count = struct.unpack_from("<I", data, 80)[0]
-        if len(data) == 84 + 50 * count:
-            rows = np.frombuffer(data, _TRIANGLE, count, 84)
-            return _join_corners(rows["corners"].reshape(-1, 3))
-    if not data.lstrip()[:5].lower() == b"solid":
-        raise ValueError("stl")
-    check_stl_text(data)
-    return _join_corners(np.array(_VERTEX.findall(data), np.float64).reshape(-1, 3))
-
-
-def _join_corners(corners: NDArray) -> Arrays:
-    """Equal corners as one point."""
-    if len(corners) % 3:
-        raise ValueError("corners")
-    points, index = np.unique(corners, axis=0, return_inverse=True)
+def read_stl(path: Path) -> Arrays:
+    """Return triangles of binary or text STL, with equal corners as one point."""
+    corners = [np.zeros((0, 3)), *(piece.points for piece in StlFile(path).pieces())]
+    points, index = np.unique(np.concatenate(corners), axis=0, return_inverse=True)
     return points, index.reshape(-1, 3)
 
 
-def read_obj(data: bytes) -> Arrays:
+def read_obj(path: Path) -> Arrays:
     """Return triangles of all objects of an OBJ; faces of more corners are cut into fans."""
+    data = path.read_bytes()
     check_obj_text(data)
     points: list[bytes] = []
     sizes: list[int] = []
@@ -106,27 +93,13 @@ def read_obj(data: bytes) -> Arrays:
     return np.array(points, np.float64).reshape(-1, 3), fan(np.array(sizes, np.int64), np.array(corners, np.int64))
 
 
-def read_glb(data: bytes) -> Arrays:
-    """Return triangles of a binary glTF as its scene places them, in its own axes (y up).
-
-    Robots' readers take them so.
-    """
-    if data[:4] != b"glTF":
-        raise ValueError("glb")
-    start, document, binary = 12, None, b""
-    while start + 8 <= len(data):
-        length, kind = struct.unpack_from("<II", data, start)
-        chunk = data[start + 8 : start + 8 + length]
-        if kind == 0x4E4F534A:
-            document = json.loads(chunk)
-        elif kind == 0x004E4942:
-            binary = chunk
-        start += 8 + length
-    if not isinstance(document, dict):
-        raise ValueError("glb")
+def read_glb(path: Path) -> Arrays:
+    """Return triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers do."""
+    data = path.read_bytes()
+    parts = dict(chunks(data)) if data[:4] == b"glTF" else {}
+    document, binary = json.loads(parts.get(JSON, b"")), parts.get(BINARY, b"")
     scene = document["scenes"][document.get("scene", 0)]
-    points: list[NDArray] = []
-    triangles: list[NDArray] = []
+    gathered = Gathered()
     waiting = [(index, np.eye(4)) for index in scene.get("nodes", [])]
     visited = 0
     while waiting:
@@ -144,10 +117,8 @@ def read_glb(data: bytes) -> Arrays:
             order = np.arange(len(corners))
             if "indices" in primitive:
                 order = _accessor(document, binary, primitive["indices"]).ravel().astype(np.int64)
-            faces = order[: len(order) // 3 * 3].reshape(-1, 3) + sum(map(len, points))
-            triangles.append(faces[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else faces)
-            points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
-    return np.concatenate(points), np.concatenate(triangles)
+            gathered.add(corners, order[: len(order) // 3 * 3].reshape(-1, 3), matrix)
+    return gathered.arrays()
 
 
 def _node_matrix(node: dict) -> NDArray[np.float64]:
@@ -180,9 +151,4 @@ def _accessor(document: dict, binary: bytes, index: int) -> NDArray:
     return rows.copy()
 
 
-READERS: dict[str, Callable[[bytes], tuple]] = {
-    ".stl": read_stl,
-    ".obj": read_obj,
-    ".glb": read_glb,
-    ".dae": read_dae,
-}
+READERS: dict[str, Callable[[Path], tuple]] = {".stl": read_stl, ".obj": read_obj, ".glb": read_glb, ".dae": read_dae}

@@ -17,10 +17,9 @@ from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ...verdict.number_text import parse_numbers
 from ..model import Pose, Shape
-from ..stated import Description, StatedInertial, StatedLink, StatedShape
-from .xml import NOWHERE, Node, number, numbers, unreadable
+from ..stated import Angles, Description, StatedInertial, StatedLink, StatedShape, rotation_about
+from .xml import NOWHERE, Node, attempt, number, numbers
 
-ABOUT = {"x": (1, 2), "y": (2, 0), "z": (0, 1)}
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
@@ -79,20 +78,13 @@ def _defaults(node: Node, name: str, above: dict[str, dict[str, str]], model: _M
 
 def _link(body: Node, model: _Model, current: str, count: int) -> StatedLink:
     findings: list[Finding] = []
-    node, inertial, shapes = body.find("inertial"), None, []
-    try:
-        inertial = None if node is None else _inertial(node, model)
-    except ValueError as error:
-        findings.append(unreadable(node or body, error))
-    for geom in body.all("geom"):
-        of_class = model.classes.get(geom.get("class") or current, {}).get("geom", {})
-        try:
-            shapes += _shape({**of_class, **geom.attributes}, model)
-        except ValueError as error:
-            findings.append(unreadable(geom, error))
+    node = body.find("inertial")
+    inertial = attempt(findings, node, _inertial, model)
+    read = (attempt(findings, geom, _shape, current, model) for geom in body.all("geom"))
+    shapes = tuple(shape for shape in read if shape is not None)
     span = None if node is None or node.start == NOWHERE else (node.start, node.end)
     name = body.get("name") or "body {}".format(count + 1)
-    return StatedLink(name, inertial, tuple(shapes), span, False, tuple(findings))  # else MuJoCo takes it from geoms
+    return StatedLink(name, inertial, shapes, span, False, tuple(findings))  # else MuJoCo takes it from geoms
 
 
 def _inertial(node: Node, model: _Model) -> StatedInertial:
@@ -106,7 +98,7 @@ def _inertial(node: Node, model: _Model) -> StatedInertial:
     return StatedInertial(number(node.get("mass"), 0.0), center, tensor, rotation, angles, quaternion)
 
 
-Rotation = tuple[NDArray[np.float64], tuple[float, float, float] | None, tuple[float, ...] | None]
+Rotation = tuple[NDArray[np.float64], Angles | None, tuple[float, ...] | None]
 
 
 def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
@@ -121,7 +113,7 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
         first, second, third = (numbers(attributes["euler"], 3, (0.0, 0.0, 0.0)) * unit).tolist()
         turn = np.eye(3)
         for axis, angle in zip(model.euler, (first, second, third)):
-            step = _about(axis.lower(), angle)
+            step = rotation_about("xyz".index(axis.lower()), angle)
             turn = turn @ step if axis.islower() else step @ turn
         fixed_axes = model.euler == "XYZ"
         return turn, (first, second, third) if fixed_axes else None, None
@@ -149,15 +141,8 @@ def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
     return vector / length
 
 
-def _about(axis: str, angle: float) -> NDArray[np.float64]:
-    turn = np.eye(3)
-    i, j = ABOUT[axis]
-    turn[i, i] = turn[j, j] = np.cos(angle)
-    turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
-    return turn
-
-
-def _shape(attributes: dict[str, str], model: _Model) -> list[StatedShape]:
+def _shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
+    attributes = {**model.classes.get(geom.get("class") or current, {}).get("geom", {}), **geom.attributes}
     kind = attributes.get("type", "mesh" if "mesh" in attributes else "sphere")
     rotation, angles, _ = _rotation(attributes, model)
     position = numbers(attributes.get("pos", ""), 3, (0.0, 0.0, 0.0))
@@ -167,9 +152,9 @@ def _shape(attributes: dict[str, str], model: _Model) -> list[StatedShape]:
     if kind == "mesh":
         file, text = model.meshes.get(attributes.get("mesh", ""), ("", ""))
         scale = tuple(numbers(text, 3, (1.0, 1.0, 1.0)).tolist())
-        return [StatedShape(Shape("mesh", scale, Pose(position, rotation), file), role, angles)]
+        return StatedShape(Shape("mesh", scale, Pose(position, rotation), file), role, angles)
     if kind not in SIZES:
-        return []
+        return None
     has_ends = "fromto" in attributes and kind in ("capsule", "cylinder")
     if len(size) < (1 if has_ends else SIZES[kind]):
         raise ValueError(attributes.get("size", ""))
@@ -179,12 +164,7 @@ def _shape(attributes: dict[str, str], model: _Model) -> list[StatedShape]:
         length = float(np.linalg.norm(along))
         rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, (along / length).tolist()))}, model)
         pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
-        return [StatedShape(Shape(kind, (size[0], length), pose), role)]
-    values = {
-        "sphere": size[:1],
-        "ellipsoid": size[:3],
-        "box": [2.0 * half for half in size[:3]],
-        "capsule": [*size[:1], *(2.0 * half for half in size[1:2])],
-        "cylinder": [*size[:1], *(2.0 * half for half in size[1:2])],
-    }[kind]
-    return [StatedShape(Shape(kind, tuple(values), Pose(position, rotation)), role, angles)]
+        return StatedShape(Shape(kind, (size[0], length), pose), role)
+    halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)  # index of the first half of a length
+    values = tuple(2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]]))
+    return StatedShape(Shape(kind, values, Pose(position, rotation)), role, angles)

@@ -19,10 +19,7 @@ MAX_LEVELS = 4  # folders up to where a package may begin
 
 @dataclass(frozen=True)
 class Roots:
-    """The folders that may be read from.
-
-    anywhere: True if any may.
-    """
+    """The folders that may be read from. anywhere: True if any may."""
 
     folders: tuple[Path, ...]
     anywhere: bool = False
@@ -56,10 +53,7 @@ class Roots:
         raise FileError(MESH_OUTSIDE if outside else MESH_MISSING, name=name)
 
     def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
-        """Yield possible paths.
-
-        A package's name may name a root, a folder in it, or neither.
-        """
+        """Yield possible paths. A package's name may name a root, a folder in it, or neither."""
         if scheme in ("package", "model"):
             package, _, inside = rest.partition("/")
             for folder in self.folders:

@@ -10,12 +10,9 @@ import numpy as np
 
 from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
-from ..model import Pose, Shape
-from ..stated import Description, StatedInertial, StatedLink, StatedShape, pose_of_angles
-from .urdf import ENTRIES
-from .xml import Node, number, numbers, unreadable
-
-Angles = tuple[float, float, float] | None
+from ..model import Pose
+from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
+from .xml import Node, Placed, attempt, number, numbers, read_shape, read_shapes
 
 
 def read(root: Node, data: bytes) -> Description:
@@ -27,23 +24,14 @@ def read(root: Node, data: bytes) -> Description:
 
 def _link(node: Node, model: Node, several: bool) -> StatedLink:
     findings: list[Finding] = []
-    inertial_node, inertial, span = node.find("inertial"), None, None
-    try:
-        if inertial_node is not None and inertial_node.get("auto") not in ("true", "1"):
-            inertial, span = _inertial(inertial_node), (inertial_node.start, inertial_node.end)
-    except ValueError as error:
-        findings.append(unreadable(inertial_node or node, error))
-    shapes = []
-    for role in ("visual", "collision"):
-        for element in node.all(role):
-            try:
-                shapes += _shape(element, role)
-            except ValueError as error:
-                findings.append(unreadable(element, error))
+    element = node.find("inertial")
+    is_auto = element is not None and element.get("auto") in ("true", "1")
+    inertial = None if is_auto else attempt(findings, element, _inertial)
+    span = None if element is None or inertial is None else (element.start, element.end)
+    shapes = read_shapes(findings, node, _shape)
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
-    moves = bool(shapes) and not static and inertial_node is None
-    return StatedLink(name, inertial, tuple(shapes), span, moves, tuple(findings))
+    return StatedLink(name, inertial, shapes, span, bool(shapes) and not static and element is None, tuple(findings))
 
 
 def _text(node: Node, *path: str) -> str:
@@ -60,7 +48,7 @@ def _inertial(node: Node) -> StatedInertial:
     return StatedInertial(mass, pose.position, tensor, pose.rotation, angles, quaternion)
 
 
-def _pose(node: Node) -> tuple[Pose, Angles, tuple[float, ...] | None]:
+def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None]:
     element = node.find("pose")
     text = "" if element is None else element.text
     if element is not None and element.get("rotation_format") == "quat_xyzw":
@@ -72,26 +60,10 @@ def _pose(node: Node) -> tuple[Pose, Angles, tuple[float, ...] | None]:
     roll, pitch, yaw = values[3:].tolist()
     if element is not None and element.get("degrees") in ("true", "1"):
         roll, pitch, yaw = radians(roll), radians(pitch), radians(yaw)
-    return pose_of_angles(values[:3], (roll, pitch, yaw)), (roll, pitch, yaw), None
+    return Pose(values[:3], rotation_of_angles(roll, pitch, yaw)), (roll, pitch, yaw), None
 
 
-def _shape(node: Node, role: str) -> list[StatedShape]:
+def _shape(node: Node) -> Placed | None:
     pose, angles, _ = _pose(node)
-    geometry = node.find("geometry")
-    for element in geometry.children if geometry else ():
-        kind, shape = element.tag, None
-        if kind == "mesh":
-            scale = numbers(_text(element, "scale"), 3, (1.0, 1.0, 1.0))
-            shape = Shape("mesh", tuple(scale.tolist()), pose, _text(element, "uri"))
-        elif kind == "box":
-            shape = Shape(kind, tuple(numbers(_text(element, "size"), 3, (1.0, 1.0, 1.0)).tolist()), pose)
-        elif kind == "ellipsoid":
-            shape = Shape(kind, tuple(numbers(_text(element, "radii"), 3, (1.0, 1.0, 1.0)).tolist()), pose)
-        elif kind == "sphere":
-            shape = Shape(kind, (number(_text(element, "radius"), 1.0),), pose)
-        elif kind in ("cylinder", "capsule"):
-            size = number(_text(element, "radius"), 1.0), number(_text(element, "length"), 1.0)
-            shape = Shape(kind, size, pose)
-        if shape is not None:
-            return [StatedShape(shape, role, angles)]
-    return []
+    shape = read_shape(node, pose, ("box", "ellipsoid", "sphere", "cylinder", "capsule"), _text, 1.0)
+    return None if shape is None else (shape, angles)

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
-from ..findings import DESCRIPTION_NUMBER, USDA_INVALID, XML_TOO_LARGE
+from ..findings import DESCRIPTION_NUMBER, USDA_INVALID
 from ..model import Pose, Shape
-from ..stated import Description, StatedInertial, StatedLink, StatedShape
-from .limits import MAX_DEPTH, MAX_ELEMENTS
+from ..stated import Description, StatedInertial, StatedLink, StatedShape, rotation_about
+from .triangles import fan
+from .xml import check_size
 
 _TOKEN = re.compile(
     r'\s+|#[^\n]*|"""(?:.|\n)*?"""|\'\'\'(?:.|\n)*?\'\'\'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\''
@@ -32,10 +33,7 @@ _SPECIFIERS = {"def", "over", "class"}
 
 @dataclass(eq=False)
 class Prim:
-    """One prim.
-
-    values: attributes as text. start, end: of the inside of its braces, in characters.
-    """
+    """One prim. values: attributes as text. start, end: of the inside of its braces, in characters."""
 
     kind: str
     name: str
@@ -46,19 +44,13 @@ class Prim:
     children: list[Prim] = field(default_factory=list)
 
     def numbers(self, name: str) -> NDArray[np.float64] | None:
-        """Return the numbers of an attribute, None if it has none.
-
-        Raises ValueError with a text that is none.
-        """
+        """Return the numbers of an attribute, None if it has none. Raises ValueError with a text that is none."""
         if self.values.get(name, "None") == "None":
             return None
         return np.array([parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64)
 
     def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
-        """Return the numbers of an attribute, as many as its default has.
-
-        Raises ValueError if the count differs.
-        """
+        """Return the numbers of an attribute, as many as its default has. ValueError if the count differs."""
         values, count = self.numbers(name), len(default)
         if values is None:
             return np.array(default, np.float64)
@@ -90,10 +82,7 @@ class _Parser:
         return self.tokens[self.index][0] if self.index < len(self.tokens) else ""
 
     def take(self) -> tuple[str, int]:
-        """Return the next token and its position.
-
-        Raises IndexError if the text ends.
-        """
+        """Return the next token and its position. IndexError if the text ends."""
         self.index += 1
         return self.tokens[self.index - 1]
 
@@ -111,8 +100,7 @@ class _Parser:
 
     def prim(self, depth: int) -> Prim:
         self.count += 1
-        if depth > MAX_DEPTH or self.count > MAX_ELEMENTS:
-            raise FileError(XML_TOO_LARGE, limit=MAX_ELEMENTS, depth=MAX_DEPTH)
+        check_size(depth, self.count)
         self.take()  # the specifier
         words = []
         while self.peek() not in ("(", "{", ""):
@@ -159,10 +147,7 @@ class _Parser:
 
 
 def read(data: bytes) -> Description:
-    """Return a description of a layer's bodies.
-
-    Raises FileError if it is no text of USD.
-    """
+    """Return a description of a layer's bodies. FileError if it is no text of USD."""
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -227,10 +212,7 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
             step = values.reshape(4, 4).T
         elif kind.startswith("rotate") and len(values) == len(kind) - 6:
             for axis, angle in zip(kind[6:], np.radians(values)):  # rotateXYZ turns about x first
-                turn, (i, j) = np.eye(4), {"X": (1, 2), "Y": (2, 0), "Z": (0, 1)}[axis]
-                turn[i, i] = turn[j, j] = np.cos(angle)
-                turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
-                step = turn @ step
+                step[:3, :3] = rotation_about("XYZ".index(axis), angle) @ step[:3, :3]
         matrix = matrix @ (np.linalg.inv(step) if inverse else step)
     return np.asarray(matrix, np.float64)
 
@@ -238,12 +220,9 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
 def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str) -> StatedLink:
     """Return a body in the axes of its prim, in meters; its own scale is a part of its shapes and its center."""
     findings: list[Finding] = []
-    turn = polar_rotation(matrix[None])[0][0]
-    if np.linalg.det(turn) < 0.0:
-        turn = -turn
-    frame = Pose(matrix[:3, 3], turn)
+    turn = _turn(matrix)
     to_link = np.eye(4)
-    to_link[:3, :3], to_link[:3, 3] = turn.T, -turn.T @ frame.position
+    to_link[:3, :3], to_link[:3, 3] = turn.T, -turn.T @ matrix[:3, 3]
     inertial = None
     try:
         inertial = _inertial(prim, to_link @ matrix, scales)
@@ -256,6 +235,12 @@ def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], t
         findings.append(_unreadable(prim, error, text))
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix)
+
+
+def _turn(matrix: NDArray) -> NDArray[np.float64]:
+    """Return the (3, 3) rotation of a (4, 4) matrix, without its scale and its mirroring."""
+    turn = polar_rotation(matrix[None])[0][0]
+    return -turn if np.linalg.det(turn) < 0.0 else turn
 
 
 def _unreadable(prim: Prim, error: Exception, text: str) -> Finding:
@@ -278,10 +263,7 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
 
 
 def _collect(prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]) -> None:
-    """Collect the geometry of a body: the prims below it, up to the next body.
-
-    matrix: the prim's in the world.
-    """
+    """Collect the geometry of a body: the prims below it, up to the next body. matrix: the prim's in the world."""
     shape = _shape(prim, to_link @ matrix, unit)
     if shape is not None:
         shapes.append(shape)
@@ -298,9 +280,7 @@ def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
     if prim.kind not in kinds:
         return None
     scales = np.linalg.norm(matrix[:3, :3], axis=0) * unit
-    turn = polar_rotation(matrix[None])[0][0]
-    turn = turn if np.linalg.det(turn) > 0.0 else -turn
-    pose = Pose(matrix[:3, 3] * unit, turn)
+    pose = Pose(matrix[:3, 3] * unit, _turn(matrix))
     if prim.kind == "Cube":
         size = _number(prim, "size", 2.0) * scales
         return StatedShape(Shape("box", tuple(size.tolist()), pose), role)
@@ -334,13 +314,3 @@ def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | 
     if is_left_handed != (np.linalg.det(matrix[:3, :3]) < 0.0):
         triangles = triangles[:, ::-1]
     return StatedShape(Shape("mesh"), role, None, placed, triangles)
-
-
-def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return (m, 3) faces of given sizes, cut into fans about their first corners."""
-    starts = np.cumsum(sizes) - sizes
-    cut = np.maximum(sizes - 2, 0)
-    face = np.repeat(np.arange(len(sizes)), cut)
-    step = np.arange(cut.sum()) - np.repeat(np.cumsum(cut) - cut, cut)
-    first = starts[face]
-    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)

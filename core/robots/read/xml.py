@@ -8,29 +8,32 @@ Document types, and with them entities, are refused.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import cast
+from typing import TypeVar, cast
 from xml.parsers import expat
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...streams.findings import FILE_TOO_LARGE
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
-from ..findings import DESCRIPTION_NUMBER, XML_ENTITIES, XML_INVALID, XML_TOO_LARGE
-from .limits import MAX_DEPTH, MAX_ELEMENTS
+from ..findings import DESCRIPTION_NUMBER, XML_ENTITIES, XML_INVALID
+from ..model import Pose, Shape
+from ..stated import Angles, StatedShape
 
+MAX_ELEMENTS = 1_000_000
+MAX_DEPTH = 200
 NOWHERE = -1  # in place of a position, of what another file states
+Value = TypeVar("Value")
+Placed = tuple[Shape, Angles | None]
 _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # attributes may hold the mark of its end
 
 
 @dataclass(eq=False)
 class Node:
-    """One element.
-
-    start, end: of its bytes in the file, or NOWHERE. line: in its file.
-    """
+    """One element. start, end: of its bytes in the file, or NOWHERE. line: in its file."""
 
     tag: str
     attributes: dict[str, str]
@@ -59,11 +62,6 @@ class Node:
             yield node
             waiting.extend(reversed(node.children))
 
-    def texts(self) -> Iterator[str]:
-        """Yield its text and the values of its attributes."""
-        yield self.text
-        yield from self.attributes.values()
-
     def get(self, name: str, default: str = "") -> str:
         """Return an attribute."""
         return self.attributes.get(name, default)
@@ -81,15 +79,13 @@ class _Builder:
         self.parser.EndElementHandler = self._end
         self.parser.CharacterDataHandler = self._text
         self.parser.StartDoctypeDeclHandler = self._refuse
-        self.parser.EntityDeclHandler = self._refuse
 
     def _refuse(self, *_: object) -> None:
         raise FileError(XML_ENTITIES)
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         self.count += 1
-        if self.count > MAX_ELEMENTS or len(self.open) > MAX_DEPTH:
-            raise FileError(XML_TOO_LARGE, limit=MAX_ELEMENTS, depth=MAX_DEPTH)
+        check_size(len(self.open), self.count)
         node = Node(tag, attributes, self.parser.CurrentByteIndex, self.parser.CurrentLineNumber)
         self.open[-1].children.append(node)
         self.open.append(node)
@@ -104,16 +100,21 @@ class _Builder:
         self.open[-1].text += text
 
 
+def check_size(depth: int, count: int) -> None:
+    """Raise FileError if a file nests too many elements, or has too many."""
+    if depth > MAX_DEPTH:
+        raise FileError(FILE_TOO_LARGE, limit=MAX_DEPTH, content="nested elements")
+    if count > MAX_ELEMENTS:
+        raise FileError(FILE_TOO_LARGE, limit=MAX_ELEMENTS, content="elements")
+
+
 def _end_of_tag(data: bytes, start: int) -> int:
     """Behind the tag that begins there, which expat has seen to end."""
     return cast("re.Match[bytes]", _TAG.match(data, start)).end()
 
 
 def parse(data: bytes) -> Node:
-    """Return the root of a document.
-
-    Raises FileError if it is none, or is refused.
-    """
+    """Return the root of a document. FileError if it is none, or is refused."""
     builder = _Builder(data)
     try:
         builder.parser.Parse(data, True)
@@ -123,10 +124,7 @@ def parse(data: bytes) -> Node:
 
 
 def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:
-    """Return so many numbers of a text, the defaults if it is empty.
-
-    Raise ValueError with a wrong text.
-    """
+    """Return so many numbers of a text, the defaults if it is empty. Raise ValueError with a wrong text."""
     values = parse_numbers(text) or default
     if len(values) != count:
         raise ValueError(text)
@@ -134,16 +132,62 @@ def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.
 
 
 def number(text: str, default: float | None = None) -> float:
-    """Return the number of a text, the default if it is empty.
-
-    Raise ValueError with a wrong text.
-    """
+    """Return the number of a text, the default if it is empty. Raise ValueError with a wrong text."""
     return float(numbers(text, 1, () if default is None else (default,))[0])
 
 
-def unreadable(node: Node, error: Exception) -> Finding:
+def attempt(findings: list[Finding], node: Node | None, read: Callable[..., Value], *more: object) -> Value | None:
+    """Return what a reader makes of an element; None without one, or with a finding if one of its numbers is none."""
+    if node is None:
+        return None
+    try:
+        return read(node, *more)
+    except ValueError as error:
+        findings.append(_unreadable(node, error))
+        return None
+
+
+def read_shapes(findings: list[Finding], link: Node, read: Callable[[Node], Placed | None]) -> tuple[StatedShape, ...]:
+    """Return the visual and collision shapes of a link of URDF or SDF."""
+    shapes = []
+    for role in ("visual", "collision"):
+        for element in link.all(role):
+            placed = attempt(findings, element, read)
+            if placed is not None:
+                shapes.append(StatedShape(placed[0], role, placed[1]))
+    return tuple(shapes)
+
+
+def read_shape(
+    node: Node, pose: Pose, kinds: Sequence[str], get: Callable[[Node, str], str], length: float | None = None
+) -> Shape | None:
+    """Return the first shape of a geometry, "mesh" or of some kinds.
+
+    get: returns the text of a property of an element. length: the default of a radius or a length.
+    """
+    geometry = node.find("geometry")
+    for element in geometry.children if geometry else ():
+        kind = element.tag
+        if kind == "mesh":
+            scale = numbers(get(element, "scale"), 3, (1.0, 1.0, 1.0))
+            return Shape(kind, tuple(scale.tolist()), pose, get(element, "filename") or get(element, "uri"))
+        if kind not in kinds:
+            continue
+        if kind in ("box", "ellipsoid"):
+            sides = numbers(get(element, "size" if kind == "box" else "radii"), 3, (1.0, 1.0, 1.0))
+            return Shape(kind, tuple(sides.tolist()), pose)
+        names = ("radius",) if kind == "sphere" else ("radius", "length")
+        return Shape(kind, tuple(number(get(element, name), length) for name in names), pose)
+    return None
+
+
+def _unreadable(node: Node, error: Exception) -> Finding:
     """Return the finding about a text that is no number, and the element that holds it, else the node above."""
     text = str(error)
-    holders = [one for one in node.walk() if any(text in (words, *words.split()) for words in one.texts())]
+    holders = [
+        one
+        for one in node.walk()
+        if any(text in (words, *words.split()) for words in (one.text, *one.attributes.values()))
+    ]
     holder = holders[0] if len(holders) == 1 else node
     return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=holder.line)

@@ -14,12 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from ...measurement.documents import table
+from ...measurement.documents import plain, table
 from ...measurement.plain_text import counted
-from ...measurement.record import plain
 from ...verdict.finding import Finding, Severity
 from ...verdict.sentences import sentence, severity
-from ..stated import Description, StatedInertial, StatedLink
+from ..audit import Audit
+from ..stated import StatedInertial
 from .marker import AUDIT_COLUMNS as COLUMNS
 from .marker import AUDIT_PAGE
 from .marker import AUDIT_SCHEMA as SCHEMA
@@ -32,44 +32,39 @@ _STYLE = (
 )
 
 
-def link_entry(
-    link: StatedLink, findings: Iterable[Finding], repaired: StatedInertial | None, density: float | None
-) -> dict[str, Any]:
-    """Return one link's entry of a document."""
-    return {
-        "name": link.name,
-        **_inertial(link.inertial),
-        "density": density,
-        "findings": [finding_entry(one) for one in findings],
-        "repaired": None if repaired is None else _inertial(repaired),
-    }
-
-
-def document(file: str, description: Description, links: Sequence[dict[str, Any]], repaired: str | None) -> dict:
-    """Return the report document of one file.
-
-    repaired: the written copy.
-    """
+def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
+    """Return the report document of one file. repaired: the written copy."""
+    links = [
+        {
+            "name": one.link.name,
+            **_inertial(one.link.inertial),
+            "density": one.density,
+            "findings": [_finding(found) for found in one.findings],
+            "repaired": None if one.repaired is None else _inertial(one.repaired),
+        }
+        for one in audit.links
+    ]
     levels = {one["severity"] for link in links for one in link["findings"]}
     status = "ok" if not levels & {Severity.ERROR, Severity.WARNING} else "findings"
-    head = {"schema": SCHEMA, "file": file, "status": status, "format": description.format, "robot": description.name}
-    return plain({**head, "repaired": repaired, "links": list(links), "errors": []})
+    form, robot = audit.description.format, audit.description.name
+    head = {"schema": SCHEMA, "file": file, "status": status, "format": form, "robot": robot}
+    return plain({**head, "repaired": repaired, "links": links, "errors": []})
+
+
+def count_findings(document: dict[str, Any]) -> dict[str, int]:
+    """Return the numbers of links and of findings by severity: links, notes, warnings, errors."""
+    levels = [found["severity"] for link in document["links"] for found in link["findings"]]
+    return {"links": len(document["links"]), **{str(level) + "s": levels.count(level) for level in Severity}}
 
 
 def failed_document(file: str, reason: Finding) -> dict[str, Any]:
     """Return the document of a file that could not be read."""
     head = {"schema": SCHEMA, "file": file, "status": "error", "format": None, "robot": None, "repaired": None}
-    return plain({**head, "links": [], "errors": [finding_entry(reason)]})
+    return plain({**head, "links": [], "errors": [_finding(reason)]})
 
 
-def finding_entry(one: Finding) -> dict[str, Any]:
-    """Return a finding as a record has it."""
-    return {
-        "code": one.code,
-        "severity": str(severity(one)),
-        "message": sentence(one),
-        "values": dict(one.values),
-    }
+def _finding(one: Finding) -> dict[str, Any]:
+    return {"code": one.code, "severity": str(severity(one)), "message": sentence(one), "values": dict(one.values)}
 
 
 def _inertial(inertial: StatedInertial | None) -> dict[str, Any]:
@@ -109,9 +104,9 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
     lines += ["<style>{}</style>".format(_STYLE), "<h1>Audit of robot descriptions</h1>"]
     for one in documents:
         lines.append("<h2>{}</h2>".format(html.escape(str(one["file"]))))
-        counts = [found["severity"] for link in one["links"] for found in link["findings"]]
-        summary = ", ".join(counted(counts.count(level), level) for level in map(str, Severity))
-        lines.append("<p>{}: {}.</p>".format(counted(len(one["links"]), "link"), summary))
+        counts = count_findings(one)
+        summary = ", ".join(counted(counts[level + "s"], level) for level in map(str, Severity))
+        lines.append("<p>{}: {}.</p>".format(counted(counts["links"], "link"), summary))
         lines += ["<table>", "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repaired</tr>"]
         for _, link, level, code, message, mass, density, repaired in _table_rows([one]):
             fine = "nothing to compare" if "" in (mass, density) else "agrees with its geometry"

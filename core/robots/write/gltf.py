@@ -19,14 +19,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...numerics.rotations import quaternion
-from ...verdict.finding import FileError, Finding, finding
-from ..findings import GLTF_NODE_MISSING, GLTF_UNIT_SCALE, GLTF_UNREADABLE, ROBOT_SCALED
+from ...verdict.finding import Finding, finding
+from ..findings import GLTF_NODE_MISSING, GLTF_UNIT_SCALE, ROBOT_SCALED
 from ..model import Inertial, Robot
 
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
 Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 UNIFORM_RTOL = 1e-6  # Relative; for scales that differ by float32 rounding alone.
-_GLB, _JSON = 0x46546C67, 0x4E4F534A
+_GLB, JSON, BINARY = 0x46546C67, 0x4E4F534A, 0x004E4942  # a binary file, and kinds of its chunks
 
 
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
@@ -86,16 +86,10 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
 
 
 def read_json(data: bytes) -> dict[str, Any]:
-    """Return the document of a .gltf or .glb file that Blender has written.
-
-    Raises FileError if it is none.
-    """
-    try:
-        if data[:4] != b"glTF":
-            return json.loads(data)
-        return json.loads(next(chunk for kind, chunk in _chunks(data) if kind == _JSON))
-    except (ValueError, struct.error, StopIteration) as error:
-        raise FileError(GLTF_UNREADABLE) from error
+    """Return the document of a .gltf or .glb file. ValueError if it has none."""
+    if data[:4] != b"glTF":
+        return json.loads(data)
+    return json.loads(dict(chunks(data)).get(JSON, b""))
 
 
 def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
@@ -103,8 +97,8 @@ def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
     text = json.dumps(document, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
     if data[:4] != b"glTF":
         return json.dumps(document, ensure_ascii=False, indent="\t", allow_nan=False).encode() + b"\n"
-    chunks = [(kind, text + b" " * (-len(text) % 4) if kind == _JSON else chunk) for kind, chunk in _chunks(data)]
-    body = b"".join(struct.pack("<II", len(chunk), kind) + chunk for kind, chunk in chunks)
+    parts = [(kind, text + b" " * (-len(text) % 4) if kind == JSON else chunk) for kind, chunk in chunks(data)]
+    body = b"".join(struct.pack("<II", len(chunk), kind) + chunk for kind, chunk in parts)
     return struct.pack("<III", _GLB, 2, 12 + len(body)) + body
 
 
@@ -112,12 +106,13 @@ def to_glb(text: str) -> bytes:
     """Return a document as a binary file."""
     body = text.encode()
     body += b" " * (-len(body) % 4)
-    return struct.pack("<III", _GLB, 2, 20 + len(body)) + struct.pack("<II", len(body), _JSON) + body
+    return struct.pack("<IIIII", _GLB, 2, 20 + len(body), len(body), JSON) + body
 
 
-def _chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
+def chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
+    """Yield kind and content of the chunks of a binary file."""
     start = 12
-    while start < len(data):
+    while start + 8 <= len(data):
         length, kind = struct.unpack_from("<II", data, start)
         yield kind, data[start + 8 : start + 8 + length]
         start += 8 + length

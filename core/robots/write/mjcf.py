@@ -15,7 +15,8 @@ from ...numerics.rotations import quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import MJCF_INERTIA_TOO_SMALL, MJCF_MESH_TOO_LARGE
 from ..model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
-from .text import document, is_identity, number, numbers, unique_names, xml_text
+from ..stated import StatedInertial
+from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_text
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses what moves and has less mass or inertia, kg and kg·m²
 MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
@@ -95,10 +96,7 @@ def _add_place(element: Element, pose: Pose) -> None:
 
 
 def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
-    """Add the joints of a link.
-
-    A root with mass moves freely; several degrees of freedom are several joints of one body.
-    """
+    """Add a joint for each degree of freedom of a link. A root with mass moves freely."""
     if joint is None:
         if any(part.inertial is not None for part in robot.rigid_parts(link)):
             SubElement(body, "freejoint")
@@ -121,6 +119,11 @@ def _add_inertial(body: Element, inertial: Inertial) -> None:
     place = {"pos": numbers(inertial.center), "quat": numbers(quaternion(inertial.axes))}
     values = {"mass": number(inertial.mass), "diaginertia": numbers(inertial.moments)}
     SubElement(body, "inertial", {**place, **values})
+
+
+def inertial_text(inertial: StatedInertial, *_: object) -> str:
+    """Return the element of a repaired inertial."""
+    return inertial_element(_add_inertial, inertial.principal())
 
 
 def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:

@@ -11,11 +11,15 @@ import re
 from collections.abc import Sequence
 from xml.etree.ElementTree import Element, SubElement
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...numerics.rotations import quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import SDF_LIMITS_LOST
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
-from .text import add_text, document, is_identity, number, numbers, unique_names, xml_text
+from ..stated import ENTRIES, StatedInertial
+from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_text
 
 VERSION = "1.9"  # the first with quaternions; later parsers convert it, earlier ones refuse later files
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
@@ -65,12 +69,27 @@ def _add_inertial(parent: Element, inertial: Inertial) -> None:
     element = SubElement(parent, "inertial")
     _add_pose(element, Pose(inertial.center, inertial.axes))
     add_text(element, "mass", number(inertial.mass))
-    tensor = SubElement(element, "inertia")
-    for name, value in zip(
-        ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"),
-        (inertial.moments[0], 0.0, 0.0, inertial.moments[1], 0.0, inertial.moments[2]),
-    ):
-        add_text(tensor, name, number(value))
+    _add_tensor(element, np.diag(inertial.moments))
+
+
+def _add_tensor(parent: Element, tensor: NDArray) -> None:
+    element = SubElement(parent, "inertia")
+    for name, i, j in ENTRIES:
+        add_text(element, name, number(tensor[i, j]))
+
+
+def inertial_text(inertial: StatedInertial, old: str, *_: object) -> str:
+    """Return the element of a repaired inertial, along the link's axes: files before version 1.9 have no quaternion."""
+    text = inertial_element(_add_plain_inertial, inertial.principal())
+    kept = re.findall(r"<fluid_added_mass>.*?</fluid_added_mass>", old, re.DOTALL)
+    return text.replace("\n</inertial>", "".join("\n  " + one for one in kept) + "\n</inertial>")
+
+
+def _add_plain_inertial(parent: Element, inertial: Inertial) -> None:
+    element = SubElement(parent, "inertial")
+    add_text(element, "pose", numbers(inertial.center) + " 0 0 0")
+    add_text(element, "mass", number(inertial.mass))
+    _add_tensor(element, inertial.inertia)
 
 
 def _add_shapes(parent: Element, link: Link) -> None:

@@ -46,10 +46,7 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 
 
 def with_primitives(robot: Robot, kind: str) -> Robot:
-    """Return a robot with one primitive in the place of each link's geometry.
-
-    kind: "box", "ellipsoid", "capsule", or "none" for no geometry.
-    """
+    """Return a robot with a "box", "ellipsoid", "capsule" or nothing ("none") for each link's geometry."""
     links = [
         replace(
             link,

@@ -13,24 +13,19 @@ import numpy as np
 
 from ...files.whole_file import whole_file
 from ...mesh.surface import Surface
-from ...verdict.finding import finding
-from ..findings import RESULT_FOREIGN_FILE, USAGE_OVERWRITES_INPUT
 from ..model import Robot
 from .text import unique_names
 
 MESH_FOLDER = "meshes"
 _MARKER = b"Body Moments".ljust(80, b"\0")  # the header, by which an older result is known
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def to_stl(surface: Surface) -> bytes:
-    """Return a surface as binary STL, with zero normals, which readers find from the corners.
-
-    surface: in meters, along the link's axes.
-    """
+    """Return a surface in m as binary STL, with zero normals, which readers find from the corners."""
     triangles = surface.all_triangles()[0]
-    rows = np.zeros(len(triangles), _TRIANGLE)
+    rows = np.zeros(len(triangles), TRIANGLE)
     rows["corners"] = surface.points[triangles]
     return _MARKER + np.uint32(len(rows)).astype("<u4").tobytes() + rows.tobytes()
 
@@ -54,23 +49,15 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
             folder.mkdir(exist_ok=True)
         with whole_file(path) as stream:
             stream.write(to_stl(surface))
-    links = [
-        replace(
-            link,
-            shapes=tuple(
-                replace(shape, file=files[link.name]) if shape.surface is not None else shape for shape in link.shapes
-            ),
-        )
-        for link in robot.links
-    ]
+    links = []
+    for link in robot.links:
+        shapes = (shape if shape.surface is None else replace(shape, file=files[link.name]) for shape in link.shapes)
+        links.append(replace(link, shapes=tuple(shapes)))
     return replace(robot, links=tuple(links))
 
 
 def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
-    """Return the file of each link's mesh, relative to the robot's own file `stem` plus suffix.
-
-    Names differ by more than upper case.
-    """
+    """Return each link's file, relative to the robot's own (`stem` plus suffix); names differ by more than case."""
     files = unique_names(names, _file_name)
     return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}
 
@@ -84,8 +71,8 @@ def _check_replaceable(path: Path, read: Path | None, force: bool) -> None:
     if not path.is_file():
         return
     if read is not None and read.exists() and path.samefile(read):
-        raise FileExistsError(str(finding(USAGE_OVERWRITES_INPUT, option="output", path=str(path))))
+        raise FileExistsError("{} is a file that is read. Use another name".format(path))
     with open(path, "rb") as file:
         head = file.read(len(_MARKER))
     if head and head != _MARKER and not force:
-        raise FileExistsError(str(finding(RESULT_FOREIGN_FILE, path=str(path))))
+        raise FileExistsError("{} is not a result of body_moments and would be lost".format(path))

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Pose
+from ..model import Inertial, Pose
 from .marker import MARKER
 
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -72,6 +72,14 @@ def add_text(parent: Element, tag: str, text: str, **attributes: str) -> Element
     element = SubElement(parent, tag, attributes)
     element.text = text
     return element
+
+
+def inertial_element(add: Callable[[Element, Inertial], None], inertial: Inertial) -> str:
+    """Return the text of the one element that a writer adds for an inertial."""
+    parent = Element("link")
+    add(parent, inertial)
+    ElementTree.indent(parent[0])
+    return ElementTree.tostring(parent[0], encoding="unicode")
 
 
 def document(root: Element, kind: str, remarks: Iterable[str]) -> str:

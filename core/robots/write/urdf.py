@@ -17,8 +17,18 @@ import numpy as np
 from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
 from ..model import FreeAxis, Inertial, Pose, Robot, Shape
+from ..stated import ENTRIES, StatedInertial
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
-from .text import document, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_text
+from .text import (
+    document,
+    inertial_element,
+    is_identity,
+    number,
+    numbers,
+    roll_pitch_yaw,
+    unique_names,
+    xml_text,
+)
 
 BASE = "base_link"
 # A limited joint must state these, and nothing here knows them: N·m or N, and rad/s or m/s, which bind nothing.
@@ -38,10 +48,7 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as URDF.
-
-    remarks: comments at the beginning. inertial_only: only the links with their inertials, which is no complete file.
-    """
+    """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their inertials."""
     names = unique_names([link.name for link in robot.links], xml_text)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_text)
     root = Element("robot", name=xml_text(robot.name))
@@ -87,8 +94,12 @@ def _add_inertial(parent: Element, inertial: Inertial) -> None:
     element = SubElement(parent, "inertial")
     SubElement(element, "origin", xyz=numbers(inertial.center), rpy="0 0 0")
     SubElement(element, "mass", value=number(inertial.mass))
-    entries = [("i" + "xyz"[i] + "xyz"[j], number(inertial.inertia[i, j])) for i in range(3) for j in range(i, 3)]
-    SubElement(element, "inertia", dict(entries))
+    SubElement(element, "inertia", {name: number(inertial.inertia[i, j]) for name, i, j in ENTRIES})
+
+
+def inertial_text(inertial: StatedInertial, *_: object) -> str:
+    """Return the element of a repaired inertial."""
+    return inertial_element(_add_inertial, inertial.principal())
 
 
 def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:

@@ -21,12 +21,17 @@ from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Pose, Robot, Shape
+from ..stated import Description, StatedInertial, StatedLink
 from .marker import MARKER
 from .text import number, unique_names
 
 ROOT = "Robot"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
 LEAST = float(np.finfo(np.float32).tiny)  # Least number that float32 holds with all its digits.
+_MASS_ATTRIBUTE = re.compile(
+    r"[ \t]*(?:custom )?(?:uniform )?[\w:\[\]]+ (?:physics:(?:mass|centerOfMass|diagonalInertia|principalAxes)|"
+    r"newton:inertia) = (?:\([^)]*\)|\[[^\]]*\]|[^\s(\[]+)[ \t]*;?\n?"
+)
 _NO_IDENTIFIER = re.compile(r"\W")
 _INDENT = "    "
 
@@ -117,10 +122,7 @@ def header(
 
 
 def identifier(name: str) -> str:
-    """Return the name of a prim, as Blender's exporter makes it of an object's name.
-
-    An underscore stands for each other character than letters and digits, and before a digit.
-    """
+    """Return the name that Blender's exporter gives the prim of an object: letters, digits and underscores."""
     name = _NO_IDENTIFIER.sub("_", name)
     return name if name.isidentifier() else "_" + name
 
@@ -147,11 +149,23 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
     ]
 
 
-def round_down(moments: NDArray) -> NDArray[np.float32]:
-    """Return (3,) ascending principal moments in single precision, the largest one not above the sum of the others.
+def inertial_text(inertial: StatedInertial, old: str, link: StatedLink, description: Description) -> str:
+    """Return the text of a prim with the attributes of a repaired inertial, before anything below."""
+    unit, mass = description.scales["length"], description.scales["mass"]
+    local = np.eye(4) if link.local is None else link.local
+    principal = inertial.principal()
+    center = np.asarray(np.linalg.solve(local[:3, :3], inertial.center / unit - local[:3, 3]) * unit, np.float64)
+    placed = Inertial(principal.mass / mass, center, principal.inertia / mass, principal.moments / mass, principal.axes)
+    below = re.search(r"\n[ \t]*(?:def|over|class)\b", old)
+    split = below.start() if below else len(old)
+    match = re.search(r"\n([ \t]+)\S", old)
+    indent = match[1] if match else _INDENT
+    lines = "".join("\n" + indent + line for line in mass_attributes(placed, unit))
+    return lines + _MASS_ATTRIBUTE.sub("", old[:split]) + old[split:]
 
-    moments: (3,) ascending, in float64.
-    """
+
+def round_down(moments: NDArray) -> NDArray[np.float32]:
+    """Return (3,) ascending moments in single precision, the largest one not above the sum of the others."""
     rounded = np.asarray(moments, np.float64).astype(np.float32)
     while float(rounded[2]) > float(rounded[0]) + float(rounded[1]):
         rounded[2] = np.nextafter(rounded[2], np.float32(0.0))
@@ -215,10 +229,7 @@ def _shape(shape: Shape, name: str) -> list[str]:
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """Return a mesh that collides as its convex hull.
-
-    USD knows no files of other formats, so it stands in the layer.
-    """
+    """Return a mesh that collides as its convex hull. It stands in the layer: USD knows no files of other formats."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)

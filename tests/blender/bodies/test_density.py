@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.density.polynomial import parse_polynomial
 from body_moments.core.inertia.mass_properties import combine
@@ -270,7 +271,7 @@ def test_material_set_by_modifier_counts_and_makes_stale():
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     steel.body_moments.density = 8000.0
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
 
 
 def test_geometry_nodes_instances_bring_their_materials():
@@ -348,7 +349,7 @@ def test_coefficients_are_the_same_density():
     assert one.mass == other.mass and np.array_equal(one.inertia, other.inertia)
     # A decimal comma makes two coefficients, too: it is reported as what it was read.
     source = measure(by_polynomial(obj, "1000,5")).density_from
-    assert source == finding("density_from_coefficients", polynomial="1000,5", frame="object")
+    assert source == finding("density_from_polynomial", polynomial="(1000,5) · (1, x, y, z, …)", frame="object")
 
 
 def boxes_mass(low, high, density):
@@ -536,7 +537,7 @@ def test_missing_or_mistyped_attribute_is_refused():
     with refused("attribute_type", attribute="per_face"):
         measure(obj)
     obj.body_moments.density_attribute = ""
-    with refused("density_attribute_missing"):
+    with refused("density_source_missing"):
         measure(obj)
     cube = by_attribute(add(box()), np.ones(8))
     cube.body_moments.kind = "SOLID"

@@ -10,7 +10,7 @@ from body_moments.blender.bodies.measure_object import measure_body
 from body_moments.blender.bodies.stacks import stack
 from body_moments.blender.bodies.stacks.many import measure_many
 from body_moments.blender.bodies.stacks.stack import Stacked
-from body_moments.blender.session.stored import results
+from body_moments.blender.session import displayed
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
 from body_moments.blender.write import properties
 
@@ -273,7 +273,7 @@ def test_selection_stores_same_results_as_single_objects():
         bpy.ops.object.body_moments_clear() if obj == objects[0] else None
         expected = alone(obj, depsgraph)
         if isinstance(expected, Exception):
-            assert together[obj.name] == {} and results.failure(obj) == expected.finding
+            assert together[obj.name] == {} and displayed.failure(obj) == expected.finding
             continue
         properties.store(obj, expected.measurement)
         own = stored_on(obj)

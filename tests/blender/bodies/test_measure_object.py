@@ -365,7 +365,7 @@ def test_library_override_results_are_refused(tmp_path):
 
     with pytest.raises(EditRefusedError) as caught:
         properties.store(override, measure(override))
-    assert caught.value.finding.code == "override_results"
+    assert caught.value.finding.code == "linked_results"
     assert not properties.is_stored(override)
 
 

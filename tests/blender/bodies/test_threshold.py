@@ -9,6 +9,7 @@ import pytest
 
 bpy = pytest.importorskip("bpy")
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 
 from tests.blender.bodies.test_grid import SHEARED, measure
 from tests.blender.findings import said
@@ -105,7 +106,7 @@ def test_the_threshold_is_a_slider_after_measure(tmp_path):
     assert obj["body_volume"] < before and close(obj["body_volume"], measure(obj).volume, rel=1e-13)
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.threshold = 99.0  # nothing is above: the numbers stay, and are out of date
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
     obj.body_moments.threshold = 2.0
     assert staleness.stale_reason(obj, bpy.context.scene) is None
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import finding
@@ -58,7 +59,7 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.volume == pytest.approx(8.0)
     assert found.density == pytest.approx(part.mean(), rel=1e-12)
     assert found.error_bound["estimated"]
-    meaning = finding("values_scaled", density=1.0).as_record()
+    meaning = finding("values_scaled", density=1.0, order=1).as_record()
     assert said(found) == {"grid_density": {"samples": [6, 6, 6], "cause": meaning, "sources": [volume.name]}}
     volume.body_moments.spline_order = 4  # voxels fill what is inside of them whatever a grid by itself is taken for
     assert said(measure(box)) == said(found) and measure(box).mass_properties.mass == found.mass_properties.mass
@@ -131,12 +132,12 @@ def test_stored_numbers_know_when_the_grid_moves(tmp_path):
     staleness.mark_up_to_date(bpy.context, [box])
     assert staleness.stale_reason(box, bpy.context.scene) is None
     volume.body_moments.value_density = 5.0
-    assert staleness.stale_reason(box, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(box, bpy.context.scene) == Stale.SETTINGS
     volume.body_moments.value_density = 1.0
     assert staleness.stale_reason(box, bpy.context.scene) is None
     volume.location.x = 1.0
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(box, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(box, bpy.context.scene) == Stale.SETTINGS
 
 
 def test_stored_numbers_know_when_the_voxels_change(tmp_path):
@@ -156,7 +157,7 @@ def test_stored_numbers_know_when_the_voxels_change(tmp_path):
     assert staleness.stale_reason(box, bpy.context.scene) is None
     fog.modifiers[0].density = 3.0
     bpy.context.view_layer.update()
-    assert staleness.stale_reason(box, bpy.context.scene) == "stale_geometry"
+    assert staleness.stale_reason(box, bpy.context.scene) == Stale.GEOMETRY
     assert staleness.stale_reason(plain, bpy.context.scene) is None
     properties.store(box, measure(box))
     staleness.mark_up_to_date(bpy.context, [box])

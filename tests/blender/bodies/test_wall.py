@@ -10,6 +10,7 @@ import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.session.stored import walls as wall_slider
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError
@@ -163,10 +164,6 @@ def test_command_line_uses_wall_and_given_thickness():
 # The slider
 
 
-def stored(obj):
-    return properties.from_numbers(properties.numbers(obj))
-
-
 def press(obj):
     only(obj)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
@@ -177,23 +174,24 @@ def test_thickness_slider_stores_measured_results():
     press(obj)
     for thickness in (0.0625, 0.2, 0.3125):
         obj.body_moments.thickness = thickness
-        kept = properties.numbers(obj)
+        kept = properties.stored(obj)
         assert staleness.stale_reason(obj, bpy.context.scene) is None
         bpy.context.view_layer.update()
         assert staleness.stale_reason(obj, bpy.context.scene) is None
         press(obj)
-        for one, other in zip(kept, properties.numbers(obj)):
-            assert np.abs(np.array(one) - other).max() <= 1e-13 * max(1.0, np.abs(other).max())
+        for name in ("mass", "volume", "area", "center", "inertia", "moments"):
+            one, other = (np.array(getattr(numbers, name)) for numbers in (kept, properties.stored(obj)))
+            assert np.abs(one - other).max() <= 1e-13 * max(1.0, np.abs(other).max())
 
 
 def test_another_side_is_stored_at_once_too():
     obj = box()
     press(obj)
     obj.body_moments.wall = "OUTWARD"
-    assert abs(stored(obj).volume - (1.25**3 - 1)) < 1e-13
+    assert abs(properties.stored(obj).volume - (1.25**3 - 1)) < 1e-13
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.wall = "THIN"
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
 
 
 @pytest.mark.parametrize("change", ["edited", "scaled"])
@@ -206,22 +204,22 @@ def test_thickness_slider_keeps_results_after_change(change):
     else:
         obj.scale.z = 1.1
     bpy.context.view_layer.update()
-    before = properties.numbers(obj)
+    before = properties.stored(obj)
     obj.body_moments.thickness = 0.2
-    assert properties.numbers(obj) == before
+    assert properties.stored(obj) == before
     assert staleness.stale_reason(obj, bpy.context.scene)
 
 
 def test_too_thick_slider_keeps_results_and_tells_limit():
     obj = box()
     press(obj)
-    before = properties.numbers(obj)
+    before = properties.stored(obj)
     assert wall_slider.max_thickness(obj) == pytest.approx(0.5) and not wall_slider.is_too_thick(obj)
     obj.body_moments.thickness = 0.75
-    assert properties.numbers(obj) == before and wall_slider.is_too_thick(obj)
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert properties.stored(obj) == before and wall_slider.is_too_thick(obj)
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
     obj.body_moments.thickness = 0.25
-    assert abs(stored(obj).volume - (1 - 0.5**3)) < 1e-13
+    assert abs(properties.stored(obj).volume - (1 - 0.5**3)) < 1e-13
 
 
 def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
@@ -233,9 +231,9 @@ def test_after_loading_a_file_the_slider_waits_for_measure(tmp_path):
     obj = bpy.data.objects["Box"]
     assert obj.body_moments.wall == "INWARD" and staleness.stale_reason(obj, bpy.context.scene) is None
     obj.body_moments.thickness = 0.2
-    assert staleness.stale_reason(obj, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(obj, bpy.context.scene) == Stale.SETTINGS
     press(obj)
-    assert abs(stored(obj).volume - (1 - 0.6**3)) < 1e-6
+    assert abs(properties.stored(obj).volume - (1 - 0.6**3)) < 1e-6
 
 
 @pytest.mark.parametrize("size", [(1.0, 2.0, 0.5), (0.3, 0.3, 4.0)])

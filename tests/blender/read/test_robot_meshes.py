@@ -82,9 +82,9 @@ def test_stl_and_obj(tmp_path, seed):
         ("c.obj", b"v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3"),
         ("c.obj", b"v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3"),
     ):
-        assert refusal(tmp_path / name, content) == "mesh_damaged", content
+        assert refusal(tmp_path / name, content) == "mesh_unreadable", content
     for name, content in (("a.stl", struct.pack("<80sI", b"", 0)), ("c.obj", b"v 0 0 0"), ("b.stl", b"solid endsolid")):
-        assert refusal(tmp_path / name, content) == "mesh_empty"
+        assert refusal(tmp_path / name, content) == "mesh_unreadable"
     assert refusal(tmp_path / "a.ply", b"") == "mesh_unreadable"
 
 
@@ -201,7 +201,7 @@ def test_glb(tmp_path, seed):
         changed("nodes", 2, value="a"),
         changed("bufferViews", 0, value="a"),
     ):
-        assert refusal(path, content) == "mesh_damaged"
+        assert refusal(path, content) == "mesh_unreadable"
 
 
 UPRIGHT = {"Y_UP": [[1, 0, 0], [0, 0, -1], [0, 1, 0]], "X_UP": [[0, -1, 0], [0, 0, -1], [1, 0, 0]]}
@@ -278,15 +278,15 @@ def test_collada(tmp_path, seed):
         content.format(unit, up, geometries, text(second), steps, scene).replace("#ga", "#gc"),
         content.format(unit, up, geometries, "1 2 3", steps, scene),
     ):
-        assert refusal(path, wrong.encode()) == "mesh_damaged"
+        assert refusal(path, wrong.encode()) == "mesh_unreadable"
 
 
 def test_collada_sources_without_numbers_have_no_points(tmp_path):
     geometry = '<COLLADA><library_geometries><geometry><mesh><source id="a"/><vertices id="v"><input '
     geometry += 'semantic="POSITION" source="#a"/></vertices><triangles><input semantic="VERTEX" source="#v"/>'
     geometry += "<p>{}</p></triangles></mesh></geometry></library_geometries></COLLADA>"
-    assert refusal(tmp_path / "a.dae", geometry.format("0 1 2").encode()) == "mesh_damaged"
-    assert refusal(tmp_path / "a.dae", geometry.format("").encode()) == "mesh_empty"
+    assert refusal(tmp_path / "a.dae", geometry.format("0 1 2").encode()) == "mesh_unreadable"
+    assert refusal(tmp_path / "a.dae", geometry.format("").encode()) == "mesh_unreadable"
 
 
 def test_collada_nodes_in_a_circle_are_refused(tmp_path):
@@ -298,4 +298,4 @@ def test_collada_nodes_in_a_circle_are_refused(tmp_path):
     path = tmp_path / "a.dae"
     nodes = "<COLLADA>" + geometry.format(source) + deep
     circle = '<node id="c"><instance_node url="#c"/></node>'
-    assert refusal(path, (nodes.format("", circle, "") + end).encode()) == "mesh_damaged"
+    assert refusal(path, (nodes.format("", circle, "") + end).encode()) == "mesh_unreadable"

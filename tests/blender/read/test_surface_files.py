@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.scene.surface_objects import import_bodies
-from body_moments.core.cad import read_surfaces
+from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.blender_knots import display_parameters
 from body_moments.core.nurbs.patch import Patch
@@ -104,7 +104,7 @@ def test_several_files_import_and_invalid_one_is_named(tmp_path, reported):
     names = [{"name": name} for name in ("body.igs", "two.obj", "bad.igs")]
     obj = imported(directory=str(tmp_path), files=names, unit=0.001)
     assert [one.name for one in bpy.context.selected_objects] == ["body", "Donut"] and obj.name == "body"
-    assert "iges_unrecognized" in reported.codes
+    assert "file_unrecognized" in reported.codes
     assert close(measured(bpy.data.objects["Donut"]).volume, DONUT * 1e-9, 4e-7)
     assert bpy.ops.object.body_moments_import_surfaces.poll()
 

@@ -7,10 +7,11 @@ import pytest
 pytest.importorskip("bpy")
 import body_moments
 import bpy
-from body_moments.blender.session.live import live
+from body_moments.blender.session import displayed
+from body_moments.blender.session.live import following
 from body_moments.blender.session.stored import moments as moments_table
-from body_moments.blender.session.stored import results, walls
-from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.stored import walls
+from body_moments.blender.session.tracking import staleness, stamps
 from body_moments.blender.session.tracking.cache import SessionCache
 from body_moments.core.verdict.finding import finding
 
@@ -24,7 +25,7 @@ def objects(count):
 
 
 def caches():
-    modules = (live, moments_table, results, staleness, walls)
+    modules = (displayed, following, moments_table, stamps, walls)
     return {
         (module.__name__, name): value
         for module in modules
@@ -53,13 +54,14 @@ def remember():
     bpy.context.scene.body_moments.moments_order = 2
     bpy.ops.object.body_moments_compute_moments()
     moments_table.current_numbers(obj, bpy.context.scene)
-    results.total(bpy.context)
+    displayed.total(bpy.context)
+    displayed.drawn(obj, bpy.context.scene)
     obj.body_moments.density = 500.0
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
     bpy.context.view_layer.update()
     assert staleness.is_edited(obj)
-    results.remember_failure(obj, finding("no_faces"))
+    displayed.remember_failure(obj, finding("no_faces"))
     assert {key for key, cache in caches().items() if not len(cache)} == set()
 
 

@@ -8,10 +8,10 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.blender.session.stored import results
-from body_moments.blender.session.stored.shown import shown_body
-from body_moments.blender.session.stored.trust import Trust
+from body_moments.blender.session import displayed
+from body_moments.blender.session.displayed import Trust, drawn
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 
 from tests.blender.objects import add, measured, mesh_body, only
@@ -79,7 +79,7 @@ def test_density_and_given_mass_update_results_as_measured(kind):
     settings = obj.body_moments
     kind(settings)
     measure(obj)
-    note = "linear_density_default_kept" if kind is wire else "density_default_kept"
+    note = "density_default_kept"
     assert note in obj["body_findings"]
     for name, value in (
         ("linear_density" if kind is wire else "density", 7850.0),
@@ -142,22 +142,22 @@ def test_undo_brings_back_numbers_and_setting_together():
 def edited(obj):
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
-    return "stale_geometry"
+    return Stale.GEOMETRY
 
 
 def scaled(obj):
     obj.scale.x = 2.0
-    return "stale_transform"
+    return Stale.TRANSFORM
 
 
 def other_kind(obj):
     obj.body_moments.kind, obj.body_moments.thickness = "SHELL", 0.1
-    return "stale_settings"
+    return Stale.SETTINGS
 
 
 def varying(obj):
     obj.body_moments.density_from = "POLYNOMIAL"
-    return "stale_settings"
+    return Stale.SETTINGS
 
 
 @pytest.mark.parametrize("change", [edited, scaled, other_kind, varying])
@@ -178,7 +178,7 @@ def test_a_density_that_varies_is_measured_again():
     before = stored(obj)
     obj.body_moments.density_from = "VALUE"
     obj.body_moments.mass_from = "MASS"
-    assert reason(obj) == "stale_settings" and stored(obj) == before
+    assert reason(obj) == Stale.SETTINGS and stored(obj) == before
     obj.body_moments.density_from, obj.body_moments.mass_from = "POLYNOMIAL", "DENSITY"
     assert reason(obj) is None
     obj.body_moments.mass = 3.0  # is not what it weighs
@@ -208,16 +208,16 @@ def test_animated_setting_makes_results_stale(mass_from, name, change):
     before = stored(obj)
     scene.frame_set(2)
     assert close(getattr(obj.body_moments, name), 3000.0, 1e-7)
-    assert reason(obj) == "stale_settings" and stored(obj) == before
-    assert shown_body(obj, scene).verdict == Trust.OUT_OF_DATE  # in the list and the panel
-    assert results.total(bpy.context).stale == (obj.name,)
+    assert reason(obj) == Stale.SETTINGS and stored(obj) == before
+    assert drawn(obj, scene).trust == Trust.OUT_OF_DATE  # in the list and the panel
+    assert displayed.total(bpy.context).stale == (obj.name,)
     if name == "density":
         scene.body_moments.default_material = "Copper"  # which is not its own
-        assert reason(obj) == "stale_settings" and stored(obj) == before
+        assert reason(obj) == Stale.SETTINGS and stored(obj) == before
     other.body_moments.density = 2.0  # what is set beside it is followed as ever
-    assert reason(other) is None and reason(obj) == "stale_settings" and stored(obj) == before
+    assert reason(other) is None and reason(obj) == Stale.SETTINGS and stored(obj) == before
     scene.frame_set(1)
-    assert reason(obj) is None and shown_body(obj, scene).verdict == Trust.EXACT
+    assert reason(obj) is None and drawn(obj, scene).trust == Trust.EXACT
 
 
 def test_zero_and_unheard_of_densities_leave_the_numbers():
@@ -225,7 +225,7 @@ def test_zero_and_unheard_of_densities_leave_the_numbers():
     measure(obj)
     before = stored(obj)
     obj.body_moments.density = 0.0
-    assert reason(obj) == "stale_settings" and stored(obj) == before
+    assert reason(obj) == Stale.SETTINGS and stored(obj) == before
     obj.body_moments.density = 500.0
     assert_as_measured(obj)
 
@@ -263,7 +263,7 @@ def test_reference_inertia_follows_density_and_not_motion():
     obj.body_moments.density = 3000.0
     assert reason(obj) is None and close(obj["body_reference_inertia"].to_list(), np.multiply(before, 3.0), 1e-9)
     obj.location.x += 1.0
-    assert reason(obj) == "stale_transform"
+    assert reason(obj) == Stale.TRANSFORM
     assert_as_measured_after(obj, mark)
 
 
@@ -272,4 +272,4 @@ def assert_as_measured_after(obj, mark):
     measure(obj)
     assert obj["body_fingerprint"] != mark and "body_reference_inertia" in obj
     obj.location.x -= 1.0
-    assert reason(obj) == "stale_transform"
+    assert reason(obj) == Stale.TRANSFORM

@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.blender.session.stored import results
+from body_moments.blender.session import displayed
 from body_moments.blender.session.stored.listing import SortBy, listed_masses, listing
 
 from tests.blender.bodies.test_assembly import box_mesh
@@ -104,13 +104,13 @@ def test_the_total_of_light_bodies_is_one_of_them_all(masses):
     for obj, mass in zip(objects, masses):
         obj["body_mass"] = mass
     bpy.context.view_layer.update()
-    total = results.total(bpy.context)
+    total = displayed.total(bpy.context)
     assert total.count == 2 and total.volume == 2.0
     if not sum(masses):
-        assert total.body is None
+        assert total.numbers is None
     else:
-        assert close(total.body.mass, sum(masses), 1e-15)
-        assert close(total.body.center[0], (2.0 * masses[0] + 5.0 * masses[1]) / sum(masses), 1e-15)
+        assert close(total.numbers.mass, sum(masses), 1e-15)
+        assert close(total.numbers.center[0], (2.0 * masses[0] + 5.0 * masses[1]) / sum(masses), 1e-15)
 
 
 def test_the_table_has_a_row_for_each_object(capsys):

@@ -11,10 +11,9 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.blender.session.live import live
-from body_moments.blender.session.stored import results
-from body_moments.blender.session.stored.shown import shown_body
-from body_moments.blender.session.stored.trust import Trust
+from body_moments.blender.session.displayed import Trust, displayed, drawn, total
+from body_moments.blender.session.live import following, live
+from body_moments.blender.session.stored import sums
 from body_moments.blender.session.tracking import posed, updates
 from mathutils import Euler, Matrix
 
@@ -37,7 +36,7 @@ def update():
 def start(*objects):
     only(*objects)
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert all(live.is_live(obj) for obj in objects)
+    assert all(following.is_live(obj) for obj in objects)
 
 
 def tick(monkeypatch, idle=True):
@@ -54,7 +53,7 @@ def forbid_measuring(monkeypatch):
 def assert_current(obj, inertia=True, rel=1e-6):
     """What is shown is what measuring would give."""
     truth = measured(obj)
-    shown = results.in_world(obj, bpy.context.scene)
+    shown = displayed(obj, bpy.context.scene).world
     body = truth.mass_properties
     assert close([shown.volume, shown.body.mass], [truth.volume, body.mass], rel)
     reach = np.linalg.norm(body.center) + np.linalg.norm(body.radii_of_gyration)
@@ -92,26 +91,26 @@ def test_an_object_that_moves_is_not_measured(unit, given_mass, monkeypatch):
             obj.matrix_world = matrix @ obj.matrix_world
             update()
             assert_current(obj)
-            assert shown_body(obj).verdict == Trust.EXACT and live.lag(obj) == live.Lag.NONE
+            assert drawn(obj, bpy.context.scene).trust == Trust.EXACT and following.lag(obj) == following.Lag.NONE
             assert tick(patch) is None
         obj.scale = (0.5, -3.0, 2.0)
         update()
         assert_current(obj)
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert close(live.current_numbers(obj).measurement.area, measured(obj).area, 1e-12)
+    assert close(following.current_numbers(obj).measurement.area, measured(obj).area, 1e-12)
 
 
 def test_stretched_object_keeps_direction_of_axes():
     obj = add(mesh_body(), rotation=(0.3, -0.7, 2.1), scale=(1, 2, -0.7))
     start(obj)
     for turn in ((1, 2, 3), (2, 0, 1), (2.5, 0, 0)):
-        before = results.in_world(obj, bpy.context.scene).body.principal.axes
+        before = displayed(obj, bpy.context.scene).world.body.principal.axes
         matrix = Euler(turn).to_matrix()
         obj.matrix_world = matrix.to_4x4() @ obj.matrix_world
         obj.scale.x *= 1.02
         update()
-        axes = results.in_world(obj, bpy.context.scene).body.principal.axes
+        axes = displayed(obj, bpy.context.scene).world.body.principal.axes
         assert np.abs(axes - np.array(matrix) @ before).max() < 0.1
 
 
@@ -125,12 +124,12 @@ def test_deforming_object_has_live_volume_and_center(unit, monkeypatch):
         forbid_measuring(patch)
         for frame in (3, 7, 11):
             bpy.context.scene.frame_set(frame)
-            assert live.lag(obj) == live.Lag.FIRST_ORDER
+            assert following.lag(obj) == following.Lag.FIRST_ORDER
             assert_current(obj, inertia=False)
             obj.location.x += 1.0
             update()
             assert_current(obj, inertia=False)
-    assert tick(monkeypatch) is None and live.lag(obj) == live.Lag.NONE
+    assert tick(monkeypatch) is None and following.lag(obj) == following.Lag.NONE
     assert_current(obj)
     assert list(obj.keys()) == before
 
@@ -138,15 +137,15 @@ def test_deforming_object_has_live_volume_and_center(unit, monkeypatch):
 def test_update_beyond_budget_is_late_and_marked(monkeypatch):
     objects = [with_key("A"), with_key("B")]
     start(*objects)
-    live._followed.get(objects[0]).pass_seconds = 10.0
+    following.followed.get(objects[0]).pass_seconds = 10.0
     bpy.context.scene.frame_set(5)
-    assert [live.lag(obj) for obj in objects] == [live.Lag.BEHIND, live.Lag.FIRST_ORDER]
-    assert [shown_body(obj).verdict for obj in objects] == [Trust.OUT_OF_DATE, Trust.EXACT]
+    assert [following.lag(obj) for obj in objects] == [following.Lag.BEHIND, following.Lag.FIRST_ORDER]
+    assert [drawn(obj, bpy.context.scene).trust for obj in objects] == [Trust.OUT_OF_DATE, Trust.EXACT]
     for obj in objects:
-        live._followed.get(obj).result = live.LiveResult(
-            live.current_numbers(obj).measurement, None, 5.0, live.current_numbers(obj).settings
+        following.followed.get(obj).result = following.LiveResult(
+            following.current_numbers(obj).measurement, None, 5.0, following.current_numbers(obj).settings
         )
-    assert tick(monkeypatch, idle=False) == live.POLL and live.is_pending(objects[0])
+    assert tick(monkeypatch, idle=False) == live.POLL and following.followed[objects[0]].is_pending
     assert tick(monkeypatch) is None
     for obj in objects:
         assert_current(obj)
@@ -179,13 +178,13 @@ def flipped(obj):
 def test_an_edit_measures_that_object_alone(change, monkeypatch):
     obj, other = add(mesh_body()), add(mesh_body(), "Other", (9, 0, 0))
     start(obj, other)
-    kept = live.current_numbers(other)
+    kept = following.current_numbers(other)
     change(obj)
     update()
-    assert live.is_pending(obj) and not live.is_pending(other)
+    assert following.followed[obj].is_pending and not following.followed[other].is_pending
     assert tick(monkeypatch) is None
     assert_current(obj)
-    assert live.current_numbers(other) is kept
+    assert following.current_numbers(other) is kept
     if bpy.context.mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
 
@@ -208,7 +207,7 @@ def test_live_patches_are_tracked_as_uniform_solids_only(settings, monkeypatch):
         setattr(obj.body_moments, name, value)
     start(obj)
     assert_current(obj)
-    assert (live._followed[obj].tracked is not None) == (not settings)
+    assert (following.followed[obj].tracked is not None) == (not settings)
     obj.data.splines[0].points[9].co.x -= 0.25
     obj.data.update_tag()
     update()
@@ -277,7 +276,7 @@ def assert_bounds_hold(shown, parts):
             away = sign * bound["center_of_mass"] * (body.center - shown.body.center)
             center = body.center + away / np.linalg.norm(body.center - shown.body.center)
             changed.append(replace(body, mass=mass, center=center, inertia=body.inertia + sign * bound["inertia"]))
-        whole = results._summed(changed)
+        whole = sums._combine(changed)
         largest["center_of_mass"] = max(largest["center_of_mass"], np.linalg.norm(whole.center - shown.body.center))
         largest["inertia"] = max(largest["inertia"], np.abs(whole.inertia - shown.body.inertia).max())
     for name, off in largest.items():
@@ -292,22 +291,22 @@ def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
     bpy.ops.object.mode_set(mode="POSE")
     assert posed.subjects([armature]) == meshes
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
-    assert [live.is_live(obj) for obj in (*meshes, other, armature)] == [True, True, False, False]
+    assert [following.is_live(obj) for obj in (*meshes, other, armature)] == [True, True, False, False]
     with monkeypatch.context() as patch:
         forbid_measuring(patch)
         armature.pose.bones["Bone"].location = (0.0, 1.0, 0.0)
         update()
         parts = [measured(mesh) for mesh in meshes]
-        shown = results.in_world(armature, bpy.context.scene)
+        shown = displayed(armature, bpy.context.scene).world
         mass = sum(part.mass_properties.mass for part in parts)
         center = sum(part.mass_properties.mass * part.mass_properties.center for part in parts) / mass
         assert isclose(shown.body.mass, mass, rel_tol=1e-6)
         assert np.linalg.norm(shown.body.center - center) <= 1e-6 * np.linalg.norm(center)
-        assert np.linalg.norm(shown_body(armature).center - center) <= 1e-6 * np.linalg.norm(center)
-        assert results.total(bpy.context).count == 2
-        assert_bounds_hold(shown, [results.in_world(mesh, bpy.context.scene) for mesh in meshes])
+        assert drawn(armature, bpy.context.scene).world.center == shown.center
+        assert total(bpy.context).count == 2
+        assert_bounds_hold(shown, [displayed(mesh, bpy.context.scene).world for mesh in meshes])
     bpy.ops.object.body_moments_live()
-    assert not any(live.is_live(obj) for obj in meshes)
+    assert not any(following.is_live(obj) for obj in meshes)
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
@@ -323,10 +322,10 @@ def test_undo_is_followed(monkeypatch):
     bpy.ops.ed.undo()
     update()
     obj = bpy.data.objects["Body"]
-    assert live.is_live(obj)
+    assert following.is_live(obj)
     tick(monkeypatch)
     assert_current(obj)
-    assert live._followed.get(obj).number == updates.count()
+    assert following.followed.get(obj).number == updates.count()
 
 
 @pytest.mark.parametrize("kind", ["SOLID", "SHELL"])
@@ -334,14 +333,14 @@ def test_scaled_wall_is_stale_until_measured(kind, monkeypatch):
     obj = add(mesh_body(), location=(3, -1, 2), rotation=(0.3, 0.2, 1.0))
     obj.body_moments.kind, obj.body_moments.thickness = kind, 0.01
     start(obj)
-    measured_so = shown_body(obj).verdict
+    measured_so = drawn(obj, bpy.context.scene).trust
     assert measured_so != Trust.OUT_OF_DATE
     obj.scale.y = 1.7
     update()
-    assert shown_body(obj).verdict == (Trust.OUT_OF_DATE if kind == "SHELL" else measured_so)
+    assert drawn(obj, bpy.context.scene).trust == (Trust.OUT_OF_DATE if kind == "SHELL" else measured_so)
     tick(monkeypatch)
     assert_current(obj)
     obj.rotation_euler = (1.0, 2.0, 3.0)
     update()
-    assert shown_body(obj).verdict == measured_so
+    assert drawn(obj, bpy.context.scene).trust == measured_so
     assert_current(obj)

@@ -8,6 +8,8 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.core.verdict.finding import MeasureError, finding
 
 from tests.blender import batch_files as files
@@ -34,10 +36,8 @@ def settings(**values):
 
 
 def drawn():
-    from body_moments.panels.measure.moments import VIEW3D_PT_body_moments_orders as panel
-
     layout = Layout()
-    panel.draw(SimpleNamespace(layout=layout), bpy.context)
+    bpy.types.VIEW3D_PT_body_moments_orders.draw(SimpleNamespace(layout=layout), bpy.context)
     return layout.record
 
 
@@ -91,21 +91,21 @@ def test_computed_moments_become_stale_on_change(box):
 
     def reason():
         bpy.context.view_layer.update()
-        return moments_table.stale_reason(box, bpy.context.scene)
+        return staleness.stale_reason(box, bpy.context.scene, moments_table.stamp_of)
 
     compute()
     assert reason() is None
     box.location.x += 1.0
-    assert reason() == "stale_transform"
+    assert reason() == Stale.TRANSFORM
     compute()
     box.body_moments.overlap = "UNION"
-    assert reason() == "stale_settings"
+    assert reason() == Stale.SETTINGS
     compute()
     assert reason() is None
     box.data.vertices[0].co.x += 0.5
     box.data.update()
-    assert reason() == "stale_geometry"
-    assert str(finding("stale_geometry")) in " ".join(labels(drawn()))
+    assert reason() == Stale.GEOMETRY
+    assert Stale.GEOMETRY in " ".join(labels(drawn()))
     compute()
     assert reason() is None
 
@@ -164,7 +164,7 @@ def test_overflowing_moments_are_refused(box, reported):
     settings(moments_of="VOLUME", moments_about="ORIGIN", frame="WORLD")
     with pytest.raises(MeasureError) as refusal:
         rows()
-    assert refusal.value.finding == finding("moments_overflow_at_origin", order=30)
+    assert refusal.value.finding == finding("moments_overflow", order=30)
     settings(moments_about="CENTER")
     assert np.isfinite(list(rows().values())).all()
 
@@ -185,7 +185,7 @@ def test_moments_of_undone_edit_are_stale(box):
     obj = bpy.data.objects[name]
     bpy.context.view_layer.update()
     assert moments_table.computed_moments(obj).volume.total == pytest.approx(48.0)
-    assert moments_table.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+    assert staleness.stale_reason(obj, bpy.context.scene, moments_table.stamp_of) == Stale.GEOMETRY
 
 
 @pytest.mark.parametrize("frame", ["WORLD", "OBJECT"])

@@ -4,7 +4,7 @@
 
 import bpy
 import pytest
-from body_moments.blender.session.live import live
+from body_moments.blender.session.live import following
 from body_moments.blender.session.tracking import posed
 
 from tests.blender.objects import add, mesh_body, only
@@ -44,4 +44,4 @@ def test_armature_stands_for_its_deformed_meshes():
     bpy.data.objects.remove(skinned)
     bpy.context.view_layer.update()
     assert posed.deformed_meshes(rig) == (bound, hidden)
-    assert not live.is_live(below) and not live.is_pending(below) and live.current_numbers(below) is None
+    assert not following.is_live(below) and following.current_numbers(below) is None

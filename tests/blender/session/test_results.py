@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.session.stored import results
-from body_moments.blender.session.stored.shown import shown_body
+from body_moments.blender.session import displayed
+from body_moments.blender.session.displayed import drawn
 from body_moments.blender.session.tracking import handlers
 from body_moments.core.inertia.mass_properties import combine
 
@@ -32,7 +32,7 @@ def measure(*objects):
 def total_of(*objects):
     only(*objects)
     handlers.count_change()
-    return results.total(bpy.context)
+    return displayed.total(bpy.context)
 
 
 def test_total_names_missing_stale_and_doubtful_objects(scene):
@@ -53,15 +53,15 @@ def test_total_names_missing_stale_and_doubtful_objects(scene):
     assert "doubtful" in repr([one.values for one in found.findings])
     for name in ("volume", "area"):
         assert close(getattr(found, name), sum(obj["body_" + name] for obj in objects[1:]), 1e-12)
-    assert close(found.body.mass, sum(obj["body_mass"] for obj in objects[1:]), 1e-12)
-    whole = total_of(exact, other).body
+    assert close(found.numbers.mass, sum(obj["body_mass"] for obj in objects[1:]), 1e-12)
+    whole = total_of(exact, other).numbers.body
     truth = combine([measured(obj).mass_moments for obj in (exact, other)])
     assert close([whole.mass, *whole.center], [truth.mass, *truth.center], 1e-6)
     assert np.abs(whole.inertia - truth.inertia).max() <= 1e-6 * truth.inertia.max()
     exact["body_mass"] = 0.0
     nothing = total_of(exact)
-    assert nothing.body is None and nothing.count == 1
-    assert shown_body(exact) is None
+    assert nothing.numbers is None and nothing.count == 1
+    assert drawn(exact, scene) is None
 
 
 def test_assembly_counts_without_its_selected_parts(scene):
@@ -83,7 +83,7 @@ def test_assembly_counts_without_its_selected_parts(scene):
         ([*parts, other], 3, 2.0 * each + rest),
     ):
         found = total_of(*chosen)
-        assert found.count == count and close(found.body.mass, mass, 1e-6)
+        assert found.count == count and close(found.numbers.mass, mass, 1e-6)
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.5])
@@ -99,23 +99,24 @@ def test_posed_armature_has_sum_of_measured_meshes(unit, scene):
     bpy.context.view_layer.update()
     for density in (1000.0, 500.0):
         meshes[0].body_moments.density = density
-        shown, parts = results.in_world(armature, scene), [results.in_world(mesh, scene) for mesh in meshes[:2]]
+        shown = displayed.displayed(armature, scene).world
+        parts = [displayed.displayed(mesh, scene).world for mesh in meshes[:2]]
         assert close(shown.volume, sum(part.volume for part in parts), 1e-12)
         assert close(shown.area, sum(part.area for part in parts), 1e-12)
         assert close(shown.body.mass, sum(part.body.mass for part in parts), 1e-12)
         assert close(shown.density, shown.body.mass / shown.volume, 1e-12)
     scene.body_moments.frame = "OBJECT"
-    own = results.of_object(armature, scene).body
+    own = displayed.displayed(armature, scene).in_frame(scene.body_moments.frame).body
     place = np.array(armature.matrix_world, np.float64)
     assert close(place[:3, :3] @ own.center + unit * place[:3, 3], shown.body.center, 1e-6)
     truth = place[:3, :3].T @ shown.body.inertia @ place[:3, :3]
     assert np.abs(own.inertia - truth).max() <= 1e-6 * truth.max()
     for mesh in meshes[:2]:
         mesh["body_volume"] = 0.0  # as of a shell without thickness
-    assert results.in_world(armature, scene).density == 0.0 and results.are_meshes_measured(armature, scene)
+    assert displayed.displayed(armature, scene).world.density == 0.0
     for mass in (0.25, 0.0):
         for mesh in meshes[:2]:
             mesh["body_mass"] = mass
-        assert results.are_meshes_measured(armature, scene) == (mass > 0.0)
-    assert results.in_world(armature, scene) is None
+        shown = displayed.displayed(armature, scene)
+        assert shown.is_posed if mass else shown is None
     bpy.ops.object.mode_set(mode="OBJECT")

@@ -7,8 +7,8 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.blender.session.stored.shown import Trust, shown_body, shown_bone
-from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.displayed import Trust, drawn, drawn_bone
+from body_moments.blender.session.tracking.stamps import Stale
 from mathutils import Matrix
 
 from tests.blender.objects import add, measured, mesh_body, only, strip_mesh
@@ -23,13 +23,13 @@ def measure(*objects):
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
 
 
-def assert_shown(obj, unit=1.0):
+def assert_shown(obj):
     """What is shown is what measuring again gives."""
-    shown, body = shown_body(obj), measured(obj).mass_properties
+    shown, body = drawn(obj, bpy.context.scene).world, measured(obj).mass_properties
     reach = np.linalg.norm(body.radii_of_gyration) + np.linalg.norm(body.center)
-    assert np.linalg.norm(shown.center * unit - body.center) <= 1e-6 * reach
-    assert close(shown.gyration * unit, body.radii_of_gyration, 1e-6)
-    assert close(np.abs((shown.axes * body.principal.axes).sum(axis=0)), 1.0, 1e-5)
+    assert np.linalg.norm(shown.center - body.center) <= 1e-6 * reach
+    assert close(shown.gyration, body.radii_of_gyration, 1e-6)
+    assert close(np.abs((np.transpose(shown.axes) * body.principal.axes).sum(axis=0)), 1.0, 1e-5)
     assert close(shown.mass, body.mass, 1e-6)
 
 
@@ -37,13 +37,13 @@ def assert_shown(obj, unit=1.0):
 def test_moved_object_is_drawn_in_place_at_once(unit):
     bpy.context.scene.unit_settings.scale_length = unit
     obj = add(mesh_body(), location=(3, -2, 5), rotation=(0.3, -0.7, 2.1), scale=(1, 2, -0.7))
-    assert shown_body(obj) is None
+    assert drawn(obj, bpy.context.scene) is None
     measure(obj)
-    assert_shown(obj, unit)
-    assert shown_body(obj) is shown_body(obj)
+    assert_shown(obj)
+    assert drawn(obj, bpy.context.scene) is drawn(obj, bpy.context.scene)
     obj.matrix_world = Matrix.Translation((-40, 7, 1)) @ Matrix.Rotation(2.2, 4, (1, 2, -1)) @ obj.matrix_world
     bpy.context.view_layer.update()
-    assert_shown(obj, unit)
+    assert_shown(obj)
 
 
 def test_shown_verdict_follows_repair_doubt_and_edit():
@@ -51,7 +51,7 @@ def test_shown_verdict_follows_repair_doubt_and_edit():
     flipped.data.polygons[3].flip()
     flipped.data.update()
     measure(exact, open_strip, flipped)
-    assert [shown_body(obj).verdict for obj in (exact, open_strip, flipped)] == [
+    assert [drawn(obj, bpy.context.scene).trust for obj in (exact, open_strip, flipped)] == [
         Trust.EXACT,
         Trust.DOUBTFUL,
         Trust.REPAIRED,
@@ -59,7 +59,8 @@ def test_shown_verdict_follows_repair_doubt_and_edit():
     exact.data.vertices[0].co.x -= 1.0
     exact.data.update()
     bpy.context.view_layer.update()
-    assert shown_body(exact).verdict == Trust.OUT_OF_DATE and staleness.stale_reason(exact, bpy.context.scene)
+    shown = drawn(exact, bpy.context.scene)
+    assert shown.trust == Trust.OUT_OF_DATE and shown.reason == Stale.GEOMETRY
 
 
 def test_restored_scale_makes_results_current():
@@ -68,10 +69,10 @@ def test_restored_scale_makes_results_current():
     for scale, verdict in ((2.0, Trust.OUT_OF_DATE), (1.0, Trust.EXACT), (3.0, Trust.OUT_OF_DATE), (1.0, Trust.EXACT)):
         obj.scale.x = scale
         bpy.context.view_layer.update()
-        assert shown_body(obj).verdict == verdict
+        assert drawn(obj, bpy.context.scene).trust == verdict
         obj.location.x += 1.0
         bpy.context.view_layer.update()
-        assert shown_body(obj).verdict == verdict
+        assert drawn(obj, bpy.context.scene).trust == verdict
     assert_shown(obj)
 
 
@@ -79,18 +80,19 @@ def test_restored_scale_makes_results_current():
 def test_bone_part_is_drawn_at_its_bone_in_any_unit(unit, scene):
     scene.unit_settings.scale_length = unit
     armature, _ = character()
-    assert shown_bone(armature.pose.bones["arm.L"], scene) is None
+    assert drawn_bone(armature.pose.bones["arm.L"], scene) is None
     armature.location, armature.rotation_euler = (3, 2, 1), (0.1, 0.2, 0.3)
     bpy.ops.object.body_moments_measure_bones()
     bpy.context.view_layer.update()
     bone = armature.pose.bones["arm.L"]
-    shown, place = shown_bone(bone, scene), np.array(armature.matrix_world @ bone.matrix, np.float64)
+    displayed = drawn_bone(bone, scene)
+    shown, place = displayed.world, np.array(armature.matrix_world @ bone.matrix, np.float64)
     own = np.array(bone["body_center_of_mass"].to_list()) / unit
-    assert np.abs(shown.center - (place[:3, :3] @ own + place[:3, 3])).max() < 1e-5
+    assert np.abs(shown.center - unit * (place[:3, :3] @ own + place[:3, 3])).max() < 1e-5
     moments = np.array(bone["body_principal_moments"].to_list())
-    assert close(shown.mass, bone["body_mass"], 1e-12) and shown.verdict == Trust.EXACT
-    assert close(shown.mass * (unit * shown.gyration) ** 2, moments, 1e-9)
-    assert np.abs(shown.axes.T @ shown.axes - np.eye(3)).max() < 1e-6
+    assert close(shown.mass, bone["body_mass"], 1e-12) and displayed.trust == Trust.EXACT
+    assert close(shown.mass * np.square(shown.gyration), moments, 1e-9)
+    assert np.abs(np.matmul(shown.axes, np.transpose(shown.axes)) - np.eye(3)).max() < 1e-6
     armature.data.bones["arm.L"].use_deform = False
     bpy.context.view_layer.update()
-    assert shown_bone(armature.pose.bones["arm.L"], scene).verdict == Trust.OUT_OF_DATE
+    assert drawn_bone(armature.pose.bones["arm.L"], scene).trust == Trust.OUT_OF_DATE

@@ -8,7 +8,8 @@ pytest.importorskip("bpy")
 import bmesh
 import body_moments
 import bpy
-from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking import staleness, stamps
+from body_moments.blender.session.tracking.stamps import Stale
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -70,7 +71,7 @@ def test_undone_results_are_stale_after_later_edit(stacked):
     bpy.ops.ed.undo()
     update()
     obj = bpy.data.objects["Body"]
-    assert obj["body_volume"] == first and reason(obj) == "stale_geometry"
+    assert obj["body_volume"] == first and reason(obj) == Stale.GEOMETRY
     bpy.ops.ed.redo()
     update()
     obj = bpy.data.objects["Body"]
@@ -109,10 +110,12 @@ def test_reevaluation_without_change_keeps_results_current():
     for objects in evaluated_anew(obj):
         update()
         assert [reason(one) for one in objects] == [None] * len(objects)
-        assert [staleness.symmetry_stale_reason(one) for one in objects] == [None] * len(objects)
+        assert [staleness.stale_reason(one, bpy.context.scene, stamps.of_symmetry) for one in objects] == [None] * len(
+            objects
+        )
         if len(objects) == 2:
             edit(objects[1]) if objects[1].data != obj.data else bpy.data.objects.remove(objects[1])
-    assert reason(bpy.data.objects["Body.001"]) == "stale_geometry"
+    assert reason(bpy.data.objects["Body.001"]) == Stale.GEOMETRY
 
 
 def test_setting_of_mesh_user_keeps_other_user_current():
@@ -121,7 +124,7 @@ def test_setting_of_mesh_user_keeps_other_user_current():
     measure(one, other)
     one.body_moments.overlap = "UNION"
     update()
-    assert (reason(one), reason(other)) == ("stale_settings", None)
+    assert (reason(one), reason(other)) == (Stale.SETTINGS, None)
 
 
 def test_an_edit_that_is_taken_back_is_none():
@@ -132,7 +135,7 @@ def test_an_edit_that_is_taken_back_is_none():
     bpy.ops.ed.undo_push(message="Measured")
     edit(obj)
     bpy.ops.ed.undo_push(message="Edited")
-    assert reason(obj) == "stale_geometry"
+    assert reason(obj) == Stale.GEOMETRY
     bpy.ops.ed.undo()
     update()
     obj = bpy.data.objects["Body"]
@@ -140,12 +143,12 @@ def test_an_edit_that_is_taken_back_is_none():
     bpy.ops.ed.redo()
     update()
     obj = bpy.data.objects["Body"]
-    assert reason(obj) == "stale_geometry"
+    assert reason(obj) == Stale.GEOMETRY
     obj.data.vertices[0].co.x += 1.0
     obj.data.update()
     update()
     assert reason(obj) is None
-    for level, code in ((2, "stale_geometry"), (1, None)):
+    for level, code in ((2, Stale.GEOMETRY), (1, None)):
         obj.modifiers[0].levels = level
         update()
         assert reason(obj) == code
@@ -171,7 +174,7 @@ def test_undo_in_edit_mode_brings_no_numbers_back_and_is_an_edit():
     bpy.ops.ed.undo()
     update()
     obj = bpy.data.objects["Body"]
-    assert bpy.context.mode == "EDIT_MESH" and reason(obj) == "stale_geometry"
+    assert bpy.context.mode == "EDIT_MESH" and reason(obj) == Stale.GEOMETRY
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
@@ -180,11 +183,11 @@ def test_symmetry_is_stale_after_other_axes():
     only(obj)
     assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
     assert bpy.ops.object.body_moments_origin_to_center() == {"FINISHED"}
-    assert staleness.symmetry_stale_reason(obj) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
     assert bpy.ops.object.body_moments_axes_to_principal() == {"FINISHED"}
-    assert staleness.symmetry_stale_reason(obj) is not None
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is not None
     assert bpy.ops.object.body_moments_find_symmetry() == {"FINISHED"}
-    assert staleness.symmetry_stale_reason(obj) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
 
 
 @pytest.mark.parametrize("source", ["MATERIALS", "ATTRIBUTE"])
@@ -202,7 +205,7 @@ def test_a_density_that_lies_on_the_mesh_counts_as_its_geometry(source):
     obj.data.attributes["rho"].data[0].value = 2.0
     obj.data.update()
     update()
-    assert reason(obj) == "stale_geometry"
+    assert reason(obj) == Stale.GEOMETRY
 
 
 def test_reenabled_add_on_keeps_edited_results_stale():
@@ -214,23 +217,23 @@ def test_reenabled_add_on_keeps_edited_results_stale():
     edit(other)
     body_moments.unregister()
     body_moments.register()
-    assert (reason(obj), reason(other)) == ("stale_geometry",) * 2
-    assert staleness.symmetry_stale_reason(other) == "stale_geometry"
+    assert (reason(obj), reason(other)) == (Stale.GEOMETRY,) * 2
+    assert staleness.stale_reason(other, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
     assert reason(third) is None
     edit(third)  # updates are counted anew since then
-    assert reason(third) == "stale_geometry"
+    assert reason(third) == Stale.GEOMETRY
 
 
 def test_measuring_edited_shape_keeps_symmetry_stale():
     obj = add(mesh_body())
     measure(obj)
     bpy.ops.object.body_moments_find_symmetry()
-    assert staleness.symmetry_stale_reason(obj) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None
     edit(obj)
     measure(obj)
-    assert staleness.symmetry_stale_reason(obj) == "stale_geometry"
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
     bpy.ops.object.body_moments_find_symmetry()
-    assert staleness.symmetry_stale_reason(obj) is None and reason(obj) is None
+    assert staleness.stale_reason(obj, bpy.context.scene, stamps.of_symmetry) is None and reason(obj) is None
 
 
 @pytest.mark.parametrize("nested", [False, True])
@@ -241,7 +244,7 @@ def test_instancer_is_stale_after_change_of_its_members(nested):
     measure(outer, other)
     other.scale.x *= 2.0
     update()
-    assert reason(outer) is None and reason(other) == "stale_transform"
+    assert reason(outer) is None and reason(other) == Stale.TRANSFORM
     for change in (
         lambda: edit(member),
         lambda: setattr(member, "location", (5, 0, 0)),
@@ -251,7 +254,7 @@ def test_instancer_is_stale_after_change_of_its_members(nested):
         measure(outer)
         change()
         update()
-        assert reason(outer) == "stale_geometry"
+        assert reason(outer) == Stale.GEOMETRY
 
 
 def test_measuring_member_keeps_instancer_current():
@@ -274,7 +277,7 @@ def test_parent_showing_children_is_stale_after_their_edit(kind):
         measure(parent)
         change()
         update()
-        assert reason(parent) == "stale_geometry"
+        assert reason(parent) == Stale.GEOMETRY
 
 
 def test_emitter_is_stale_after_edit_of_particle_object():
@@ -284,7 +287,7 @@ def test_emitter_is_stale_after_edit_of_particle_object():
     settings.type, settings.render_type, settings.count, settings.instance_object = "HAIR", "OBJECT", 3, seed
     measure(emitter)
     edit(seed)
-    assert reason(emitter) == "stale_geometry"
+    assert reason(emitter) == Stale.GEOMETRY
 
 
 def test_balanced_mesh_makes_its_other_users_stale():
@@ -298,7 +301,7 @@ def test_balanced_mesh_makes_its_other_users_stale():
     only(obj)
     assert bpy.ops.object.body_moments_sculpt_balance() == {"FINISHED"}
     update()
-    assert [reason(one) for one in (obj, twin, shown)] == [None, "stale_geometry", "stale_geometry"]
+    assert [reason(one) for one in (obj, twin, shown)] == [None, Stale.GEOMETRY, Stale.GEOMETRY]
     measure(obj, twin, shown)
     bpy.context.scene.cursor.location = (100.0, 0.0, 0.0)
     only(obj)
@@ -361,13 +364,16 @@ def test_symmetry_and_moments_of_instancer_become_stale():
     only(shown)
     bpy.ops.object.body_moments_find_symmetry()
     assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
-    assert (staleness.symmetry_stale_reason(shown), moments_table.stale_reason(shown, bpy.context.scene)) == (
+    assert (
+        staleness.stale_reason(shown, bpy.context.scene, stamps.of_symmetry),
+        staleness.stale_reason(shown, bpy.context.scene, moments_table.stamp_of),
+    ) == (
         None,
         None,
     )
     edit(member)
-    assert staleness.symmetry_stale_reason(shown) == "stale_geometry"
-    assert moments_table.stale_reason(shown, bpy.context.scene) == "stale_geometry"
+    assert staleness.stale_reason(shown, bpy.context.scene, stamps.of_symmetry) == Stale.GEOMETRY
+    assert staleness.stale_reason(shown, bpy.context.scene, moments_table.stamp_of) == Stale.GEOMETRY
 
 
 def test_becoming_a_rigid_body_is_no_change_of_the_shape():
@@ -384,4 +390,4 @@ def test_becoming_a_rigid_body_is_no_change_of_the_shape():
     obj.data.update()
     assert bpy.ops.object.body_moments_set_rigid_body_mass() == {"FINISHED"}
     update()
-    assert (reason(obj), reason(other)) == ("stale_geometry", None)
+    assert (reason(obj), reason(other)) == (Stale.GEOMETRY, None)

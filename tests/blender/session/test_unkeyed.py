@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 import numpy as np
-from body_moments.blender.session.live import live
+from body_moments.blender.session.live import following, live
 from body_moments.blender.session.tracking import staleness
 
 from tests.blender.grids import linked, mesh_to_volume
@@ -164,9 +164,9 @@ def test_live_keeps_unkeyed_values_and_stops(monkeypatch):
     bpy.ops.object.body_moments_measure()
     live._tick()
     bpy.context.view_layer.update()
-    assert obj.scale.x == 2.0 and not live.is_pending(obj)
-    assert live.current_numbers(obj).measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
-    assert live.current_numbers(obj).measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
+    assert obj.scale.x == 2.0 and not following.followed[obj].is_pending
+    assert following.current_numbers(obj).measurement.volume == pytest.approx(obj["body_volume"], rel=1e-9)
+    assert following.current_numbers(obj).measurement.volume == pytest.approx(measured(obj).volume, rel=1e-9)
 
 
 def test_wall_slider_keeps_unkeyed_values():

@@ -8,6 +8,7 @@ import pytest
 from body_moments.blender.settings import properties
 from body_moments.blender.settings.given import GIVEN_PROPERTIES, GivenPart, is_point_mass
 from body_moments.blender.settings.grid import GridOptions
+from body_moments.blender.settings.grid_values import density_function, empty_background_note
 
 from tests.blender.findings import refused
 from tests.blender.objects import add, mesh_body
@@ -49,27 +50,28 @@ def set_up(kind, state):
 def test_values_of_grids_become_densities():
     values = np.array([-1.0, 0.0, 2.0, 7.0])
     plain = GridOptions(value_density=3.0)
-    assert plain.to_densities(None)(values[1:]).tolist() == [0.0, 6.0, 21.0]
-    assert plain.to_densities(-1.0)(values).tolist() == [0.0, 0.0, 6.0, 21.0]
+    assert density_function(plain, None)(values[1:]).tolist() == [0.0, 6.0, 21.0]
+    assert density_function(plain, -1.0)(values).tolist() == [0.0, 0.0, 6.0, 21.0]
     with refused("values_negative", density=-3.0):
-        plain.to_densities(7.0)(values)
+        density_function(plain, 7.0)(values)
     table = GridOptions(table="0 10, 4 30")
-    assert table.to_densities(2.0)(values).tolist() == [10.0, 10.0, 0.0, 30.0]
+    assert density_function(table, 2.0)(values).tolist() == [10.0, 10.0, 0.0, 30.0]
     with refused("values_non_finite_for_table"):
-        table.to_densities(None)(np.array([0.0, np.nan]))
+        density_function(table, None)(np.array([0.0, np.nan]))
     for options, background, noted in (
         (plain, 2.0, True),
         (plain, 0.0, False),
         (plain, None, False),
         (table, 2.0, True),
     ):
-        notes = options.empty_background_note(background)
+        notes = empty_background_note(options, background)
         assert [(one.code, one.values) for one in notes] == [("background_empty", {"value": 2.0})] * noted
-    assert GridOptions(value_density=0.0).empty_background_note(2.0) == ()
-    assert plain.empty_background_note(np.inf) == () and GridOptions(table="0 0, 4 30").empty_background_note(0.0) == ()
-    for order, code in ((1, "values_scaled"), (2, "values_scaled_spline")):
-        assert GridOptions(spline_order=order, value_density=2.0).meaning().code == code
-        assert GridOptions(spline_order=order, table="0 1").meaning().code == code.replace("scaled", "by_table")
+    assert empty_background_note(GridOptions(value_density=0.0), 2.0) == ()
+    assert (
+        empty_background_note(plain, np.inf) == () and empty_background_note(GridOptions(table="0 0, 4 30"), 0.0) == ()
+    )
+    assert GridOptions(spline_order=2, value_density=2.0).meaning().values == {"density": 2.0, "order": 2}
+    assert GridOptions(spline_order=2, table="0 1").meaning().code == "values_by_table"
     assert GridOptions.from_settings(add(bpy.data.volumes.new("Cloud")).body_moments, 0.25).value_density == 0.25
     tabled = set_up("VOLUME", {"values_from": "TABLE"}).body_moments
     assert GridOptions.from_settings(tabled).table and not GridOptions.from_settings(tabled, 1.0).table
@@ -84,10 +86,10 @@ def test_given_parts():
     assert not nothing and nothing.key == ""
     settings.use_center = True
     center = GivenPart.from_settings(settings, 0.5)
-    assert center and center.center.tolist() == [0.05, 0.1, 0.15] and center.inertia is None
+    assert center and center.center == (0.05, 0.1, 0.15) and center.inertia is None
     settings.use_inertia = True
     both = GivenPart.from_settings(settings, 0.5)
-    assert both.inertia.tolist() == [[1.1, 0.4, 0.5], [0.4, 2.2, 0.6], [0.5, 0.6, 3.3]]
+    assert both.inertia == ((1.1, 0.4, 0.5), (0.4, 2.2, 0.6), (0.5, 0.6, 3.3))
     assert len({nothing.key, center.key, both.key}) == 3
     settings.use_center = False
     assert GivenPart.from_settings(settings, 0.5)

@@ -11,7 +11,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from body_moments.blender.write.po import read_po
+from body_moments.blender.write.translations import read_po
 
 from tests.package.test_architecture import MODULES
 

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces
+from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.nurbs.solid import measure_patches
 from body_moments.core.verdict.finding import FileError, finding
 
@@ -41,14 +41,14 @@ def refusal(tmp_path, lines):
 
 @pytest.mark.parametrize("section", "GDP")
 def test_file_without_a_section_is_refused(tmp_path, section):
-    assert refusal(tmp_path, [line for line in ball_lines() if line[72] != section]).code == "iges_unrecognized"
+    assert refusal(tmp_path, [line for line in ball_lines() if line[72] != section]).code == "file_unrecognized"
 
 
 @pytest.mark.parametrize("letter", "BCX")
 def test_letter_of_no_section_keeps_the_form_of_a_begun_file(tmp_path, letter):
     first, *rest = ball_lines()
     assert first[72] == "S"
-    assert refusal(tmp_path, [first, first[:72] + letter + first[73:], *rest]).code == "iges_unrecognized"
+    assert refusal(tmp_path, [first, first[:72] + letter + first[73:], *rest]).code == "file_unrecognized"
     assert close(total(read(tmp_path, [first, first, *rest])), BALL, 1e-14)
 
 
@@ -139,7 +139,7 @@ def test_a_surface_of_no_stated_type_is_refused_as_such(tmp_path, line):
         obj(tmp_path, text.replace("cstype rat bspline", line))
     (cause,) = caught.value.finding.values["causes"]
     base = "rat" if line.endswith("rat") else "cstype"
-    assert (cause["code"], cause["values"]["base"]) == ("surface_of_unsupported", base)
+    assert (cause["code"], cause["values"]["base"]) == ("surface_unsupported", base)
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])

@@ -7,8 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from body_moments.core.cad import read_surfaces
-from body_moments.core.cad.surface_file import SUFFIXES
+from body_moments.core.cad.surface_file import SUFFIXES, read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.bezier_form import bezier_patches
 from body_moments.core.nurbs.patch import Patch
@@ -111,8 +110,8 @@ BALL_TEXT = obj_text([unrolled(sphere())])
     [
         ("end\n", "trim 0 1 1\nend\n", "surface_trimmed"),
         ("end\n", "hole 0 1 1\nend\n", "surface_trimmed"),
-        ("rat bspline", "rat cardinal", "surface_of_unsupported"),
-        ("rat bspline", "bmatrix", "surface_of_unsupported"),
+        ("rat bspline", "rat cardinal", "surface_unsupported"),
+        ("rat bspline", "bmatrix", "surface_unsupported"),
         ("deg 2 2", "deg 2", "surface_damaged"),
         ("deg 2 2", "deg 2 3", "surface_damaged"),
         ("deg 2 2", "deg 2 2 2", "surface_damaged"),
@@ -147,7 +146,7 @@ def test_surfaces_are_counted_and_refused_one_by_one(tmp_path):
     assert len(found.bodies[0].patches) == 2 and found.notes == ()
     assert found.refused == (
         finding("surface_order", kind="surf", count=1, names=["surf 2"], order=10, limit=6),
-        finding("surface_of_unsupported", kind="surf", count=1, names=["surf 3"], base="taylor"),
+        finding("surface_unsupported", kind="surf", count=1, names=["surf 3"], base="taylor"),
     )
 
 
@@ -221,7 +220,7 @@ def test_file_without_surfaces_is_refused(tmp_path):
     folder = tmp_path / "folder.obj"
     folder.mkdir()
     for name, expected in (
-        ("a.stl", finding("surface_file_type", suffixes=" ".join(SUFFIXES))),
+        ("a.stl", finding("file_type", suffixes=" ".join(SUFFIXES))),
         ("none.obj", finding("file_missing")),
         ("folder.obj", finding("file_not_regular")),
     ):

@@ -4,9 +4,10 @@
 
 import pytest
 from body_moments.core.cad.obj_text import check_obj_text
+from body_moments.core.streams.misread import COUNT, NUMBER, VERTEX
+from body_moments.core.streams.misread import WHOLE as WHOLE_NUMBER
 
-from tests.core.findings import refused
-from tests.core.streams.test_misread import NO_NUMBERS, NO_WHOLES, NUMBERS
+from tests.core.streams.test_misread import NO_NUMBERS, NO_WHOLES, NUMBERS, misread
 
 START = """# v 1.0x0
 mtllib a\\b.mtl
@@ -27,10 +28,6 @@ FACES += "l 1 2/1\np 1 -4\n"
 FREE = "cstype rat bspline\ndeg 1 1\nsurf 0 1 0 1 1/1/1 2 3 -1\nparm u 0 0 1 1\nparm v 0 0 1 1\nend\ncurv 0 1 1 2\n"
 FREE += "curv2 1 -1\n"
 WHOLE = START + FACES + FREE
-
-
-def misread(line, code, **values):
-    return refused("line_misread", line=line, cause={"code": code, "values": values})
 
 
 def changed(line, place, word):
@@ -74,7 +71,7 @@ def test_word_for_a_number_is_refused(line, place):
         text = word.partition("#")[0].replace("\0", "")
         if not text or text == "1":
             continue  # a comment, and white space to importers
-        with misread(line, "field_not_number", text=text):
+        with misread(line, NUMBER, text=text):
             check_obj_text(changed(line, place, word).encode())
     for word in (*NUMBERS, *["nan", "-nan(ind)", "inf", "1e39", "-1.#IND"] * (not placing)):
         check_obj_text(changed(line, place, word).encode())
@@ -84,10 +81,10 @@ def test_word_for_a_number_is_refused(line, place):
 def test_word_for_an_index_is_refused(line, place):
     for word in (*filter(None, NO_WHOLES), "1/2/3/4", "/1", "1/x", "1//x", "1.0/1", "1 /1"):
         if word != "1/1":
-            with misread(line, "field_not_whole", text=word.split()[-1]):
+            with misread(line, WHOLE_NUMBER, text=word.split()[-1]):
                 check_obj_text(changed(line, place, word).encode())
     for word in ("0", "5", "-5", "00", "9" * 30, "1/3", "1/-3", "1/0", "1//2", "1//0", "1/1/-2", "5/1/1"):
-        with misread(line, "field_not_vertex", text=word):
+        with misread(line, VERTEX, text=word):
             check_obj_text(changed(line, place, word).encode())
     for word in ("4", "-4", "+1", "01", "1/2", "1/-2", "1//1", "1/2/-1", "1/2/"):
         check_obj_text(changed(line, place, word).encode())
@@ -96,7 +93,7 @@ def test_word_for_an_index_is_refused(line, place):
 @pytest.mark.parametrize("line, place", [(23, 1), (23, 2), (29, 1), (29, 2)])
 def test_word_for_a_whole_number_is_refused(line, place):
     for word in filter(None, NO_WHOLES):
-        with misread(line, "field_not_whole", text=word):
+        with misread(line, WHOLE_NUMBER, text=word):
             check_obj_text(changed(line, place, word).encode())
 
 
@@ -105,30 +102,30 @@ def test_statement_with_too_few_fields_is_refused(line):
     least = {8: 0, 11: 0, 20: 1, 21: 0, 23: 0, 24: 4, 25: 1, 28: 2, 29: 1}.get(line, 2)
     lines = WHOLE.split("\n")
     lines[line - 1] = " ".join(lines[line - 1].split()[: least + 1])
-    with misread(line, "field_count", text=lines[line - 1]):
+    with misread(line, COUNT, text=lines[line - 1]):
         check_obj_text("\n".join(lines).encode())
 
 
 def test_index_ahead_of_its_vertex_is_refused():
     for text, line, word in (("v 0 0 0\nf 1 1 2\nv 1 1 1\n", 2, "2"), ("vt 0\nv 0 0 0\nf 1/2 1 1\nvt 1", 3, "1/2")):
-        with misread(line, "field_not_vertex", text=word):
+        with misread(line, VERTEX, text=word):
             check_obj_text(text.encode())
     check_obj_text(b"v 0 0 0\nf 1/2/9 1//7 1/0\nvt 1\nvn 0 0 1\n")  # no vertices exist yet
     check_obj_text(b"v 0 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\n" * 500)
-    with misread(2001, "field_not_vertex", text="-1501"):
+    with misread(2001, VERTEX, text="-1501"):
         check_obj_text(b"v 0 0 0\nv 0 1 0\nv 0 0 1\nf -3 -2 -1\n" * 500 + b"f -1500 -1501 1\n")
 
 
 def test_continued_statement_is_named_by_its_first_line():
     text = "v 0 0 \\\n0\n# a \\\nv x\nv 0 \\\r\n \\\n0 x\n"
-    with misread(5, "field_not_number", text="x"):
+    with misread(5, NUMBER, text="x"):
         check_obj_text(text.encode())
     for text in ("v 0 0 0\nf 1 1 1 \\", "v 0 0 0\nf 1 1 1 \\ 1"):
-        with misread(2, "field_not_whole", text="\\"):
+        with misread(2, WHOLE_NUMBER, text="\\"):
             check_obj_text(text.encode())
 
 
 def test_byte_order_mark_before_a_statement_is_refused():
-    with misread(1, "field_not_word", text="U+FEFF", expected="v"):
+    with misread(1, "“v”", text="U+FEFF"):
         check_obj_text("\ufeffv 0 0 0\n".encode())
     check_obj_text("\ufeff\nv 0 0 0\n".encode())

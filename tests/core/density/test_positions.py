@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.density import SplineAxis, grid_moments
 from body_moments.core.moments.moments import monomials
-from body_moments.core.scans import read_positions
-from body_moments.core.scans.positions import place_samples, read_all_positions
+from body_moments.core.scans.positions import place_samples, read_all_positions, read_positions
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 
@@ -197,13 +196,17 @@ def saved(tmp_path, array, name="z.npy"):
     [
         (np.array([0.0, 1.0, 1.0]), "positions_not_ascending", {"axis": "z", "place": 2}),
         (np.array([0.0, -2.0, 1.0]), "positions_not_ascending", {"axis": "z", "place": 1}),
-        (np.array([0.0, np.nan, np.nan]), "positions_non_finite", {"axis": "z", "place": 1}),
-        (np.array([0.0, 1.0, np.inf]), "positions_non_finite", {"axis": "z", "place": 2}),
-        (np.array([0.0, 1.0]), "positions_count", {"axis": "z", "count": 2, "samples": 3}),
-        (np.zeros((3, 1)), "positions_not_a_row", {"axis": "z", "type": "float64", "dimensions": 2}),
-        (np.array(["0", "1", "2"]), "positions_not_a_row", {"axis": "z", "type": "<U1", "dimensions": 1}),
-        (np.array([0.0, 1.0, 2j]), "positions_not_a_row", {"axis": "z", "type": "complex128", "dimensions": 1}),
-        (np.array([0, 1, 2], object), "file_damaged", {"cause": {"code": "damage_array", "values": {}}}),
+        (np.array([0.0, np.nan, np.nan]), "positions_not_ascending", {"axis": "z", "place": 1}),
+        (np.array([0.0, 1.0, np.inf]), "positions_not_ascending", {"axis": "z", "place": 2}),
+        (np.array([0.0, 1.0]), "positions_count", {"axis": "z", "array": "2 float64", "samples": 3}),
+        (np.zeros((3, 1)), "positions_count", {"axis": "z", "array": "3 x 1 float64", "samples": 3}),
+        (np.array(["0", "1", "2"]), "positions_count", {"axis": "z", "array": "3 <U1", "samples": 3}),
+        (np.array([0.0, 1.0, 2j]), "positions_count", {"axis": "z", "array": "3 complex128", "samples": 3}),
+        (
+            np.array([0, 1, 2], object),
+            "file_damaged",
+            {"cause": {"code": "damage_incomplete", "values": {"kind": "NumPy array", "error": "ValueError"}}},
+        ),
     ],
 )
 def test_wrong_position_files_are_refused(tmp_path, array, code, values):

@@ -16,10 +16,9 @@ from body_moments.core.flat.polygon import (
     find_defects,
     orient_loops,
     outline_areas,
-    outline_moments,
     winding_numbers,
 )
-from body_moments.core.polyhedron.n_dimensions import multi_indices
+from body_moments.core.polyhedron.n_dimensions import facet_moments, multi_indices
 
 from tests.close import close
 from tests.core import rational
@@ -87,10 +86,10 @@ def test_polygon_in_a_circle_converges_at_second_order():
 
 def test_the_outline_has_its_length_and_its_moments():
     points, loops = shape(rectangle(0, 0, 3, 4), rectangle(1, 1, 1, 1))
-    found = outline_moments(points, orient_loops(points, loops), 1, about=(0.0, 0.0))
+    found = facet_moments(points, orient_loops(points, loops), 1, about=(0.0, 0.0))
     assert found.raw[0] == 14 + 4
     assert close(found.raw[1], 14 * 1.5 + 4 * 1.5, rel=1e-14)
-    assert outline_moments(points, orient_loops(points, loops)).raw.tolist() == [18.0]
+    assert facet_moments(points, orient_loops(points, loops), 0).raw.tolist() == [18.0]
 
 
 def test_an_open_outline_is_refused():

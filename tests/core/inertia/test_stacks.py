@@ -112,8 +112,8 @@ def test_one_body_or_some_are_taken_out_of_a_stack():
     assert frames.is_unique.tolist() == [False, True] and alone.is_unique is False
     assert frames.symmetry.tolist() == ["isotropic", "asymmetric"] and alone.symmetry == "isotropic"
     assert frames.undetermined_axes.tolist() == [(0, 1, 2), ()] and alone.undetermined_axes == (0, 1, 2)
-    assert [found and found.code for found in frames.finding] == ["axes_all_free", None]
-    assert alone.finding.code == "axes_all_free"
+    assert [found and found.code for found in frames.finding] == ["axes_free", None]
+    assert alone.finding.code == "axes_free"
     for entry in ("moments", "axes"):
         assert (getattr(frames, entry) == getattr(stack.principal, entry)[[2, 0]]).all()
         assert (getattr(alone, entry) == getattr(stack.principal, entry)[2]).all()

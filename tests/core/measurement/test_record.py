@@ -106,7 +106,7 @@ def test_a_box_of_one_by_two_by_three_has_its_closed_form():
 
 
 def test_findings_are_data_with_their_messages():
-    slightly = finding("flat_patch_holes_capped", slight=True, count=np.int64(1), share=math.nan)
+    slightly = finding("patch_holes_capped", slight=True, flat=np.int64(1), curved=0, share=math.nan)
     one = replace(box(), findings=(*box().findings, slightly))
     entry = record.record(one)
     first, _, last = entry["findings"]
@@ -118,7 +118,7 @@ def test_findings_are_data_with_their_messages():
         "elements": [4, 7],
     }
     assert first["message"].startswith("2 flipped faces measured as reversed: 4, 7.")
-    assert last["severity"] == "note" and last["values"] == {"count": 1, "share": None, "slight": True}
+    assert last["severity"] == "note" and last["values"] == {"flat": 1, "curved": 0, "share": None, "slight": True}
     notes = [told["message"] for told in entry["findings"] if told["severity"] == "note"]
     assert entry["notes"] == notes and last["message"] in notes and len(entry["findings"]) == 3
     assert len(entry["warnings"]) + len(notes) == 3

@@ -9,11 +9,10 @@ import pytest
 from body_moments.core.mesh.edges import (
     closed_side_faces,
     consistent_orientation,
-    edges_from_mesh,
     find_edges,
     group_components,
 )
-from body_moments.core.mesh.surface import Surface, flipped_quads
+from body_moments.core.mesh.surface import Surface
 from body_moments.core.mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups
 from body_moments.core.numerics.arrays import first_occurrence
 from body_moments.core.numerics.graph import connected_components
@@ -287,49 +286,6 @@ def test_faces_on_the_same_vertices_share_a_group():
     )
     faces = np.array([0, 0, 1, 1, 2, 3, 4])
     np.testing.assert_array_equal(same_vertices_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
-
-
-def opened(rng, cut):
-    """A crumpled ring of quads with holes, a share `cut` of its faces as two triangles, as a reader makes it."""
-    points, quads = ring(14, 9)
-    faces = [tuple(face) for face in quads.tolist() if rng.random() > 0.1]
-    halves = [[quad] if rng.random() >= cut else [quad[:3], (*quad[2:], quad[0])] for quad in faces]
-    return mesh(points + rng.normal(0.0, 0.1, points.shape), [face for pair in halves for face in pair])
-
-
-@pytest.mark.parametrize("cut", [0.0, 0.4, 1.0])
-def test_named_edges_match_the_computed_ones(cut):
-    surface = opened(np.random.default_rng(11), cut)
-    flipped = flipped_quads(surface.points, surface.quads)
-    assert cut == 1.0 or 0 < flipped.sum() < len(flipped)
-    if cut in (0.0, 1.0):  # one kind alone, as a reader makes it
-        surface = replace(surface, triangle_faces=None, quad_faces=None)
-    triangles = surface.all_triangles()[0]
-    named, found = edges_from_mesh(surface, triangles), find_edges(triangles)
-    assert len(found.boundary_sides()) > 10
-    for key in ("of_side", "upward", "first", "count"):
-        np.testing.assert_array_equal(getattr(named, key), getattr(found, key))
-
-
-def test_edge_names_not_fitting_the_vertices_are_ignored():
-    surface = opened(np.random.default_rng(3), 0.5)
-    triangles, edges = surface.all_triangles()[0], surface.corner_edges
-    inner = np.flatnonzero(np.bincount(edges) == 2)[0]
-    twice = edges.copy()
-    twice[np.flatnonzero(edges == inner)[0]] = edges.max() + 1  # one edge by two names
-    wrong = [np.roll(edges, 1), edges * 0, edges - 1, twice, edges[:-1], edges.astype(np.uint64) - np.uint64(1)]
-    wrong += [edges - (1 << 30), edges + (1 << 30)]
-    for other in wrong:
-        assert edges_from_mesh(replace(surface, corner_edges=other), triangles) is None
-    assert edges_from_mesh(replace(surface, corner_edges=edges.astype(np.uint64)), triangles) is not None
-    prism = mesh(*polygons())
-    assert edges_from_mesh(prism, prism.all_triangles()[0]) is None
-
-
-def polygons():
-    """A prism over a pentagon, without one of its sides."""
-    points = [(x, y, z) for z in (0, 1) for x, y in ((0, 0), (2, 0), (3, 1), (1, 2), (0, 1))]
-    return points, [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((i, i + 1, i + 6, i + 5) for i in range(4))]
 
 
 def box_with_a_face_of_two_corners(place):

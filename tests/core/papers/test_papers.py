@@ -202,9 +202,9 @@ def test_durso_holds_at_any_order_with_any_apex_in_the_face():
     points, faces = prism()
     truth = sheynin_tuzikov.volume_moments(points, faces, 5)
     assert durso.moments(points, faces, 5) == truth
-    assert durso.moments_from_apexes(points, faces, durso.perpendicular_feet(points, faces), 5) == truth
+    assert durso.moments(points, faces, 5, durso.perpendicular_feet(points, faces)) == truth
     apexes = [tuple(3 * points[f[0]][i] - points[f[1]][i] - points[f[2]][i] for i in range(3)) for f in faces]
-    assert durso.moments_from_apexes(points, faces, apexes, 5) == truth
+    assert durso.moments(points, faces, 5, apexes) == truth
 
 
 def test_a_face_without_area_adds_nothing():
@@ -223,7 +223,7 @@ def jittered():
 def test_durso_on_warped_faces_has_fan_volume_and_no_center():
     points, faces = jittered()
     means = [tuple(sum(points[i][axis] for i in face) / F(len(face)) for axis in range(3)) for face in faces]
-    fans = durso.moments_from_apexes(points, faces, means, 1)
+    fans = durso.moments(points, faces, 1, means)
     assert durso.tensor(points, faces, durso.ZEROTH) == fans[0]
     offset = (F(10), F(20), F(30))
     moved = [tuple(x + t for x, t in zip(point, offset)) for point in points]
@@ -231,7 +231,7 @@ def test_durso_on_warped_faces_has_fan_volume_and_no_center():
     defect = [s - f - fans[0] * t for s, f, t in zip(shifted, first, offset)]
     assert max(map(abs, defect)) > F(1, 1000)  # it belongs to no body
     moved_means = [tuple(x + t for x, t in zip(mean, offset)) for mean in means]
-    moved_fans = durso.moments_from_apexes(moved, faces, moved_means, 1)
+    moved_fans = durso.moments(moved, faces, 1, moved_means)
     assert [s - f - fans[0] * t for s, f, t in zip(moved_fans[1:], fans[1:], offset)] == [0, 0, 0]
 
 

@@ -48,21 +48,22 @@ def with_products(signs, tensor):
 def mistakes():
     """The code, the values, and the numbers of a file."""
     for factor in (1e-3, 1e3):
-        yield "mass_unit", {"factor": factor}, replace(TRUTH, mass=MASS / factor)
+        yield "unit", {"part": "mass", "factor": factor}, replace(TRUTH, mass=MASS / factor)
     for factor in INERTIA_UNITS:
-        yield "inertia_unit", {"factor": factor}, of_inertia(INERTIA / factor)
+        yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
     for factor in LENGTH_UNITS:
-        yield "center_unit", {"factor": factor}, of_inertia(INERTIA, CENTER / factor)
+        yield "unit", {"part": "center of mass", "factor": factor}, of_inertia(INERTIA, CENTER / factor)
         yield "length_unit", {"factor": factor}, of_inertia(INERTIA / factor**2, CENTER / factor)
-    yield "inertia_of_unit_mass", {"factor": MASS}, of_inertia(INERTIA / MASS)
-    yield "inertia_of_unit_density", {"factor": DENSITY}, of_inertia(INERTIA / DENSITY)
-    yield "inertia_about_origin", {}, of_inertia(INERTIA + square(CENTER))
+    yield "inertia_of_unit", {"part": "mass", "factor": MASS}, of_inertia(INERTIA / MASS)
+    yield "inertia_of_unit", {"part": "density", "factor": DENSITY}, of_inertia(INERTIA / DENSITY)
+    yield "inertia_elsewhere", {"part": "link"}, of_inertia(INERTIA + square(CENTER))
     yield "inertia_shifted_twice", {}, of_inertia(INERTIA - square(CENTER))
-    yield "inertia_about_mesh_origin", {"point": ORIGIN.tolist()}, of_inertia(INERTIA + square(CENTER - ORIGIN))
+    yield "inertia_elsewhere", {"part": "mesh", "point": ORIGIN.tolist()}, of_inertia(INERTIA + square(CENTER - ORIGIN))
     turn = rotation_of_angles(*ANGLES)
-    for code, convert in (("angles_in_degrees", degrees), ("angles_in_radians", radians)):
+    for unit, wanted, convert in (("degrees", "radians", degrees), ("radians", "degrees", radians)):
         angles = tuple(map(convert, ANGLES))
-        yield code, {}, along(turn, rotation_of_angles(*angles), angles=angles)
+        values = {"part": "inertial", "unit": unit, "wanted": wanted}
+        yield "angles", values, along(turn, rotation_of_angles(*angles), angles=angles)
     w, x, y, z = quaternion(turn).tolist()
     for wrong in ((x, y, z, w), (z, w, x, y)):
         yield "quaternion_order", {}, along(turn, np.eye(3), quaternion=wrong)
@@ -70,30 +71,47 @@ def mistakes():
     yield "frame_not_meant", {}, replace(TRUTH, rotation=turn)
     for signs in list(product((1.0, -1.0), repeat=3))[1:]:
         products = [name for name, sign in zip(("xy", "xz", "yz"), signs) if sign < 0.0]
-        yield "products_sign", {"products": products}, of_inertia(with_products(signs, INERTIA))
+        yield "sign", {"part": "products of inertia", "axes": products}, of_inertia(with_products(signs, INERTIA))
         own = along(turn, turn)
-        yield "products_sign", {"products": products}, replace(own, tensor=with_products(signs, own.tensor))
+        yield (
+            "sign",
+            {"part": "products of inertia", "axes": products},
+            replace(own, tensor=with_products(signs, own.tensor)),
+        )
         wrong = turn.T @ with_products(signs, INERTIA) @ turn
-        yield "products_sign", {"products": products}, replace(own, tensor=wrong)
+        yield "sign", {"part": "products of inertia", "axes": products}, replace(own, tensor=wrong)
         axes = [axis for axis, sign in zip("xyz", signs) if sign < 0.0]
-        yield "center_sign", {"axes": axes}, of_inertia(INERTIA, CENTER * signs)
+        yield "sign", {"part": "center of mass", "axes": axes}, of_inertia(INERTIA, CENTER * signs)
     for axis in range(3):
         mirror = np.eye(3)
         mirror[axis, axis] = -1.0
         yield "mirrored", {"axis": "xyz"[axis]}, of_inertia(mirror @ INERTIA @ mirror, mirror @ CENTER)
         for way in (np.pi / 2.0, -np.pi / 2.0):
             turned = rotation_of_angles(*way * np.eye(3)[axis])
-            yield "frame_turned", {"axis": "xyz"[axis]}, of_inertia(turned @ INERTIA @ turned.T, turned @ CENTER)
-            yield "tensor_turned", {"axis": "xyz"[axis]}, of_inertia(turned @ INERTIA @ turned.T)
+            yield (
+                "turned",
+                {"part": "inertial", "axis": "xyz"[axis]},
+                of_inertia(turned @ INERTIA @ turned.T, turned @ CENTER),
+            )
+            yield "turned", {"part": "inertia", "axis": "xyz"[axis]}, of_inertia(turned @ INERTIA @ turned.T)
     diagonal = np.diag(np.diag(INERTIA))
     for order in list(permutations(range(3)))[1:]:
-        values, back = {"order": "".join("xyz"[axis] for axis in order)}, np.argsort(order)
+        axes, back = "".join("xyz"[axis] for axis in order), np.argsort(order)
+        pairs = " ".join("".join(sorted(axes[i] + axes[j])) for i, j in ((0, 1), (0, 2), (1, 2)))
         swapped = INERTIA[np.ix_(back, back)]
-        yield "axes_swapped", values, of_inertia(swapped)
-        yield "center_axes_swapped", values, of_inertia(INERTIA, CENTER[back])
-        yield "all_axes_swapped", values, of_inertia(swapped, CENTER[back])
-        yield "diagonal_swapped", values, of_inertia(INERTIA - diagonal + np.diag(np.diag(swapped)))
-        yield "products_swapped", values, of_inertia(swapped - np.diag(np.diag(swapped)) + diagonal)
+        yield "order", {"part": "axes of the inertia", "order": axes}, of_inertia(swapped)
+        yield "order", {"part": "axes of the center of mass", "order": axes}, of_inertia(INERTIA, CENTER[back])
+        yield "order", {"part": "axes of the inertial", "order": axes}, of_inertia(swapped, CENTER[back])
+        yield (
+            "order",
+            {"part": "diagonal of the inertia", "order": axes},
+            of_inertia(INERTIA - diagonal + np.diag(np.diag(swapped))),
+        )
+        yield (
+            "order",
+            {"part": "products of inertia", "order": pairs},
+            of_inertia(swapped - np.diag(np.diag(swapped)) + diagonal),
+        )
     moments, axes = np.linalg.eigh(INERTIA)
     for order, signs in product(permutations(range(3)), ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1))):
         rows = np.diag(signs) @ axes[:, order].T  # the tensor's own axes may then point either way
@@ -155,20 +173,12 @@ def test_impossible_density_is_reported(density, code, factor):
 
 
 def test_mass_unit_is_blamed_only_for_impossible_density():
-    for density, code in (
-        (10.01, "mass_unit"),
-        (9.99, "inertia_unit"),
-        (9_990.0, "mass_unit"),
-        (10_010.0, "inertia_unit"),
-    ):
-        assert said(replace(TRUTH, mass=MASS / 1e3), of_density(density))[0] == code
-    for density, code in (
-        (29.9, "inertia_unit"),
-        (30.1, "mass_unit"),
-        (29_990.0, "mass_unit"),
-        (30_010.0, "inertia_unit"),
-    ):
-        assert said(replace(TRUTH, mass=MASS * 1e3), of_density(density))[0] == code
+    for density, part in ((10.01, "mass"), (9.99, "inertia"), (9_990.0, "mass"), (10_010.0, "inertia")):
+        code, values = said(replace(TRUTH, mass=MASS / 1e3), of_density(density))
+        assert (code, values["part"]) == ("unit", part)
+    for density, part in ((29.9, "inertia"), (30.1, "mass"), (29_990.0, "mass"), (30_010.0, "inertia")):
+        code, values = said(replace(TRUTH, mass=MASS * 1e3), of_density(density))
+        assert (code, values["part"]) == ("unit", part)
 
 
 def test_decimals_of_the_file_stay_decimals():

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots import Inertial
+from body_moments.core.robots.model import Inertial
 from body_moments.core.robots.primitives import box_sides, capsule_size, ellipsoid_axes, equal_inertia_shape
 
 from tests.close import close

@@ -155,23 +155,19 @@ def test_a_file_with_something_behind_it(tmp_path, name):
 
 
 @pytest.mark.parametrize(
-    "change, code",
-    [
-        (lambda data: data + b"1", "damage_too_long"),
-        (lambda data: data + bytes(9 * samples.BLOCK), "damage_too_long"),
-        (lambda data: data[:-1], "damage_too_short"),
-    ],
+    "change",
+    [lambda data: data + b"1", lambda data: data + bytes(9 * samples.BLOCK), lambda data: data[:-1]],
 )
-def test_a_whole_stream_of_another_length_is_refused(tmp_path, change, code):
+def test_a_whole_stream_of_another_length_is_refused(tmp_path, change):
     head = nrrd(VALUES, "byte skip: 2", encoding="gzip", head=False)
     paths = [
         written(tmp_path / "a.nii.gz", gzip.compress(change(NIFTI))),
         written(tmp_path / "a.nii", change(NIFTI)),
         written(tmp_path / "a.nrrd", head + gzip.compress(b"12" + change(PAYLOAD))),
     ]
-    assert [damage_of(path) for path in paths] == [code] * 3
+    assert [damage_of(path) for path in paths] == ["damage_size"] * 3
     archive = written(tmp_path / "a.npz", npz(io.BytesIO(), zipfile.ZIP_DEFLATED, change(npy())))
-    assert damage_of(archive) == "damage_arrays"
+    assert damage_of(archive) == "damage_incomplete"
 
 
 def damage_of(path) -> str:
@@ -185,15 +181,15 @@ def damage_of(path) -> str:
 @pytest.mark.parametrize(
     "name, damage, code",
     [
-        ("nii.gz", lambda data: data[:-8] + bytes([data[-8] ^ 1]) + data[-7:], "damage_checksum"),
-        ("nii.gz", lambda data: data[:-1] + bytes([data[-1] ^ 1]), "damage_unpacked_length"),
-        ("nii.gz", lambda data: data[:-1], "damage_packed_end"),
-        ("nii.gz", lambda data: data + b"xx", "damage_packed_start"),
+        ("nii.gz", lambda data: data[:-8] + bytes([data[-8] ^ 1]) + data[-7:], "damage_packed"),
+        ("nii.gz", lambda data: data[:-1] + bytes([data[-1] ^ 1]), "damage_packed"),
+        ("nii.gz", lambda data: data[:-1], "damage_cut_short"),
+        ("nii.gz", lambda data: data + b"xx", "damage_packed"),
         ("nii.gz", lambda data: data[:10] + b"\xff" + data[11:], "damage_packed"),
-        ("npz stored", lambda data: data.replace(VALUES.tobytes(), VALUES[::-1].tobytes()), "damage_archive"),
-        ("npz stored", lambda data: data.replace(b"(3, 4, 5)", b"(3, 4, 4)"), "damage_archive"),
-        ("nhdr gzip", lambda data: data[:-1], "damage_packed_end"),
-        ("raw", lambda data: data[:-1], "damage_too_short"),
+        ("npz stored", lambda data: data.replace(VALUES.tobytes(), VALUES[::-1].tobytes()), "damage_incomplete"),
+        ("npz stored", lambda data: data.replace(b"(3, 4, 5)", b"(3, 4, 4)"), "damage_incomplete"),
+        ("nhdr gzip", lambda data: data[:-1], "damage_cut_short"),
+        ("raw", lambda data: data[:-1], "damage_size"),
     ],
 )
 def test_refusal_names_the_file_the_damage_and_the_remedy(tmp_path, name, damage, code):
@@ -209,28 +205,28 @@ def test_refusal_names_the_file_the_damage_and_the_remedy(tmp_path, name, damage
 def test_samples_at_the_end_of_a_file_do_not_begin_in_its_header(tmp_path):
     head = nrrd(VALUES, "byte skip: -1", head=False)
     assert np.array_equal(read_scan(written(tmp_path / "a.nrrd", head + b"12" + PAYLOAD)).samples, VALUES)
-    assert damage_of(written(tmp_path / "a.nrrd", head + PAYLOAD[1:])) == "damage_too_short"
+    assert damage_of(written(tmp_path / "a.nrrd", head + PAYLOAD[1:])) == "damage_size"
 
 
 def test_an_archive_called_an_array_is_refused(tmp_path):
-    assert damage_of(written(tmp_path / "a.npy", CHECKED["npz stored"][2])) == "damage_array"
+    assert damage_of(written(tmp_path / "a.npy", CHECKED["npz stored"][2])) == "damage_incomplete"
 
 
 def test_unpacked_file_cut_short_misses_its_end(tmp_path):
-    for data, code in ((b"head", "damage_packed_end"), (b"head" + bytes(3), "damage_packed_start")):
+    for data, code in ((b"head", "damage_cut_short"), (b"head" + bytes(3), "damage_packed")):
         with pytest.raises(FileError) as refused:
             list(samples.gzip_blocks(written(tmp_path / "a.gz", data), 4))
         assert refused.value.finding.values["cause"]["code"] == code
 
 
-@pytest.mark.parametrize("more, code", [(0, "damage_too_short"), (1, "damage_too_small")])
-def test_file_too_small_for_its_samples_is_refused(tmp_path, more, code):
+@pytest.mark.parametrize("more", [0, 1])
+def test_file_too_small_for_its_samples_is_refused(tmp_path, more):
     """A byte holds 1032 bytes at most, the longest match in two bits."""
     path = written(tmp_path / "a.gz", gzip.compress(b"few"))
     count = 1032 * path.stat().st_size + more
     with pytest.raises(FileError) as refused:
         samples.unpack_samples(path, 0, np.dtype("u1"), (count - 5, 1, 1), 5, samples.Limits())
-    assert refused.value.finding.values["cause"]["code"] == code
+    assert refused.value.finding.values["cause"]["code"] == "damage_size"
 
 
 def test_unpacking_needs_no_second_copy_of_the_samples(tmp_path):

@@ -74,7 +74,7 @@ def test_nrrd_type_names_are_known_and_need_a_byte_order(tmp_path, dtype, names)
         path = written(tmp_path / "a.nrrd", head + b"\n\n" + values(dtype).tobytes("F"))
         assert read_scan(path).samples.dtype == dtype
     path = written(path, head.replace(b"endian: little", b"") + b"\n\n")
-    assert refusal(read_scan, path) == ("file_damaged" if dtype[1] == "1" else "nrrd_endian_missing")
+    assert refusal(read_scan, path) == ("file_damaged" if dtype[1] == "1" else "header_field")
 
 
 def test_the_keys_of_a_nrrd_file_and_its_comments_are_no_fields(tmp_path):
@@ -83,7 +83,7 @@ def test_the_keys_of_a_nrrd_file_and_its_comments_are_no_fields(tmp_path):
         data = nrrd(values()).replace(b"encoding: raw", line + b"\nencoding: raw\n" + line)
         assert np.array_equal(read_scan(written(tmp_path / "a.nrrd", data)).samples, values())
     with_both = nrrd(values(), "content: a:=b").replace(b"type: float", b"type: float:=")
-    assert refusal(read_scan, written(tmp_path / "a.nrrd", with_both)) == "nrrd_type"
+    assert refusal(read_scan, written(tmp_path / "a.nrrd", with_both)) == "scan_sample_type"
 
 
 def test_units_are_in_meters_if_all_axes_have_the_same(tmp_path):
@@ -204,7 +204,7 @@ def test_raw_files_by_their_names_and_by_hand(tmp_path):
     assert np.array_equal(read_raw(path, (3, 4, 5), "uint16", big_endian=True).samples, expected)
     assert refusal(read_scan, path) == "raw_without_layout"
     assert refusal(read_raw, path, (3, 4, 6), "uint16") == "file_damaged"
-    assert refusal(read_raw, path, (3, 4, 5), "complex64") == "raw_type_unknown"
+    assert refusal(read_raw, path, (3, 4, 5), "complex64") == "scan_sample_type"
 
 
 @pytest.mark.parametrize("layout", "CF")
@@ -225,7 +225,7 @@ def test_numpy_arrays_are_read(tmp_path, layout):
         (np.ones((3, 3)), "scan_dimensions"),
         (np.ones((2, 3, 3, 3)), "scan_dimensions"),
         (np.ones((3, 3, 3), complex), "scan_sample_type"),
-        (np.ones((0, 3, 3)), "scan_empty"),
+        (np.ones((0, 3, 3)), "scan_size"),
         (np.zeros((2, 2, 2), "U3"), "scan_sample_type"),
         (np.zeros((2, 2, 2), object), "file_damaged"),
     ],
@@ -294,6 +294,18 @@ def damage(code, **values):
     return {"file": "", "cause": {"code": code, "values": values}}
 
 
+def field(name, wanted, text, form="NRRD"):
+    return {"format": form, "field": name, "wanted": wanted, "text": text}
+
+
+def nifti_field(name, wanted, text):
+    return field(name, wanted, text, "NIfTI")
+
+
+def rotation(text):
+    return nifti_field("quatern", "a rotation", text)
+
+
 def nifti_with(offset: int, form: str, *numbers) -> bytes:
     data = bytearray(nifti(values()))
     struct.pack_into("<" + form, data, offset, *numbers)
@@ -303,46 +315,74 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
 @pytest.mark.parametrize(
     "data, code, values_said",
     [
-        (b"", "file_damaged", damage("damage_header", bytes=348)),
-        (b"x" * 400, "nifti_unrecognized", {}),
-        (nifti(values())[:-1], "file_damaged", damage("damage_too_short", bytes=239, total=240)),
-        (nifti_with(344, "4s", b"n+2\0"), "nifti_unrecognized", {}),
-        (nifti_with(0, "i", 349), "nifti_unrecognized", {}),
-        (nifti_with(344, "4s", b"ni1\0"), "nifti_header_of_pair", {}),
-        (nifti_with(40, "h", 8), "nifti_dimensions", {"dimensions": 8}),
+        (b"", "file_damaged", damage("damage_cut_short", part="header")),
+        (b"x" * 400, "file_unrecognized", {"format": "NIfTI-1"}),
+        (nifti(values())[:-1], "file_damaged", damage("damage_size", bytes=239, total=240)),
+        (nifti_with(344, "4s", b"n+2\0"), "file_unrecognized", {"format": "NIfTI-1"}),
+        (nifti_with(0, "i", 349), "file_unrecognized", {"format": "NIfTI-1"}),
+        (nifti_with(344, "4s", b"ni1\0"), "scan_in_several_files", {"suffix": ".nii"}),
+        (nifti_with(40, "h", 8), "scan_dimensions", {"dimensions": 8}),
         (nifti_with(40, "h", 1), "scan_dimensions", {"dimensions": 1}),
         (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_dimensions", {"dimensions": 4}),
         (nifti_with(42, "h", -3), "scan_size", {"samples": [-3, 4, 5]}),
         (
             nifti_with(42, "3h", 32767, 32767, 32767),
             "file_damaged",
-            damage("damage_too_short", bytes=240, total=140724603846652),
+            damage("damage_size", bytes=240, total=140724603846652),
         ),
-        (nifti_with(70, "h", 32), "nifti_type", {"type": 32}),
-        (nifti_with(72, "h", 7), "nifti_type_size", {"bits": 7, "type": 16}),
-        (nifti_with(108, "f", float("nan")), "nifti_offset", {"offset": float("nan")}),
-        (nifti_with(108, "f", 2.0**40), "nifti_offset", {"offset": 2.0**40}),
-        (nifti_with(108, "f", 347.0), "nifti_offset", {"offset": 347.0}),
-        (nifti_with(108, "f", 352.5), "nifti_offset", {"offset": 352.5}),
-        (nifti_with(108, "f", 356.0), "file_damaged", damage("damage_too_short", bytes=236, total=240)),
-        (nifti_with(40, "h", 0), "nifti_dimensions", {"dimensions": 0}),
-        (nifti_with(84, "f", np.inf), "nifti_spacing", {"x": 1.0, "y": np.inf, "z": 1.0}),
-        (nifti(values(), quaternion=(0.6, 0.8, 0.01, 0, 0, 0)), "nifti_rotation", {}),
-        (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), "nifti_rotation", {}),
+        (nifti_with(70, "h", 32), "scan_sample_type", {"type": "NIfTI 32"}),
+        (nifti_with(72, "h", 7), "header_field", nifti_field("bitpix", "the size of its data type", "7")),
+        (
+            nifti_with(108, "f", float("nan")),
+            "header_field",
+            nifti_field("vox_offset", "a whole number behind the header", "nan"),
+        ),
+        (
+            nifti_with(108, "f", 2.0**40),
+            "header_field",
+            nifti_field("vox_offset", "a whole number behind the header", "1.09951e+12"),
+        ),
+        (
+            nifti_with(108, "f", 347.0),
+            "header_field",
+            nifti_field("vox_offset", "a whole number behind the header", "347"),
+        ),
+        (
+            nifti_with(108, "f", 352.5),
+            "header_field",
+            nifti_field("vox_offset", "a whole number behind the header", "352.5"),
+        ),
+        (nifti_with(108, "f", 356.0), "file_damaged", damage("damage_size", bytes=236, total=240)),
+        (nifti_with(40, "h", 0), "scan_dimensions", {"dimensions": 0}),
+        (
+            nifti_with(84, "f", np.inf),
+            "header_field",
+            nifti_field("pixdim", "three spacings that are not zero", "1 inf 1"),
+        ),
+        (nifti(values(), quaternion=(0.6, 0.8, 0.01, 0, 0, 0)), "header_field", rotation("0.6 0.8 0.01 0 0 0")),
+        (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), "header_field", rotation("0 0 0 0 inf 0")),
         (nifti_with(112, "f", float("inf")), "scan_scaling", {}),
         (nifti_with(112, "2f", 1.0, float("inf")), "scan_scaling", {}),
         (
             nifti(values(), spacing=(0, 0, 0), quaternion=(0, 0, 0, 1, 2, 3)),
-            "nifti_spacing",
-            {"x": 0.0, "y": 0.0, "z": 0.0},
+            "header_field",
+            nifti_field("pixdim", "three spacings that are not zero", "0 0 0"),
         ),
-        (nifti_with(80, "f", 0.0), "nifti_spacing", {"x": 0.0, "y": 1.0, "z": 1.0}),
-        (nifti(values(), spacing=(2, 0, 0)), "nifti_spacing", {"x": 2.0, "y": 0.0, "z": 0.0}),
-        (nifti(values(), spacing=(0, 0, 2)), "nifti_spacing", {"x": 0.0, "y": 0.0, "z": 2.0}),
+        (nifti_with(80, "f", 0.0), "header_field", nifti_field("pixdim", "three spacings that are not zero", "0 1 1")),
+        (
+            nifti(values(), spacing=(2, 0, 0)),
+            "header_field",
+            nifti_field("pixdim", "three spacings that are not zero", "2 0 0"),
+        ),
+        (
+            nifti(values(), spacing=(0, 0, 2)),
+            "header_field",
+            nifti_field("pixdim", "three spacings that are not zero", "0 0 2"),
+        ),
         (nifti(values(), sform=np.zeros((3, 4))), "scan_placement", {}),
         (nifti(values(), sform=np.full((3, 4), np.nan)), "scan_placement", {}),
         (nifti(values(), sform=np.eye(3, 4) + [0, 0, 0, np.inf]), "scan_placement", {}),
-        (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "nifti_rotation", {}),
+        (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "header_field", rotation("1 1 1 0 0 0")),
     ],
 )
 def test_damaged_nifti_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
@@ -362,52 +402,76 @@ def nrrd_with(old: str, new: str) -> bytes:
 @pytest.mark.parametrize(
     "data, code, values_said",
     [
-        (b"", "nrrd_unrecognized", {}),
-        (nrrd(values())[:-1], "file_damaged", damage("damage_too_short", bytes=239, total=240)),
-        (nrrd(values())[:60], "nrrd_dimension_mismatch", {}),
-        (nrrd_with("type: float\n", ""), "nrrd_field_missing", {"field": "type"}),
-        (nrrd_with("sizes: 3 4 5\n", ""), "nrrd_field_missing", {"field": "sizes"}),
-        (nrrd_with("dimension: 3\n", ""), "nrrd_dimension_mismatch", {}),
-        (nrrd_with("encoding: raw\n", ""), "nrrd_field_missing", {"field": "encoding"}),
-        (nrrd_with("type: float", "type: block"), "nrrd_type", {"type": "block"}),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "nrrd_dimension_mismatch", {}),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "nrrd_field_not_numbers", {"field": "sizes", "text": "3 4 x"}),
-        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 0_5"), "nrrd_field_not_numbers", {"field": "sizes", "text": "3 4 0_5"}),
-        (nrrd(values(), "spacings: 1 2_0 1"), "nrrd_field_not_numbers", {"field": "spacings", "text": "1 2_0 1"}),
+        (b"", "file_unrecognized", {"format": "NRRD"}),
+        (nrrd(values())[:-1], "file_damaged", damage("damage_size", bytes=239, total=240)),
+        (nrrd(values())[:60], "header_field", field("dimension", "the count of “sizes”", "3")),
+        (nrrd_with("type: float\n", ""), "scan_sample_type", {"type": "“”"}),
+        (nrrd_with("sizes: 3 4 5\n", ""), "header_field", field("sizes", "three numbers", "")),
+        (nrrd_with("dimension: 3\n", ""), "header_field", field("dimension", "the count of “sizes”", "")),
+        (nrrd_with("encoding: raw\n", ""), "header_field", field("encoding", "raw or gzip", "")),
+        (nrrd_with("type: float", "type: block"), "scan_sample_type", {"type": "block"}),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4"), "header_field", field("dimension", "the count of “sizes”", "3")),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 x"), "header_field", field("sizes", "a list of numbers", "3 4 x")),
+        (nrrd_with("sizes: 3 4 5", "sizes: 3 4 0_5"), "header_field", field("sizes", "a list of numbers", "3 4 0_5")),
+        (nrrd(values(), "spacings: 1 2_0 1"), "header_field", field("spacings", "a list of numbers", "1 2_0 1")),
         (nrrd_with("sizes: 3 4 5", "sizes: 3 4 -5"), "scan_size", {"samples": [3, 4, -5]}),
         (nrrd_with("sizes: 3 4 5", "sizes: 3 4 5000000000000"), "scan_size", {"samples": [3, 4, 5000000000000]}),
-        (nrrd_with("dimension: 3", "dimension: 4"), "nrrd_dimension_mismatch", {}),
-        (nrrd_with("encoding: raw", "encoding: bzip2"), "nrrd_encoding", {"encoding": "bzip2"}),
-        (nrrd_with("encoding: raw", "encoding: gzip"), "file_damaged", damage("damage_packed_start")),
-        (nrrd(values(), "byte skip: -1", encoding="gzip"), "nrrd_skip_from_end", {}),
-        (nrrd_with("endian: little\n", ""), "nrrd_endian_missing", {}),
-        (nrrd(values(), "spacings: 1 0 1"), "nrrd_spacings", {}),
-        (nrrd(values(), "spacings: 1 1 inf"), "nrrd_spacings", {}),
-        (nrrd(values(), "spacings: 1 2"), "nrrd_spacings", {}),
-        (nrrd(values(), "spacings: nan nan nan"), "nrrd_spacings", {}),
+        (nrrd_with("dimension: 3", "dimension: 4"), "header_field", field("dimension", "the count of “sizes”", "4")),
+        (nrrd_with("encoding: raw", "encoding: bzip2"), "header_field", field("encoding", "raw or gzip", "bzip2")),
+        (
+            nrrd_with("encoding: raw", "encoding: gzip"),
+            "file_damaged",
+            damage("damage_packed", error="incorrect header check"),
+        ),
+        (
+            nrrd(values(), "byte skip: -1", encoding="gzip"),
+            "header_field",
+            field("byte skip", "one number, not negative", "-1"),
+        ),
+        (nrrd_with("endian: little\n", ""), "header_field", field("endian", "little or big", "")),
+        (
+            nrrd(values(), "spacings: 1 0 1"),
+            "header_field",
+            field("spacings", "three spacings that are not zero", "1 0 1"),
+        ),
+        (
+            nrrd(values(), "spacings: 1 1 inf"),
+            "header_field",
+            field("spacings", "three spacings that are not zero", "1 1 inf"),
+        ),
+        (nrrd(values(), "spacings: 1 2"), "header_field", field("spacings", "three spacings that are not zero", "1 2")),
+        (
+            nrrd(values(), "spacings: nan nan nan"),
+            "header_field",
+            field("spacings", "three spacings that are not zero", "nan nan nan"),
+        ),
         (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "scan_placement", {}),
-        (nrrd(values(), "space directions: (1,0,0) (0,1,0)"), "nrrd_space_directions", {}),
+        (
+            nrrd(values(), "space directions: (1,0,0) (0,1,0)"),
+            "header_field",
+            field("space directions", "three vectors", "(1,0,0) (0,1,0)"),
+        ),
         (
             nrrd(values(), "space directions: (1,0,0) (0,1,0) (0,0)"),
-            "nrrd_vector",
-            {"field": "space directions", "text": "(0,0)"},
+            "header_field",
+            field("space directions", "vectors of three numbers", "(0,0)"),
         ),
         (
             nrrd(values(), "space directions: (1,0,0) (0,1_0,0) (0,0,1)"),
-            "nrrd_vector",
-            {"field": "space directions", "text": "(0,1_0,0)"},
+            "header_field",
+            field("space directions", "vectors of three numbers", "(0,1_0,0)"),
         ),
-        (nrrd(values(), "data file: nowhere.raw"), "nrrd_data_file_missing", {"file": "nowhere.raw"}),
+        (nrrd(values(), "data file: nowhere.raw"), "named_file_missing", {"file": "nowhere.raw", "content": "samples"}),
         *(
-            (nrrd(values(), "data file: " + name), "nrrd_several_files", {})
+            (nrrd(values(), "data file: " + name), "scan_in_several_files", {"suffix": ".nrrd"})
             for name in ("slice%03d.raw 1 9 1", "slice%03d.raw", "LIST", "list 2", "a b c d")
         ),
-        (nrrd(values(), "data file: a b c"), "nrrd_data_file_missing", {"file": "a b c"}),
-        (nrrd(values(), "byte skip: a"), "nrrd_field_not_numbers", {"field": "byte skip", "text": "a"}),
-        (nrrd(values(), "byte skip: -7"), "nrrd_field_not_one_number", {"field": "byte skip"}),
-        (nrrd(values(), "byte skip: 1 2"), "nrrd_field_not_one_number", {"field": "byte skip"}),
-        (nrrd(values(), "line skip:"), "nrrd_field_not_one_number", {"field": "line skip"}),
-        (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_lines")),
+        (nrrd(values(), "data file: a b c"), "named_file_missing", {"file": "a b c", "content": "samples"}),
+        (nrrd(values(), "byte skip: a"), "header_field", field("byte skip", "a list of numbers", "a")),
+        (nrrd(values(), "byte skip: -7"), "header_field", field("byte skip", "one number, not negative", "-7")),
+        (nrrd(values(), "byte skip: 1 2"), "header_field", field("byte skip", "one number, not negative", "1 2")),
+        (nrrd(values(), "line skip:"), "header_field", field("line skip", "one number, not negative", "")),
+        (nrrd(values(), "line skip: 9999"), "file_damaged", damage("damage_cut_short", part="skipped lines")),
     ],
 )
 def test_damaged_nrrd_file_is_refused_with_its_damage(tmp_path, data, code, values_said):
@@ -438,7 +502,7 @@ def test_first_volume_of_an_archive_is_taken(tmp_path):
 
 def test_an_archive_without_a_volume(tmp_path):
     np.savez(tmp_path / "a.npz", table=np.eye(3))
-    assert refusal(read_scan, tmp_path / "a.npz") == "no_3d_array"
+    assert refusal(read_scan, tmp_path / "a.npz") == "scan_dimensions"
 
 
 def npz_bytes() -> bytes:
@@ -508,7 +572,7 @@ def test_damage_anywhere_gives_a_refusal_or_an_array(tmp_path, name):
 def test_foreign_file_is_no_scan(tmp_path):
     assert [scan_suffix("A.B" + end.upper()) for end in SUFFIXES] == list(SUFFIXES)
     assert scan_suffix("a.blend") == ""
-    assert refusal(read_scan, tmp_path / "a.blend") == "scan_file_type"
+    assert refusal(read_scan, tmp_path / "a.blend") == "file_type"
     assert refusal(read_scan, tmp_path / "a.npy") == "file_missing"
     (tmp_path / "b.npy").mkdir()
     assert refusal(read_scan, tmp_path / "b.npy") == "file_not_regular"

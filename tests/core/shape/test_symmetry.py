@@ -136,6 +136,24 @@ def test_point_groups_have_their_schoenflies_symbols(name, seed):
     assert found.has_center == any(np.abs(one + np.eye(3)).max() < 1e-9 for one in operations)
 
 
+def orbit(operations, corners):
+    """The images of a tetrahedron under all operations, as one body."""
+    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    images = [
+        (corners @ operation.T, faces if np.linalg.det(operation) > 0.0 else faces[:, ::-1]) for operation in operations
+    ]
+    return bodies.joined(*images)
+
+
+@pytest.mark.parametrize("name", sorted(POINT_GROUPS.keys() - {"S8", "D4d", "O", "I"}))  # these need order 8 and more
+def test_moments_of_turned_orbits_allow_their_group(name):
+    corners = np.array([[0.0, 0.0, 0.0], [0.35, 0.02, 0.05], [0.05, 0.3, 0.02], [0.03, 0.08, 0.4]])
+    part = orbit(group_of(POINT_GROUPS[name][1]), corners + [1.1, 0.45, 0.7])
+    for seed in range(5):
+        image = bodies.moved(part, bodies.rotation(seed), (1, 2, 3))
+        assert symmetry(moments(image, 6)).group == name
+
+
 @pytest.mark.parametrize("sides, group", [(128, "D128h"), (129, "D43h")])
 def test_axes_to_order_128_are_looked_for(sides, group):
     angle = 2.0 * np.pi / sides * np.arange(sides)

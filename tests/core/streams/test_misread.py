@@ -5,7 +5,8 @@
 import time
 
 import pytest
-from body_moments.core.streams import open_mesh_file
+from body_moments.core.streams.mesh_file import open_mesh_file
+from body_moments.core.streams.misread import COUNT, NUMBER, VERTEX, WHOLE
 from body_moments.core.streams.ply_header import parse_header
 from body_moments.core.streams.ply_text import check_ply_text
 from body_moments.core.streams.stl_text import check_stl_text
@@ -65,8 +66,8 @@ def write(path, text):
     return path
 
 
-def misread(line, code, **values):
-    return refused("line_misread", line=line, cause={"code": code, "values": values})
+def misread(line, expected, text):
+    return refused("line_misread", line=line, text=text, expected=expected)
 
 
 def test_decimal_numbers_follow_xml_schema():
@@ -89,7 +90,7 @@ def facet(fields):
 def test_stl_with_a_word_for_a_number_is_refused(tmp_path, place):
     for word in (*NO_NUMBERS, *["1e39", "nan"] * (place > 2)):
         text = facet([*FIELDS[:place], word, *FIELDS[place + 1 :]])
-        with misread(LINES[place], "field_not_number", text=word):
+        with misread(LINES[place], NUMBER, text=word):
             open_mesh_file(write(tmp_path / "a.stl", text))
     for word in (*NUMBERS, *["1e39", "-nan(ind)", "1.#QNAN", "inf"] * (place < 3)):
         text = facet([*FIELDS[:place], word, *FIELDS[place + 1 :]])
@@ -117,7 +118,7 @@ def test_stl_without_a_number_is_refused(tmp_path, place):
 )
 def test_stl_with_other_words_is_refused(tmp_path, old, new, line, word, expected):
     text = facet(FIELDS).replace(old, new, 1)
-    with misread(line, "field_not_word", text=word, expected=expected):
+    with misread(line, "“{}”".format(expected), text=word):
         open_mesh_file(write(tmp_path / "a.stl", text))
 
 
@@ -153,14 +154,14 @@ PLY_FIELDS += [(7, 0, "whole"), (7, 1, "whole"), (7, 5, "index"), (7, 6, "number
 @pytest.mark.parametrize("row, place, kind", PLY_FIELDS)
 def test_ply_with_a_word_for_a_number_is_refused(tmp_path, row, place, kind):
     is_whole, line = kind in ("whole", "index"), 18 + row
-    code = "field_not_whole" if is_whole else "field_not_number"
+    expected = WHOLE if is_whole else NUMBER
     wrong = (NO_WHOLES if is_whole else NO_NUMBERS) + ["nan", "1e39"] * (kind == "point")
     for word in filter(None, wrong):
-        with misread(line, code, text=word):
+        with misread(line, expected, text=word):
             open_mesh_file(write(tmp_path / "a.ply", ply(row, place, word)))
     if kind == "index":
         for word in ("4", "-1", "9" * 30):
-            with misread(line, "field_not_vertex", text=word):
+            with misread(line, VERTEX, text=word):
                 open_mesh_file(write(tmp_path / "a.ply", ply(row, place, word)))
     for word in NUMBERS if not is_whole else ["+2", "02"][: 2 * (kind == "index")]:
         open_mesh_file(write(tmp_path / "a.ply", ply(row, place, word)))
@@ -178,7 +179,7 @@ def test_ply_rows_may_have_other_spaces(tmp_path):
     text = HEADER + "\n".join(ROWS)
     for other in (text, text + "\n\n \n", text.replace("\n", "\r\n"), HEADER + " \t\n ".join(ROWS).replace(" ", "\t ")):
         open_mesh_file(write(tmp_path / "a.ply", other))
-    with misread(26, "field_count", text="3 0 1 2"):
+    with misread(26, COUNT, text="3 0 1 2"):
         open_mesh_file(write(tmp_path / "a.ply", text + "\n3 0 1 2\n"))
 
 
@@ -189,7 +190,7 @@ def test_ply_polygons_of_many_sides_are_read(tmp_path):
     head = HEADER.replace("element vertex 4", "element vertex 20").replace("element face 2", "element face 18")
     text = head + "\n".join([*ROWS[:2], *rows, *faces, ""])
     open_mesh_file(write(tmp_path / "a.ply", text))
-    with misread(57, "field_not_vertex", text="20"):
+    with misread(57, VERTEX, text="20"):
         open_mesh_file(write(tmp_path / "a.ply", text.replace(" 19 1\n", " 20 1\n")))
 
 
@@ -200,6 +201,6 @@ def test_ply_header_of_many_properties_is_read_soon():
     text = "ply\nformat ascii 1.0\nelement a 30\n" + lists + elements + "end_header\n"
     text += 30 * (10_000 * "0 " + "\n") + 9_999 * "1\n" + "x"
     start = time.process_time()
-    with misread(text.count("\n") + 1, "field_not_number", text="x"):
+    with misread(text.count("\n") + 1, NUMBER, text="x"):
         check_ply_text(text.encode(), parse_header(text.encode()))
     assert time.process_time() - start < 10.0

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.streams import measure_stream, open_mesh_file, ply_rows
+from body_moments.core.streams import ply_rows
 from body_moments.core.streams import stl as stl_module
+from body_moments.core.streams.measure import measure_stream
+from body_moments.core.streams.mesh_file import open_mesh_file
 from body_moments.core.streams.ply_header import Element, Property
 
 from tests.close import close
@@ -163,15 +165,15 @@ def test_truncated_or_damaged_ply_is_refused(tmp_path, small_blocks, order):
     whole = ply(*part, order, extra=True)
     body = len(whole) - len(ply(*part, order, extra=True).partition(b"end_header\n")[2])
     for end in range(body, len(whole) - (1 if order else 3), 41):
-        with refused("file_damaged", "line_misread"):
+        with refused("file_damaged", "file_unrecognized", "line_misread"):
             measured(tmp_path, "a.ply", whole[:end])
     for end in (0, 3, 30, body - 5):
-        with refused("file_damaged", "line_misread"):
+        with refused("file_damaged", "file_unrecognized", "line_misread"):
             measured(tmp_path, "a.ply", whole[:end])
     for wrong in (-1, len(part[0])):
         faces = part[1].copy()
         faces[5, 1] = wrong
-        with refused("file_damaged", "line_misread"):
+        with refused("file_damaged", "file_unrecognized", "line_misread"):
             measured(tmp_path, "a.ply", ply(part[0], faces, order))
     with refused("file_without_objects"):
         measured(tmp_path, "a.ply", b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n")
@@ -180,7 +182,7 @@ def test_truncated_or_damaged_ply_is_refused(tmp_path, small_blocks, order):
 @pytest.mark.parametrize("cut", [1, 10, 49, 50, 500])
 def test_truncated_stl_is_refused(tmp_path, small_blocks, cut):
     part = moved(sphere(1))
-    with refused("stl_size"):
+    with refused("stl_cut_short"):
         measured(tmp_path, "a.stl", stl(part)[:-cut])
     text = stl_text(part)
     with refused("stl_cut_short", "line_misread"):
@@ -245,7 +247,7 @@ def test_nonfinite_numbers_are_refused_with_count_and_place(tmp_path, small_bloc
             measured(tmp_path, name, FORMS[name]((points, triangles)))
         return
     kind, first = ("triangle", 20) if name.endswith("stl") else ("vertex", 60)
-    place = {"code": "at_" + kind, "values": {kind: first}}
+    place = {"code": "at_row", "values": {"element": kind, "row": first}}
     with refused("non_finite_coordinates", count=4, place=place):
         measured(tmp_path, name, FORMS[name]((points, triangles)))
 
@@ -316,7 +318,7 @@ TETRAHEDRON = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
 
 
 def test_ply_without_vertices_or_with_late_indices_is_refused(tmp_path):
-    with refused("file_damaged"):
+    with refused("file_unrecognized"):
         measured(tmp_path, "a.ply", ply_text(FACES, TETRAHEDRON))
     with refused("line_misread"):
         measured(tmp_path, "a.ply", ply_text(VERTICES + FACES, TETRAHEDRON.replace("3 1 2 3", "3 1.5 2 3")))
@@ -332,7 +334,7 @@ def test_a_header_has_a_million_bytes_at_most(tmp_path):
         if is_read:
             assert measured(tmp_path, "a.ply", data).closed
         else:
-            with refused("file_damaged", cause={"code": "damage_ply_header", "values": {}}):
+            with refused("file_unrecognized", format="PLY"):
                 measured(tmp_path, "a.ply", data)
 
 
@@ -413,7 +415,7 @@ POINTS = "element vertex 4", "property float x", "property float y", "property f
     ],
 )
 def test_senseless_header_is_refused(tmp_path, data):
-    with refused("file_damaged", file="a.ply", cause={"code": "damage_ply_header", "values": {}}):
+    with refused("file_unrecognized", format="PLY"):
         measured(tmp_path, "a.ply", data + TETRAHEDRON.encode())
 
 
@@ -435,11 +437,11 @@ def test_files_of_other_types_are_refused(tmp_path):
     (tmp_path / "a.obj").write_bytes(b"")
     with refused("file_type", suffixes=".stl .ply"):
         open_mesh_file(tmp_path / "a.obj")
-    with refused("file_without_faces"):
+    with refused("file_without_objects", content="faces"):
         measured(tmp_path, "a.stl", stl((np.zeros((0, 3)), np.zeros((0, 3), int))))
-    with refused("file_without_objects", suffix=".ply"):
+    with refused("file_without_objects", content="faces"):
         measured(tmp_path, "a.ply", header(*POINTS) + b"0 0 0\n" * 4)
-    with refused("file_without_objects", suffix=".ply"):  # one number is no list of vertices
+    with refused("file_without_objects", content="faces"):  # one number is no list of vertices
         numbers = header(*POINTS, "element face 1", "property int vertex_indices")
         measured(tmp_path, "a.ply", numbers + b"0 0 0\n" * 4 + b"0\n")
     (tmp_path / "a.stl").rename(tmp_path / "b.STL")

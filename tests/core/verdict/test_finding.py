@@ -88,7 +88,7 @@ def test_numbers_lists_causes_and_sources_are_filled_in():
     assert sentence(finding("no_faces").of_sources(["A", "B"])).startswith("“A”, “B”: No faces.")
     cause = finding("no_faces").as_record()
     assert "No faces." in sentence(finding("hidden_object_measured", cause=cause))
-    assert "12.5%" in sentence(finding("flat_patch_holes_capped", count=1, share=0.125))
+    assert "12.5%" in sentence(finding("patch_holes_capped", flat=1, curved=0, share=0.125))
 
 
 def test_stored_finding_names_the_same_elements():
@@ -101,7 +101,7 @@ def test_stored_finding_names_the_same_elements():
 
 
 def test_nonfinite_finding_value_is_unknown():
-    assert "unknown of the area" in sentence(finding("flat_patch_holes_capped", count=1, share=None))
+    assert "unknown of the area" in sentence(finding("patch_holes_capped", flat=1, curved=0, share=None))
 
 
 def test_severity_belongs_to_the_code():

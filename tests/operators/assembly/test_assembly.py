@@ -7,9 +7,9 @@ import csv
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.session.stored import assembly as session
-from body_moments.blender.session.stored import results
+from body_moments.blender.session import displayed
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 from mathutils import Matrix
 
@@ -79,24 +79,24 @@ def test_the_total_is_stored_on_the_collection_and_drives(reported):
 @pytest.mark.parametrize(
     "change, reason",
     [
-        (lambda root: setattr(bpy.data.objects["b1"].body_moments, "density", 2.0), "stale_member"),
-        (lambda root: setattr(bpy.data.objects["b1"], "location", (9, 9, 9)), "stale_member"),
-        (lambda root: box(root, (1, 1, 1), name="new"), "stale_members"),
-        (lambda root: setattr(root.body_moments, "mass_from", "MASS"), "stale_members"),
-        (lambda root: setattr(bpy.data.collections["Arm"].body_moments, "mass_from", "MASS"), "stale_members"),
-        (lambda root: setattr(bpy.data.objects["b0"], "hide_render", True), "stale_members"),
+        (lambda root: setattr(bpy.data.objects["b1"].body_moments, "density", 2.0), Stale.MEMBER),
+        (lambda root: setattr(bpy.data.objects["b1"], "location", (9, 9, 9)), Stale.MEMBER),
+        (lambda root: box(root, (1, 1, 1), name="new"), Stale.MEMBERS),
+        (lambda root: setattr(root.body_moments, "mass_from", "MASS"), Stale.MEMBERS),
+        (lambda root: setattr(bpy.data.collections["Arm"].body_moments, "mass_from", "MASS"), Stale.MEMBERS),
+        (lambda root: setattr(bpy.data.objects["b0"], "hide_render", True), Stale.MEMBERS),
         (lambda root: None, None),
     ],
 )
 def test_an_assembly_is_out_of_date_when_a_member_is(change, reason):
     root = assembly_of_boxes()
     bpy.ops.object.body_moments_measure_assembly()
-    assert session.stale_reason(root) is None
+    assert staleness.stale_reason(root, bpy.context.scene) is None
     change(root)
     bpy.context.view_layer.update()
-    assert session.stale_reason(root) == reason
+    assert staleness.stale_reason(root, bpy.context.scene) == reason
     bpy.ops.object.body_moments_measure_assembly()
-    assert session.stale_reason(root) is None
+    assert staleness.stale_reason(root, bpy.context.scene) is None
 
 
 @pytest.mark.parametrize(
@@ -121,11 +121,11 @@ def test_new_member_frames_keep_assembly_current(operator, options, kept):
         obj.select_set(True)
     assert getattr(bpy.ops.object, "body_moments_" + operator)(**options) == {"FINISHED"}
     assert all(obj.matrix_world != was for obj, was in zip(root.all_objects, before))
-    assert session.stale_reason(root) == (None if kept else "stale_member")
-    assert session.stale_reason(bpy.data.collections["Arm"]) == (None if kept else "stale_member")
+    assert staleness.stale_reason(root, bpy.context.scene) == (None if kept else Stale.MEMBER)
+    assert staleness.stale_reason(bpy.data.collections["Arm"], bpy.context.scene) == (None if kept else Stale.MEMBER)
     bpy.data.objects["b1"].location.x += 1.0
     bpy.context.view_layer.update()
-    assert session.stale_reason(root) == "stale_member"
+    assert staleness.stale_reason(root, bpy.context.scene) == Stale.MEMBER
 
 
 def test_empty_with_children_carries_total_and_moves_to_center():
@@ -148,8 +148,8 @@ def test_empty_with_children_carries_total_and_moves_to_center():
     root.select_set(True)
     for child in root.children:
         child.select_set(True)
-    total = results.total(bpy.context)
-    assert total.count == 2 and close(total.body.mass, mass, 1e-6)
+    total = displayed.total(bpy.context)
+    assert total.count == 2 and close(total.numbers.mass, mass, 1e-6)
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-3])
@@ -255,4 +255,4 @@ def test_point_masses_are_measured_and_listed_as_objects_are():
     assert close(made["body_mass"], 5.0, 1e-15) and made["body_method"] == "given" and "body_mass" not in plain
     assert staleness.stale_reason(made, bpy.context.scene) is None
     made.body_moments.mass = 6.0
-    assert staleness.stale_reason(made, bpy.context.scene) == "stale_settings"
+    assert staleness.stale_reason(made, bpy.context.scene) == Stale.SETTINGS

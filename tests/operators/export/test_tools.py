@@ -105,7 +105,7 @@ def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path, reported):
     assert "r_repaired.urdf" in text
     assert "Multiply the inertia by 0.001" in text and "Impossible" in text
     assert 'ixx="5333.333"' in (tmp_path / "r_repaired.urdf").read_text(encoding="utf-8")
-    assert "audit_inertia_unit" in (tmp_path / "r.urdf.audit.html").read_text(encoding="utf-8")
+    assert "audit_unit" in (tmp_path / "r.urdf.audit.html").read_text(encoding="utf-8")
     with pytest.raises(RuntimeError, match="r_repaired.urdf"):
         bpy.ops.import_scene.body_moments_audit(**options)
     assert reported.codes[-1] == "file_exists"

@@ -8,6 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.read.section import read_section
+from body_moments.blender.session.tracking import staleness, stamps
+from body_moments.blender.session.tracking.stamps import Stale
 
 from tests.blender.findings import refused as refusal
 from tests.blender.findings import said
@@ -76,9 +78,8 @@ def stored(obj):
 
 
 def outdated(obj):
-    from body_moments.operators.measure import section
 
-    return section.stale_reason(obj, bpy.context.scene, stored(obj))
+    return staleness.stale_reason(obj, bpy.context.scene, stamps.of_section)
 
 
 @pytest.mark.parametrize("data", [lambda: flat_mesh(I_BEAM), lambda: curve_of(I_BEAM), lambda: curve_of(I_BEAM[::-1])])
@@ -319,17 +320,17 @@ def test_section_is_stale_after_shape_place_or_unit_change():
     assert outdated(obj) is None
     obj.location.x = 2.0
     update()
-    assert outdated(obj) == "stale_transform"
+    assert outdated(obj) == Stale.TRANSFORM
     obj.location.x = 0.0
     update()
     assert outdated(obj) is None
     bpy.context.scene.unit_settings.scale_length = 0.5
-    assert outdated(obj) == "stale_unit_scale"
+    assert outdated(obj) == Stale.UNIT_SCALE
     bpy.context.scene.unit_settings.scale_length = 1.0
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
     update()
-    assert outdated(obj) == "stale_geometry"
+    assert outdated(obj) == Stale.GEOMETRY
     bpy.ops.object.body_moments_measure_section()
     update()
     assert outdated(obj) is None
@@ -349,7 +350,7 @@ def test_a_section_survives_the_file_and_clear_takes_it_away(tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
     obj = bpy.context.object
-    assert outdated(obj) == "stale_geometry"
+    assert outdated(obj) == Stale.GEOMETRY
     bpy.ops.object.body_moments_clear()
     assert stored(obj) is None and "body_section" not in obj
 

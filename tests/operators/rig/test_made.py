@@ -4,7 +4,6 @@
 
 import bpy
 import pytest
-from body_moments.blender.session.stored import rig as session
 from body_moments.blender.session.tracking import staleness
 
 from tests.blender.objects import add, mesh_body, only, place
@@ -73,7 +72,7 @@ def test_made_rig_objects_keep_results_current(operator):
     assert getattr(bpy.ops.object, "body_moments_" + operator)() == {"FINISHED"}
     bpy.context.view_layer.update()
     assert staleness.stale_reason(other, bpy.context.scene) is None
-    assert session.stale_reason(armature, bpy.context.scene) is None
+    assert staleness.stale_reason(armature, bpy.context.scene) is None
 
 
 def test_joint_limits_follow_inverse_kinematics():

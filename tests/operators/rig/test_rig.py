@@ -8,10 +8,10 @@ import pytest
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.bodies.rig import measure_rig
 from body_moments.blender.read.robots import bone_freedom, bone_parents
+from body_moments.blender.session.displayed import drawn, drawn_bone
 from body_moments.blender.session.robots import bone_links
-from body_moments.blender.session.stored import rig as session
-from body_moments.blender.session.stored import shown
-from body_moments.blender.session.tracking import handlers
+from body_moments.blender.session.tracking import handlers, staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 from body_moments.core.polyhedron.first_order import volume_and_center
 
@@ -62,7 +62,7 @@ def test_bone_results_are_exact_in_rest_frame_at_any_pose():
         assert np.abs(found - tensor).max() < 1e-5 * tensor.max()
         assert bone["body_method"] == "exact" and set(properties.LENGTHS) <= set(bone.keys())
     assert close(armature["body_mass"], 1000.0 * sum(np.prod(np.subtract(h, low)) for low, h in made.BOXES), 2e-6)
-    assert session.stale_reason(armature, bpy.context.scene) is None
+    assert staleness.stale_reason(armature, bpy.context.scene) is None
     bpy.ops.object.body_moments_clear_bones()
     assert not any("body_mass" in owner for owner in (armature, *armature.pose.bones))
 
@@ -188,21 +188,21 @@ def test_posing_is_no_edit_and_sculpting_and_settings_are():
     armature, skin = character()
     bpy.ops.object.body_moments_measure_bones()
     pose(armature, 2)
-    assert session.stale_reason(armature, bpy.context.scene) is None
+    assert staleness.stale_reason(armature, bpy.context.scene) is None
     skin.body_moments.density = 2.0
     bpy.context.view_layer.update()
-    assert session.stale_reason(armature, bpy.context.scene) is not None
+    assert staleness.stale_reason(armature, bpy.context.scene) is not None
     bpy.ops.object.body_moments_measure_bones()
-    assert session.stale_reason(armature, bpy.context.scene) is None
+    assert staleness.stale_reason(armature, bpy.context.scene) is None
     armature.pose.bones["head"].body_moments.mass_from = "MASS"
     bpy.context.view_layer.update()
-    assert session.stale_reason(armature, bpy.context.scene) == "stale_rig"
+    assert staleness.stale_reason(armature, bpy.context.scene) == Stale.BONES
     bpy.ops.object.body_moments_measure_bones()
-    assert session.stale_reason(armature, bpy.context.scene) is None
+    assert staleness.stale_reason(armature, bpy.context.scene) is None
     skin.data.vertices[0].co.x += 1.0
     skin.data.update()
     bpy.context.view_layer.update()
-    assert session.stale_reason(armature, bpy.context.scene) == "stale_geometry"
+    assert staleness.stale_reason(armature, bpy.context.scene) == Stale.GEOMETRY
 
 
 def test_modifiers_after_the_armature_count():
@@ -309,23 +309,22 @@ def test_overlay_rig_is_sum_of_posed_parts():
     armature, _ = character()
     bpy.ops.object.body_moments_measure_bones()
     scene = bpy.context.scene
-    rest = shown.shown_body(armature, scene)
-    assert np.abs(rest.center - armature["body_center_of_mass"]).max() < 1e-6
-    assert close(rest.gyration**2 * rest.mass, np.array(armature["body_principal_moments"]), 1e-6)
+    rest = drawn(armature, scene).world
+    assert np.abs(np.subtract(rest.center, armature["body_center_of_mass"])).max() < 1e-6
+    assert close(np.array(rest.moments), np.array(armature["body_principal_moments"]), 1e-6)
     pose(armature)
     handlers.count_change()
-    now = shown.shown_body(armature, scene)
-    parts = [shown.shown_bone(bone, scene) for bone in armature.pose.bones]
+    now = drawn(armature, scene).world
+    parts = [drawn_bone(bone, scene).world.body for bone in armature.pose.bones]
     center = sum(part.mass * part.center for part in parts) / sum(part.mass for part in parts)
-    assert np.abs(now.center - center).max() < 1e-12 and np.abs(now.center - rest.center).max() > 1e-3
+    assert np.abs(now.center - center).max() < 1e-12 and np.abs(np.subtract(now.center, rest.center)).max() > 1e-3
     inertia = sum(
-        (part.axes * (part.mass * part.gyration**2)) @ part.axes.T
-        + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+        part.inertia + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
         for part in parts
         for arm in [part.center - center]
     )
-    found = (now.axes * (now.mass * now.gyration**2)) @ now.axes.T
-    assert np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(now.axes) > 0.0
+    found, axes = now.body.inertia, now.body.principal.axes
+    assert np.abs(found - inertia).max() < 1e-12 * np.abs(inertia).max() and np.linalg.det(axes) > 0.0
 
 
 def test_bone_freedom_follows_locks_limits_constraints():

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.operators.setup import node_group
 
 from tests.blender.objects import add, mesh_body, only, seen, strip_mesh
@@ -42,7 +43,7 @@ def test_rigid_body_keeps_material_results_current(frame):
         obj.data.vertices[0].co.x += move
         obj.data.update()
         bpy.context.view_layer.update()
-        assert staleness.stale_reason(obj, bpy.context.scene) == "stale_geometry"
+        assert staleness.stale_reason(obj, bpy.context.scene) == Stale.GEOMETRY
     assert bpy.ops.object.body_moments_rigid_bodies(frame=frame) == {"FINISHED"}
     bpy.context.view_layer.update()
     assert staleness.stale_reason(obj, bpy.context.scene) is None

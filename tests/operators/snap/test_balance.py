@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.session.tracking import staleness
+from body_moments.blender.session.tracking.stamps import Stale
 from body_moments.blender.write import properties
 from mathutils import Matrix
 
@@ -176,15 +177,15 @@ class TestRefused:
         obj = figure()
         only(obj)
         bpy.ops.object.body_moments_measure()
-        numbers = properties.numbers(obj)
+        numbers = properties.stored(obj)
         edit(obj, lambda co: co.z > 0.8)
         bpy.context.scene.cursor.location = (50.0, 0.0, 0.0)
         before = points(obj)
-        unchanged(obj, before, "balance_short_by_limit", reported)
+        unchanged(obj, before, "balance_short", reported)
         size = np.linalg.norm(np.ptp(before, axis=0))  # the limit where none is given
-        assert close(reported.values("balance_short_by_limit")["limit"], size, rel=1e-6)
+        assert close(reported.values("balance_short")["limit"], size, rel=1e-6)
         bpy.ops.object.mode_set(mode="OBJECT")
-        assert properties.numbers(obj) == numbers
+        assert properties.stored(obj) == numbers
 
     @pytest.mark.parametrize("unit", [1.0, 0.01])
     @pytest.mark.parametrize("way", [edit, group])
@@ -198,7 +199,7 @@ class TestRefused:
             assert balance(limit=1e-4) == {"CANCELLED"}
             bpy.context.view_layer.update()
         assert not changes and np.array_equal(points(obj), before)
-        assert close(reported.values("balance_short_by_limit")["limit"], 1e-4 * unit, rel=1e-6)
+        assert close(reported.values("balance_short")["limit"], 1e-4 * unit, rel=1e-6)
 
     def test_a_mesh_that_is_open(self, reported):
         obj = figure()
@@ -263,7 +264,7 @@ def test_other_users_of_balanced_mesh_become_stale(reported):
     assert "balance_mesh_shared" in reported.codes
     bpy.context.view_layer.update()
     reasons = [staleness.stale_reason(one, bpy.context.scene) for one in (obj, other)]
-    assert reasons == [None, "stale_geometry"]
+    assert reasons == [None, Stale.GEOMETRY]
 
 
 def test_undo_brings_the_vertices_back():

@@ -10,18 +10,16 @@ import bpy
 from bl_ui.utils import PresetPanel
 from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
-from ...blender.settings.properties import density_field_name
-from ...blender.write.units import Units
-from ...core.density.materials import CATEGORIES, FILAMENT, MATERIALS
-from ...core.verdict.finding import finding
-from ...operators.setup.presets import (
+from ..blender.settings.properties import density_field_name
+from ..blender.write.units import Units
+from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
+from ..operators.setup.presets import (
     PRESET_FOLDER,
     MATERIAL_OT_body_moments_set_density,
     OBJECT_OT_body_moments_preset_add,
     OBJECT_OT_body_moments_set_material,
 )
-from .. import rows
-from ..findings import PANEL_MATERIAL_DEFAULT
+from . import rows
 
 
 class OBJECT_MT_body_moments_materials(Menu):
@@ -144,7 +142,7 @@ class MATERIAL_PT_body_moments(Panel):
         if material.body_moments.material:
             column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)
         elif not material.body_moments.density:
-            rows.message(column, context, finding(PANEL_MATERIAL_DEFAULT))
+            rows.remark(column, context, "None: the object's density is used")
 
 
 CLASSES = (

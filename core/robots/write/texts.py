@@ -1,25 +1,22 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The formats of robots by name."""
+"""A robot as the text of a format, with the findings about it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from types import ModuleType
 
 from ...mesh.surface import Surface
 from ...verdict.finding import Finding
 from ...verdict.sentences import sentence
 from ..findings import MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL
+from ..formats import FORMATS
 from ..model import Robot
-from . import gltf_robot, mjcf, sdf, urdf, usd
 from .shapes import with_meshes
 from .stl import write_meshes
 
-WRITERS: dict[str, ModuleType] = {"urdf": urdf, "sdf": sdf, "mjcf": mjcf, "usd": usd, "gltf": gltf_robot}
 OF_INERTIALS = {MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL}  # all else is said of geometry and joints
-EMBEDDING = ("usd", "gltf")  # These formats hold meshes themselves; the others name files of them.
 
 
 def with_geometry(
@@ -35,22 +32,17 @@ def with_geometry(
     surface_of: as of `with_meshes`. output, read, force: as of `write_meshes`. Raises OSError.
     """
     robot, findings = with_meshes(robot, surface_of)
-    return robot if format_name in EMBEDDING else write_meshes(robot, output, read, force), findings
+    return robot if FORMATS[format_name].holds_meshes else write_meshes(robot, output, read, force), findings
 
 
 def robot_text(
-    robot: Robot,
-    format_name: str,
-    findings: Iterable[Finding] = (),
-    *,
-    inertial_only: bool = False,
+    robot: Robot, format_name: str, findings: Iterable[Finding] = (), *, inertial_only: bool = False
 ) -> tuple[str, list[Finding]]:
     """Return a robot in one of the formats, and findings about it, which stand in the text as well.
 
     findings: about the robot, whatever the format. inertial_only: without geometry and joints.
     """
-    writer = WRITERS[format_name]
+    writer = FORMATS[format_name].writer_module
     said = [one for one in writer.check(robot) if one.code in OF_INERTIALS or not inertial_only]
     findings = [*findings, *said]
-    text = writer.write(robot, list(map(sentence, findings)), inertial_only=inertial_only)
-    return text, findings
+    return writer.write(robot, list(map(sentence, findings)), inertial_only=inertial_only), findings

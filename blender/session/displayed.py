@@ -1,0 +1,243 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here.
+
+Panels of stored numbers are drawn without numpy; live numbers and sums are computed by other modules.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import bpy
+from bpy.types import Context, Object, PoseBone, Scene
+
+from ...core.numerics.float32 import shortest_decimal
+from ...core.solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
+from ...core.verdict.finding import Finding, Severity
+from ...core.verdict.findings import FLIPPED_FACES
+from ...core.verdict.method import Method, Verdict
+from ...core.verdict.sentences import severity
+from ..read.fingerprint import has_transform, settings_hash
+from ..read.total_caveats import open_body_caveats, total_caveats
+from ..write import properties
+from ..write.properties import StoredProperties
+from . import live, stored
+from .live import following
+from .live.following import Lag, LiveResult
+from .tracking import handlers, posed, updates
+from .tracking.cache import SessionCache, current_value
+from .tracking.staleness import stale_reason
+from .tracking.stamps import Stale, of_results
+
+REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
+# Warnings that say how the surface was closed: those of a repaired body.
+REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
+ASSEMBLY = Method(Verdict.ASSEMBLY)
+BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
+
+
+class Trust(StrEnum):
+    """Trust in displayed numbers, the best first."""
+
+    EXACT = "exact"
+    REPAIRED = "repaired"
+    DOUBTFUL = "doubtful"
+    OUT_OF_DATE = "out of date"
+
+
+@dataclass(frozen=True, eq=False)
+class Displayed:
+    """The displayed numbers of an object, SI.
+
+    numbers: in the object frame; world: in the world frame. unit: meters per Blender unit. reason: why they are out of
+    date. live: the measurement with Live on. lag: of live numbers. is_posed: they are a sum in the present pose.
+    """
+
+    numbers: StoredProperties
+    world: StoredProperties
+    unit: float
+    method: Method | None
+    findings: Sequence[Finding]
+    trust: Trust
+    reason: Stale | None = None
+    live: LiveResult | None = None
+    lag: Lag = Lag.NONE
+    is_posed: bool = False
+
+    def in_frame(self, frame: str) -> StoredProperties:
+        """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
+        return self.numbers if frame == "OBJECT" else self.world
+
+
+@dataclass(frozen=True, eq=False)
+class Total:
+    """Selected objects as one body.
+
+    count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
+    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: on possible non-parts.
+    """
+
+    count: int
+    volume: float
+    area: float
+    numbers: StoredProperties | None
+    missing: tuple[str, ...]
+    stale: tuple[str, ...]
+    doubtful: tuple[str, ...]
+    findings: tuple[Finding, ...]
+
+
+# The last drawn numbers of an object, the key of its state but for its place, and the number of its last move.
+_drawn: SessionCache[tuple[tuple, int, Displayed | None]] = SessionCache()
+_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
+# A scene's last total, and the generation and view layer that it is of: the panel is drawn at every mouse movement.
+_totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
+
+
+def displayed(obj: Object, scene: Scene) -> Displayed | None:
+    """Return the displayed numbers of an original object: posed, live or stored; None if there are none.
+
+    scene: sets the unit scale.
+    """
+    is_posed = obj.type == "ARMATURE" and posed.stands_for_meshes(obj)
+    if is_posed and (total := stored.sums.of_meshes(obj, scene)) is not None:
+        return total
+    current = following.followed.get(obj)
+    now = None if current is None else current.result
+    if current is not None and now is not None and (measurement := now.measurement) is not None:
+        own = live.live.map_properties(obj, current, measurement, scene)
+        method, findings, lag = measurement.method, measurement.findings, following.lag(obj)
+        reason = stale_reason(obj, scene, following.stamp_of)
+        is_behind = reason is not None or lag == Lag.BEHIND
+    else:
+        own = properties.stored(obj) if "body_mass" in obj else None
+        method, findings, lag = properties.method(obj), properties.findings(obj), Lag.NONE
+        reason = stale_reason(obj, scene)
+        is_behind, now = reason is not None, None
+    if own is None:
+        return None
+    trust = Trust.OUT_OF_DATE if is_behind else trust_of(method, findings)
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    return Displayed(own, own.in_world(obj.matrix_world, unit), unit, method, findings, trust, reason, now, lag)
+
+
+def drawn(obj: Object, scene: Scene) -> Displayed | None:
+    """Return the displayed numbers of an original object where it is drawn: a character's as it is posed.
+
+    None if it has no mass.
+    """
+    if obj.type == "ARMATURE" or obj in following.followed or obj.body_moments.density_from in BY_OTHERS:
+        shown = displayed(obj, scene)
+        if obj.type == "ARMATURE" and shown is not None and not shown.is_posed:
+            shown = stored.sums.of_bones(obj, scene)
+    else:
+        shown = _known_displayed(obj, scene) if "body_mass" in obj else None
+    return shown if shown is not None and shown.world.mass > 0.0 else None
+
+
+def _known_displayed(obj: Object, scene: Scene) -> Displayed | None:
+    """Return the displayed numbers of an object that depends on no other, computed again only after its changes.
+
+    The numbers of a thousand objects take 0.1 s.
+    """
+    change, move = updates.last_change_and_move(obj)
+    settings, known = scene.body_moments, _drawn.get(obj)
+    key = (
+        change,
+        obj.get("body_fingerprint"),
+        obj.get("body_findings"),
+        scene.session_uid,
+        scene.unit_settings.scale_length,
+        settings.default_material,
+        settings.default_density,
+    )
+    if known is None or known[0] != key:
+        shown = displayed(obj, scene)
+    elif known[1] == move:
+        return known[2]
+    else:
+        shown, stamp = known[2], of_results(obj)
+        if shown is None or stamp is None or shown.reason is not None or not has_transform(obj, stamp.transform):
+            shown = displayed(obj, scene)
+        else:
+            shown = replace(shown, world=shown.numbers.in_world(obj.matrix_world, shown.unit))
+    _drawn[obj] = key, move, shown
+    return shown
+
+
+def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
+    """Return the numbers of a pose bone's part, in the bone's current place; None if it has none.
+
+    bone: of an original armature object.
+    """
+    armature, own = bone.id_data, properties.stored(bone)
+    if own is None:
+        return None
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    world = own.in_world(armature.matrix_world @ bone.matrix, unit)
+    method, findings, reason = properties.method(bone), properties.findings(armature), stale_reason(armature, scene)
+    trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
+    return Displayed(own, world, unit, method, findings, trust, reason)
+
+
+def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
+    """Return the trust in current numbers of this method with these findings."""
+    warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
+    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
+        return Trust.DOUBTFUL
+    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
+
+
+def remember_failure(obj: Object, reason: Finding | None) -> None:
+    """Keep, while the file is open, the reason why the object could not be measured; None forgets it."""
+    if reason is None:
+        _failures.forget(obj)
+    else:
+        _failures[obj] = reason, settings_hash(obj, bpy.context.scene)
+
+
+def failure(obj: Object) -> Finding | None:
+    """Return the reason why the last measurement with these settings failed, if it did."""
+    reason, settings = _failures.get(obj) or (None, "")
+    return reason if reason is not None and settings == settings_hash(obj, bpy.context.scene) else None
+
+
+def total(context: Context) -> Total:
+    """Return the selected objects as one body, by the parallel-axis theorem, from displayed numbers."""
+    key = handlers.generation(), context.view_layer.name
+    return current_value(_totals, context.scene, key, lambda: _sum(context))
+
+
+def _sum(context: Context) -> Total:
+    chosen = posed.subjects(context.view_layer.objects.selected)
+    selected, parts, missing = set(chosen), {}, []
+    for obj in chosen:
+        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(stored.sums.members(obj, selected)):
+            continue  # its members count by themselves
+        shown = displayed(obj, context.scene)
+        if shown is None:
+            missing.append(obj.name)
+        else:
+            parts[obj] = shown
+    worlds = [shown.world for shown in parts.values()]
+    alone = next((numbers for numbers in worlds if numbers.mass > 0.0), None)
+    stale, doubtful = (
+        tuple(obj.name for obj, shown in parts.items() if shown.trust == trust)
+        for trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
+    )
+    return Total(
+        len(parts),
+        sum(numbers.volume for numbers in worlds),
+        sum(numbers.area for numbers in worlds),
+        stored.sums.add(worlds) if len(worlds) > 1 else alone,
+        tuple(missing),
+        stale,
+        doubtful,
+        (
+            *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
+            *total_caveats(parts, context.view_layer),
+        ),
+    )

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reactions of the session to Blender's reports and to changed settings, in one table.
+
+Modules with sliders add their own when they keep something (`stored.walls`, `stored.threshold`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from ..settings import hooks
+from . import live
+from .live.following import followed
+from .stored import density, outcome
+from .tracking import handlers, rigs, staleness, updates
+
+
+def _follow_live(events: handlers.Updates) -> None:
+    if len(followed):
+        live.live.note_updates(events)
+
+
+def _count_change(*_args: object) -> None:
+    handlers.count_change()
+
+
+SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
+    (handlers.on_update, updates.note_updates),
+    (handlers.on_update, rigs.note_updates),
+    (handlers.on_update, _follow_live),
+    (handlers.before_undo, staleness.note_all_edits),
+    (handlers.on_undo, updates.note_undo),
+    (handlers.on_undo, rigs.watch_all),  # undo makes Python's references to objects invalid
+    (handlers.on_load, updates.forget_file),
+    (handlers.on_load, staleness.forget_file),
+    (handlers.on_load, outcome.forget),
+    (handlers.on_load, rigs.watch_all),
+    (handlers.on_save, staleness.write_notes),
+    (hooks.on_change, updates.note_setting),
+    (hooks.on_part_change, _count_change),
+    (hooks.on_density_change, density.on_density),
+    (hooks.on_default_density_change, density.on_default_density),
+)
+
+
+def register() -> None:
+    """React from now on."""
+    for subscribers, function in SUBSCRIPTIONS:
+        subscribers.append(function)
+
+
+def unregister() -> None:
+    """React no more, but write the existing notes first, for the file may outlive the add-on."""
+    staleness.write_notes()
+    for forget in (updates.forget_file, staleness.forget_file, outcome.forget):
+        forget()
+    for subscribers in (*handlers.LISTS, *hooks.LISTS):
+        subscribers.clear()

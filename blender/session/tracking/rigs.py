@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Edits of the meshes of measured characters.
+
+A skinned mesh is evaluated anew whenever its armature moves, which changes nothing: the rest pose is measured. So an
+edit is noted if Blender reports a new shape of a mesh and nothing new of its armature.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+from bpy.types import Object
+
+from ... import read
+from ...read.tracking import tracking_paused
+from ...write import properties
+from . import handlers, staleness
+
+_watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the armatures that deform them
+
+
+def watch(armature: Object, objects: Iterable[Object]) -> None:
+    """Note edits of the meshes that an armature deforms from now on."""
+    for obj in read.rig.skinned_objects(armature, objects):
+        _watched[obj.session_uid] = armature
+
+
+def watch_all() -> None:
+    """Watch the meshes of all measured characters of a file."""
+    _watched.clear()
+    for obj in bpy.data.objects:
+        if obj.type == "ARMATURE" and "body_mass" in obj:
+            watch(obj, bpy.data.objects)
+
+
+def note_updates(updates: handlers.Updates) -> None:
+    """Note the edits among the updated objects."""
+    if tracking_paused.depth or not _watched:
+        return
+    touched = {*updates.reshaped, *updates.moved, *updates.others}
+    for uid in _watched.keys() & updates.reshaped:
+        armature = _watched[uid]
+        if armature.session_uid not in touched:
+            staleness.set_edited(armature, properties.fingerprint(armature), True)

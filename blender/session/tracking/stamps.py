@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stamps: the inputs of stored data, as digests, to be compared with the present ones by `staleness.stale_reason`.
+
+Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings, joined by colons. In
+a saved file, EDITED stands in place of the geometry's digest if the geometry has changed since. Data in memory, such as
+hulls, have stamps of the same form, that the session carries for their objects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from enum import Enum, StrEnum
+from typing import NamedTuple
+
+from bpy.types import Collection, Object
+
+from ....core.verdict.method import Verdict
+from ...read.fingerprint import VERSION
+from ...write import properties, section
+from .cache import SessionCache
+
+EDITED = "edited"
+
+
+class Stale(StrEnum):
+    """Reasons why stored data are out of date, as sentences to be translated."""
+
+    FINGERPRINT = "Fingerprint damaged"
+    SETTINGS = "Settings changed"
+    GEOMETRY = "Geometry changed"
+    TRANSFORM = "Transform changed"
+    SCALE = "Scale changed"
+    UNIT_SCALE = "Unit scale changed"
+    MEMBER = "A member changed, or was measured anew"
+    MEMBERS = "Members were added, removed or moved, or given masses changed"
+    BONES = "Bones, settings or objects changed"
+
+
+class Kind(Enum):
+    """Kinds of stored data; they depend on different inputs."""
+
+    RESULTS = "results"
+    SECTION = "section"
+    SYMMETRY = "symmetry"
+    ASSEMBLY = "assembly"
+    BONES = "bones"
+    MOMENTS = "moments"  # in memory, as are the following
+    HULL = "hull"
+    SETTINGS = "settings"  # live numbers and failed measurements
+
+
+class Stamp(NamedTuple):
+    """The inputs of stored data: digests, but for the version.
+
+    extra: the unit scale of a section, in meters.
+    """
+
+    kind: Kind
+    version: str
+    geometry: str = ""
+    transform: str = ""
+    settings: str = ""
+    extra: float | None = None
+
+    @classmethod
+    def parse(cls, text: str, kind: Kind = Kind.RESULTS, extra: float | None = None) -> Stamp:
+        """Return a stored stamp; without a version if a script has put any other text in its place."""
+        parts = text.split(":")
+        return cls(kind, *parts, extra=extra) if len(parts) == 4 else cls(kind, "")
+
+    @property
+    def text(self) -> str:
+        """The stored form."""
+        return ":".join(self[1:5])
+
+
+# The stamps of objects' data in memory, by kind.
+_carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
+
+
+def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
+    """Give an original object the stamp of data in memory. number: of the update of its geometry."""
+    stamp = Stamp(kind, VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
+    _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
+    return stamp
+
+
+def carried(obj: Object, kind: Kind) -> Stamp | None:
+    """Return the stamp of an object's data in memory, if any."""
+    return (_carried.get(obj) or {}).get(kind)
+
+
+def of_results(owner: Object | Collection) -> Stamp | None:
+    """Return the stamp of the stored results, None if there are none."""
+    text = properties.fingerprint(owner)
+    if not text and "body_mass" not in owner:
+        return None
+    kind = Kind.RESULTS
+    if not isinstance(owner, Object):
+        kind = Kind.ASSEMBLY
+    elif owner.type in {"EMPTY", "ARMATURE"} and owner.get("body_method") == Verdict.ASSEMBLY:
+        kind = Kind.ASSEMBLY if owner.type == "EMPTY" else Kind.BONES
+    return Stamp.parse(text, kind)
+
+
+def of_section(obj: Object) -> Stamp | None:
+    """Return the stamp of the stored section, None if there is none."""
+    text = section.fingerprint(obj)
+    return Stamp.parse(text, Kind.SECTION, section.unit(obj)) if text else None
+
+
+def of_symmetry(obj: Object) -> Stamp | None:
+    """Return the stamp of the stored symmetry, None if there is none."""
+    # Asked first: reading a group that is not there makes one.
+    text = obj.body_moments_symmetry.fingerprint if obj.is_property_set("body_moments_symmetry") else ""
+    return Stamp.parse(text, Kind.SYMMETRY) if text else None
+
+
+def with_geometry(obj: Object) -> dict[str, Kind]:
+    """Return the stored forms of all stamps of an original object that hold for its own geometry, and their kinds."""
+    found = [of_results(obj), of_section(obj), of_symmetry(obj), *(_carried.get(obj) or {}).values()]
+    return {
+        stamp.text: stamp.kind for stamp in found if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
+    }
+
+
+def write_edited(obj: Object, edited: Container[str]) -> None:
+    """Put EDITED into those stored stamps of an original, editable object whose geometry has changed."""
+    for stamp in (of_results(obj), of_section(obj), of_symmetry(obj)):
+        if stamp is None or not stamp.version or stamp.text not in edited:
+            continue
+        text = stamp._replace(geometry=EDITED).text
+        if stamp.kind == Kind.SYMMETRY:
+            obj.body_moments_symmetry.fingerprint = text
+        elif stamp.kind == Kind.SECTION:
+            obj[section.KEY]["fingerprint"] = text
+        else:
+            obj["body_fingerprint"] = text

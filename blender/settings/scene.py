@@ -1,0 +1,168 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The settings of a scene: display of numbers, initial settings of its objects, the overlay, and the reference.
+
+Inertia and moments are shown about the reference.
+"""
+
+from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty, PointerProperty
+from bpy.types import Object, PropertyGroup, Scene
+
+from ...core.measurement.documents import MAX_ORDER
+from .preferences import BodyMomentsPreferences, SceneDefaults
+from .properties import TRANSLATION_CONTEXT
+
+
+class BodyMomentsOverlaySettings(PropertyGroup):
+    """Settings of the overlay of measured objects."""
+
+    show: BoolProperty(
+        name="Mass Properties",
+        description="Draw the center of mass and the principal axes of measured objects in the 3D Viewport",
+        default=True,
+    )
+    show_all: BoolProperty(
+        name="All Measured Objects",
+        description="Draw all visible measured objects instead of the selected ones",
+        default=False,
+    )
+    show_axes: BoolProperty(
+        name="Principal Axes",
+        description="Draw the principal axes 1, 2 and 3, each as long as its radius of gyration in both directions",
+        default=True,
+    )
+    show_drop_line: BoolProperty(
+        name="Drop Line",
+        description="Draw a line from the center of mass straight down or up to the floor, Z = 0",
+        default=True,
+    )
+    equivalent: EnumProperty(
+        name="Equal Inertia",
+        description="Draw the body of uniform density that has the same mass and the same principal moments",
+        items=(
+            ("NONE", "None", "Draw no equivalent body"),
+            ("BOX", "Box", "Draw the box with the same inertia"),
+            ("ELLIPSOID", "Ellipsoid", "Draw the ellipsoid with the same inertia"),
+        ),
+        default="NONE",
+    )
+    show_sum: BoolProperty(
+        name="Sum of Selection",
+        description="Draw the center of mass and the principal axes of the selected objects as one body",
+        default=False,
+    )
+    show_faults: BoolProperty(
+        name="Faults",
+        description="Draw boundary edges and flipped faces that were found when the object was measured",
+        default=False,
+    )
+    show_support: BoolProperty(
+        name="Support Polygon",
+        description="Draw the support polygon and the direction of tipping of objects whose stability was computed",
+        default=True,
+    )
+    show_path: BoolProperty(
+        name="Path of Balance Groups",
+        description="Draw the path of the center of mass that was computed over the frame range",
+        default=True,
+    )
+
+
+class BodyMomentsReferenceSettings(PropertyGroup):
+    """Settings of the reference of inertia and moments."""
+
+    about: EnumProperty(
+        name="About",
+        description="Point and axes that inertia and moments are referred to",
+        translation_context=TRANSLATION_CONTEXT,
+        items=(
+            ("CENTER", "Center of Mass", "The center of mass, along the world axes"),
+            ("ORIGIN", "Object Origin", "Origin and axes of the measured object"),
+            ("WORLD", "World Origin", "World origin and axes"),
+            ("CURSOR", "3D Cursor", "Location and axes of the 3D cursor"),
+            ("OBJECT", "Other Object", "Origin and axes of another object"),
+            ("AXIS", "Axis", "The axis from one point to another"),
+        ),
+        default="WORLD",
+    )
+    object: PointerProperty(name="Object", description="Object whose origin and axes are the reference", type=Object)
+    first: FloatVectorProperty(
+        name="From", description="First point of the axis, in the world", subtype="XYZ", unit="LENGTH", precision=6
+    )
+    second: FloatVectorProperty(
+        name="To",
+        description="Second point of the axis, in the world",
+        subtype="XYZ",
+        unit="LENGTH",
+        precision=6,
+        default=(0.0, 0.0, 1.0),
+    )
+
+
+class BodyMomentsSceneSettings(SceneDefaults, PropertyGroup):
+    """Display settings of the scene's numbers, and initial settings of its objects."""
+
+    overlay: PointerProperty(name="Overlay", type=BodyMomentsOverlaySettings)
+    has_defaults: BoolProperty(
+        name="Has Defaults",
+        description="The add-on's preferences were copied into this scene",
+        options={"HIDDEN"},
+    )
+    units_answered: BoolProperty(
+        name="Units Answered",
+        description="Whether a unit of this scene is a millimeter has been answered",
+        options={"HIDDEN"},
+    )
+    moments_order: IntProperty(
+        name="Order",
+        translation_context=TRANSLATION_CONTEXT,
+        description="Highest p + q + r of the computed moments ∫ x^p y^q z^r",
+        default=4,
+        min=1,
+        max=MAX_ORDER,
+        soft_max=20,
+    )
+    moments_of: EnumProperty(
+        name="Domain",
+        description="What the moments integrate over",
+        items=(
+            ("VOLUME", "Volume", "Volume. For shells, area times thickness"),
+            ("SURFACE", "Surface", "Area of the faces"),
+            ("MASS", "Mass", "Volume, or for shells the area, times the density wherever it comes from"),
+            ("FLAT", "Area", "Area of a flat shape in its own plane, ∫ x^p y^q dA"),
+        ),
+        default="VOLUME",
+    )
+    moments_about: EnumProperty(
+        name="About",
+        translation_context=TRANSLATION_CONTEXT,
+        description="Point that the coordinates are relative to",
+        items=(
+            ("ORIGIN", "Frame Origin", "Origin of the chosen frame"),
+            ("CENTER", "Center", "Center of the volume or surface: central moments"),
+            (
+                "NORMALIZED",
+                "Center, Normalized",
+                "Central moments of the shape scaled to a volume or area of 1, independent of size",
+            ),
+            (
+                "INVARIANT",
+                "Invariants",
+                "Numbers of a flat shape that do not depend on its place, rotation and size: Hu's, then Flusser's",
+            ),
+            ("REFERENCE", "Reference", "Point and axes that Inertia about Reference refers to"),
+        ),
+        default="ORIGIN",
+    )
+
+
+CLASSES = (
+    BodyMomentsPreferences,
+    BodyMomentsOverlaySettings,
+    BodyMomentsReferenceSettings,
+    BodyMomentsSceneSettings,
+)
+POINTERS = {
+    (Scene, "body_moments"): BodyMomentsSceneSettings,
+    (Scene, "body_moments_reference"): BodyMomentsReferenceSettings,
+}

@@ -1,0 +1,175 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Drawing in the 3D Viewport: a few batches for all bodies, remade only after a change.
+
+Lines and discs are drawn twice, to show how deep they lie: through everything, lines faint and discs without their
+white quadrants, and then in full if nothing is in front of them. The nearest come last. The drawing depends on the
+session's generation and the settings, and with discs also on the view: as long as these stay, a redraw makes no array.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import bpy
+import gpu
+import numpy as np
+from bpy.types import Context
+from gpu_extras.batch import batch_for_shader
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ...blender.session.tracking import handlers
+from ...blender.settings.scene import BodyMomentsOverlaySettings
+from . import appearance as look
+from . import lines
+from .bodies import Bodies, collect
+from .details import list_details
+from .draw import drawn_objects
+
+MAX_REGIONS = 8  # number of regions with cached batches
+SETTINGS = tuple(name for name in BodyMomentsOverlaySettings.__annotations__ if name != "show")
+
+Batch = gpu.types.GPUBatch
+
+
+@dataclass(eq=False)
+class _Drawn:
+    """The batches of a region, and everything that they depend on besides the view."""
+
+    key: tuple
+    bodies: Bodies
+    lines: tuple[Batch, ...]  # faint, full
+    fills: tuple[Batch, ...]
+    discs: tuple[Batch, ...] = ()  # hidden, seen
+    view_key: tuple = ()  # view of these discs
+
+
+_regions: dict[int, _Drawn] = {}  # by the region's pointer
+
+
+def draw_region(context: Context) -> None:
+    """Draw the overlay into a region, with current batches."""
+    pointer, key = context.region.as_pointer(), _key(context)
+    drawn, settings = _regions.get(pointer), context.scene.body_moments.overlay
+    if drawn is None or drawn.key != key:
+        if drawn is None and len(_regions) == MAX_REGIONS:
+            del _regions[next(iter(_regions))]
+        objects = drawn_objects(context, settings.show_all)
+        bodies, details = collect(context, objects), list_details(context, objects)
+        segments = [*lines.body_lines(bodies, settings), *(detail.segments for detail in details)]
+        fills = _fill_batches([detail.triangles for detail in details])
+        drawn = _regions[pointer] = _Drawn(key, bodies, _line_batches(segments), fills)
+    if not (drawn.lines or drawn.fills or len(drawn.bodies.centers)):
+        return
+    view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
+    if drawn.view_key != view_key:
+        drawn.discs = _discs(drawn.bodies, _view(*view_key), settings.show_axes)
+        drawn.view_key = view_key
+    with _restored_state():
+        _draw_batches(drawn, view_key[2])
+
+
+def forget_regions() -> None:
+    """Free the batches."""
+    _regions.clear()
+
+
+def _key(context: Context) -> tuple:
+    """Return everything that the drawing depends on, besides the view."""
+    settings = context.scene.body_moments.overlay
+    return (
+        handlers.generation(),
+        context.scene.session_uid,
+        context.view_layer.name,
+        context.space_data.local_view is not None,
+        tuple(bone.name for bone in context.selected_pose_bones or ()),
+        *(getattr(settings, name) for name in SETTINGS),
+        _scale(),
+    )
+
+
+def _scale() -> float:
+    return bpy.context.preferences.system.ui_scale
+
+
+def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> lines.View:
+    return lines.View(np.array(view, np.float64), np.array(projection, np.float64), np.array(size, np.float64))
+
+
+def _fill_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
+    """Return the batches of parts: (k, 3, 3) triangles and (k, 4) colors."""
+    parts = [(triangles, colors) for triangles, colors in parts if len(triangles)]
+    if not parts:
+        return ()
+    points = np.concatenate([triangles for triangles, _ in parts]).reshape(-1, 3).astype(np.float32)
+    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(3, axis=0)
+    return (batch_for_shader(gpu.shader.from_builtin("FLAT_COLOR"), "TRIS", {"pos": points, "color": colors}),)
+
+
+def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
+    """Return the batches of parts: (k, 2, 3) segments and (k, 4) colors."""
+    parts = [(segments, colors) for segments, colors in parts if len(segments)]
+    if not parts:
+        return ()
+    points = np.concatenate([segments for segments, _ in parts]).reshape(-1, 3).astype(np.float32)
+    colors = np.concatenate([colors for _, colors in parts]).astype(np.float32).repeat(2, axis=0)
+    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    faint = colors.copy()
+    faint[:, 3] *= look.BEHIND
+    return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
+
+
+def _discs(bodies: Bodies, view: lines.View, with_digits: bool) -> tuple[Batch, ...]:
+    if not len(bodies.centers):
+        return ()
+    discs = lines.disc_triangles(bodies, view, _scale(), with_digits)
+    if discs is None:
+        return ()
+    points, colors, triangles = discs
+    shader = gpu.shader.from_builtin("FLAT_COLOR")
+    return tuple(
+        batch_for_shader(shader, "TRIS", {"pos": points, "color": tints}, indices=triangles) for tints in colors
+    )
+
+
+# ---------------------------------------------------------------- Drawing it
+
+
+@contextmanager
+def _restored_state() -> Iterator[None]:
+    """Put the GPU's state back, whatever happens in here."""
+    state = gpu.state
+    blend, depth, mask = state.blend_get(), state.depth_test_get(), state.depth_mask_get()
+    try:
+        state.blend_set("ALPHA")
+        state.depth_mask_set(False)
+        yield
+    finally:
+        state.blend_set(blend)
+        state.depth_test_set(depth)
+        state.depth_mask_set(mask)
+
+
+def _draw_batches(drawn: _Drawn, size: tuple[int, int]) -> None:
+    scale = _scale()
+    flat = gpu.shader.from_builtin("FLAT_COLOR")
+    gpu.state.depth_test_set("NONE")
+    for batch in drawn.fills:
+        batch.draw(flat)
+    uniform = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    colored = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    for batch, depth, opacity in zip(drawn.lines, ("NONE", "LESS_EQUAL"), (look.BEHIND, 1.0)):
+        gpu.state.depth_test_set(depth)
+        for shader, width in ((uniform, look.LINE + 2.0 * look.OUTLINE), (colored, look.LINE)):
+            shader.bind()
+            shader.uniform_float("viewportSize", size)
+            shader.uniform_float("lineWidth", scale * width)
+            if shader is uniform:
+                shader.uniform_float("color", (*look.DARK[:3], 0.6 * opacity))
+            batch.draw(shader)
+    for batch, depth in zip(drawn.discs, ("NONE", "LESS_EQUAL")):
+        gpu.state.depth_test_set(depth)
+        batch.draw(flat)
