@@ -57,10 +57,7 @@ class Measured:
 def measure_object(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Measurement:
-    """Return the mass properties of one object as it is evaluated, in SI units and world axes.
-
-    Raise MeasureError if there is nothing to measure.
-    """
+    """Return the mass properties of one evaluated object, SI, world axes, or raise MeasureError."""
     return measure_body(obj, depsgraph, options).measurement
 
 

@@ -95,10 +95,7 @@ class Rig:
 
 
 def measure_rig(context: Context, armature: Object) -> Rig:
-    """Measure the parts of all bones of a character; the view layer has the armature and all that it moves.
-
-    Raise MeasureError if no part has a mass.
-    """
+    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass."""
     with rest_pose(context, armature) as depsgraph:
         return _Measuring(armature, depsgraph).rig()
 

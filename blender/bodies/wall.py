@@ -106,10 +106,7 @@ class Walls:
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
-        """Return the body with walls of a thickness, m.
-
-        check_overlap: find walls that meet, which takes time. Raises ReadError if a wall folds over.
-        """
+        """Return the body with walls of a thickness, m, or raise ReadError; finding walls that meet takes time."""
         if not thickness > 0.0:
             raise ReadError(NO_THICKNESS)
         if any(piece.folds(self.side, thickness) for piece in self.pieces):

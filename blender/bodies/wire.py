@@ -73,10 +73,7 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: float) -> tuple[list[Curve], float]:
-    """Return the curves in the world, m, and by how much storing their points as float32 may have moved them.
-
-    `matrix` is (4, 4), world from their coordinates, Blender units; `unit` is in meters per Blender unit.
-    """
+    """Return the curves in the world, m, by their (4, 4) matrix in Blender units, and their points' float32 error."""
     largest = max(float(np.abs(curve.points).max()) for curve in curves)
     scaled = np.array(matrix, np.float64)
     scaled[:3] *= unit

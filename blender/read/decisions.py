@@ -189,10 +189,7 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    """Yield findings about differences in the render.
-
-    exact: the object is read without its display mesh, so that no resolution counts.
-    """
+    """Yield findings about differences in the render; no resolution counts for `exact` objects."""
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:

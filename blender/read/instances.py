@@ -88,10 +88,7 @@ class InstanceCollector:
             self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
-        """Return one part for each surface, its matrices finite.
-
-        Raises ReadError if an instance's are not. Instances scaled to nothing are left out and counted.
-        """
+        """Return one part for each surface, its matrices finite; instances scaled to nothing are counted alone."""
         parts = []
         for key, matrix_blocks in self._matrices.items():
             surface = self._surfaces[key]
@@ -321,10 +318,7 @@ def _needs_instance_list(obj) -> bool:
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
-    """Yield the enabled objects of a collection and its children, each once.
-
-    switch: the property that disables objects: in viewports, or in renders if it is `hide_render`.
-    """
+    """Yield each object of a collection and its children once, unless the property `switch` disables it."""
     visited = set()
     pending = [collection]
     while pending:

@@ -72,11 +72,7 @@ class SectionReading:
 
 
 def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
-    """Read one object: in Edit Mode of a mesh its currently selected faces, else its surface in the viewport.
-
-    selected: read only the selected faces in Edit Mode. resolution: of curves and text, in the place of their own.
-    Raises ReadError.
-    """
+    """Read the faces, in Edit Mode only the `selected` ones, or the outlines of an object, or raise ReadError."""
     obj = obj.original
     if obj.type not in SECTION_TYPES:
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)
@@ -104,12 +100,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
-    """Return the outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`.
-
-    The object has no modifiers, and follows no curve.
-
-    Raises ReadError if there are none.
-    """
+    """Return the outlines of a flat curve or text without modifiers in its own coordinates, and its `matrix_world`."""
     obj = obj.original
     place = locate(obj, depsgraph)
     curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]

@@ -94,11 +94,7 @@ def instanced_by_parent(obj) -> bool:
 
 
 def metaball_families(view_layer) -> list[list]:
-    """Return the metaball objects by family, in each the one first that holds the polygons of all.
-
-    A family shares the name before its number, and the lowest number holds
-    (BKE_mball_basis_find).
-    """
+    """Return the metaballs by family (the name before a number); the lowest number first, which holds all polygons."""
     families: dict[str, list] = {}
     for obj in view_layer.objects:
         if obj.type == "META":
@@ -117,10 +113,7 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """Return the object's `GeometrySet`, which owns the meshes that it returns.
-
-    Raises ReadError about `reader`, the object for which `obj` is read, if Blender has not evaluated `obj` in full.
-    """
+    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError about `reader`."""
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
         reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)
@@ -135,10 +128,7 @@ def evaluated_geometry(obj, depsgraph, reader):
 
 
 def _shape_keys_fit(curve) -> bool:
-    """Return whether a curve's shape keys have as many points as its splines.
-
-    Join adds splines and not to the keys: Blender then shows points from past their end.
-    """
+    """Return whether a curve's shape keys have as many points as its splines: joining curves adds no key points."""
     if curve.shape_keys is None or curve.is_editmode:
         return True
     count = sum(len(spline.bezier_points) + len(spline.points) for spline in curve.splines)

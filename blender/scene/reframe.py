@@ -138,10 +138,7 @@ def reframe(
 
 
 def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
-    """Return plans in groups that share data and want the same change of it.
-
-    A group never has a parent and its child, for the child is placed after its parent.
-    """
+    """Return plans in groups that share data and want the same change of it, a child never with its parent."""
     groups: list[list[Plan]] = []
     sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
     for plan in plans:
@@ -284,10 +281,7 @@ def _parent_matrix(obj: Object) -> Matrix4:
 
 
 def transform_data(data: ID, change: Matrix4) -> None:
-    """Map every control point of the data and its shape keys, p → change · p.
-
-    EditRefusedError if the data cannot.
-    """
+    """Map every control point of the data and its shape keys, p → change · p, or raise EditRefusedError."""
     if isinstance(data, bpy.types.Mesh):
         _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):

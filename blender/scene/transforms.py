@@ -76,10 +76,7 @@ def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
 
 
 def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) angles by axis x, y, z of rotations (..., 3, 3).
-
-    Of all equal angles they are the nearest to `near`, (..., 3).
-    """
+    """Return (..., 3) angles by axis x, y, z of rotations (..., 3, 3): of all equal ones the nearest to `near`."""
     i, j, k, s = _order(mode)
     locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
     first = np.where(locked, near[..., i], np.arctan2(s * rotation[..., k, j], rotation[..., k, k]))
@@ -132,11 +129,7 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
-    """Return rotations (..., 3, 3) and scales (..., 3) of linear maps, and a (...,) mask of maps that have them.
-
-    Scales have the signs of the present ones as far as the maps' hand allows. The mask excludes sheared maps and zero
-    scales.
-    """
+    """Return rotations and scales, with signs as now, of (..., 3, 3) maps, and a mask without sheared or zero ones."""
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)

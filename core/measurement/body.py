@@ -50,10 +50,7 @@ class Body:
     face_count: int = 0
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the volume's and the area's moments to another order; the area's may be None unless `area` is true.
-
-        Raise ReadError if they are not known.
-        """
+        """Return the volume's and the area's moments to another order, or raise ReadError if they are not known."""
         raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
 
     def third_order(self) -> Moments:

@@ -49,10 +49,7 @@ def build_measurement(
     estimated: bool = False,
     **fields: Any,
 ) -> Measurement:
-    """Return a measurement: its extents and bounds by these moments and properties, the other fields as given.
-
-    estimated: the bounds of rounding are estimates.
-    """
+    """Return a measurement: extents and bounds by moments and properties, the other fields as given."""
     rounding, moved = mass_properties.rounding_error, mass_properties.input_error
     known = {"volume_moments": volume, "area_moments": area}
     return Measurement(
@@ -166,10 +163,7 @@ def add_extents(extents: list[Extent]) -> Extent:
 
 
 def find_extent(body: Body, settings: Settings) -> Moments:
-    """Return the moments that the density multiplies: of the volume, a shell's sheet or wall, or a wire's length.
-
-    Raise ReadError if that volume is not positive.
-    """
+    """Return the moments of volume, sheet, wall or length that the density multiplies, or raise ReadError."""
     if body.length is not None:
         return body.length
     volume = body.area * settings.thickness if _is_thin(body, settings) else body.wall or body.volume

@@ -104,10 +104,7 @@ class Assembly:
 
 
 def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
-    """Measure a collection, or an empty with its children, as one body.
-
-    The depsgraph must be up to date; `options` override the members' settings. Raise MeasureError if there is no mass.
-    """
+    """Measure a collection, or an empty with its children, as one body; MeasureError if it has no mass."""
     member = members_of(root, depsgraph)
     results: Results = {}
     for _ in measure_members(member, depsgraph, results, options):

@@ -50,10 +50,7 @@ class _Piece:
 def polynomial_mass_result(
     reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
 ) -> tuple[list[Moments], list[Finding]]:
-    """Return the mass moments of all parts to an order (of a shell for a thickness of one meter), and the findings.
-
-    ReadError if the density is negative.
-    """
+    """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
     polynomial, findings = _polynomial(density), []
     pieces = list(
         _sheet_pieces(reading, density.in_world, unit)

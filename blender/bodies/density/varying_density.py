@@ -70,10 +70,7 @@ class _Weighed:
 
 
 def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
-    """Return the body with the mass that its density gives it, and its moments to the order that is asked for.
-
-    Raise MeasureError if the density is missing or negative anywhere.
-    """
+    """Return the body with its mass and moments to the requested order; MeasureError if a density is impossible."""
     find_extent(body, request.settings)  # refused before it is weighed
     order = request.settings.order
     if _field(request).kind == "volume":
@@ -240,10 +237,7 @@ class _FaceDensities:
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding]]:
-    """Return ∫ρ dV of a surface's places, and findings about its components.
-
-    volume: the surface's volume moments, to the wanted order. values, names: of its mesh faces.
-    """
+    """Return ∫ρ dV of a surface's places by the values of its mesh faces, and findings about its components."""
     components = solid.parts()
     moments, findings = [], []
     has_foreign_material = is_slight = False
@@ -277,10 +271,7 @@ def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
 def _mixed_parts_notes(
     parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
 ) -> list[Finding]:
-    """Return a finding about components whose faces have several materials, with the first face of each.
-
-    negligible: a negligible density times area, anywhere in the body.
-    """
+    """Return a finding about components of several materials, with the first face of each."""
     which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):
         return []

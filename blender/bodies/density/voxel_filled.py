@@ -38,10 +38,7 @@ MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: below this, rounding
 
 
 def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
-    """Return the solid with the density of the Volume object that its settings name.
-
-    Raise MeasureError if the Volume object has no readable grid, or does not reach the solid.
-    """
+    """Return the solid with the density of the Volume object that its settings name, or raise MeasureError."""
     name, source = request.obj.name, request.obj.body_moments.density_volume
     grid = GridOptions.from_settings(source.body_moments)
     try:
@@ -60,10 +57,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
-    """Return the body with the mass that the grid gives its inside, to an order; `unit` is in meters per Blender unit.
-
-    name: of the object, which MeasureErrors are about that are not about the grid alone.
-    """
+    """Return the body of the object `name` with the mass moments that the grid gives its inside, to an order."""
     names = {"grid": reading.grid, "object": reading.name}
     options.needs_even_samples(reading.grid)
     if body.method.verdict == Verdict.OPEN:

@@ -63,10 +63,7 @@ def measure_array(
     options: MeasureOptions,
     progress: Callable[[int], None] = lambda samples: None,
 ) -> Measurement:
-    """Return the mass properties of the samples in a file.
-
-    progress: called with the number of samples read since the last call. Raises MeasureError.
-    """
+    """Return the mass properties of the samples in a file; `progress` gets the number of samples just read."""
     if options.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):

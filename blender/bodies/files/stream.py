@@ -67,11 +67,7 @@ def measure_mesh_file(
     findings: tuple[Finding, ...] = (),
     progress: Callable[[int], None] | None = None,
 ) -> Measurement:
-    """Return the mass properties of the faces in an .stl or .ply file, one body of that name.
-
-    findings: about the file. progress: called with how many faces have been read since the last time. Raises
-    MeasureError.
-    """
+    """Return the mass properties of an .stl or .ply file as one body; `progress` gets the number of faces just read."""
     kind = options.kind or "solid"
     used = with_options(
         options,

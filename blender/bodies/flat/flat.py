@@ -96,10 +96,7 @@ class FlatRegion:
         return self.points[np.unique(self.edges)]
 
     def moments(self, order: int) -> Moments:
-        """Return ∫ x^p y^q dA about the centroid, along the plane's axes from its origin.
-
-        Raise MeasureError if nothing is enclosed, or a moment leaves the range of numbers.
-        """
+        """Return ∫ x^p y^q dA about the centroid, along the plane's axes from its origin, or raise MeasureError."""
         with np.errstate(over="ignore", invalid="ignore"):
             if self.curves:
                 moments = _curve_moments(self.curves, order, self.rounded, self.stored)
@@ -203,10 +200,7 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 def _curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
 ) -> tuple[tuple[Curve, ...], float] | None:
-    """Return the outlines as curves along the plane's axes, and the largest float32 error of their control points.
-
-    Return None if Blender gives no outlines, or if they touch.
-    """
+    """Return the outlines along the plane's axes and their largest float32 error; None if they touch or are missing."""
     if reading.loops is None:
         return None
     try:

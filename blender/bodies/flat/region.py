@@ -60,10 +60,7 @@ class RegionBody(Body):
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the region that a curve object bounds, if it is a thin shell of one density and shows nothing else.
-
-    Return None if its curves bound no region, but Blender fills them. Raises MeasureError if nothing is filled.
-    """
+    """Return the region that curves bound as a thin shell of one density; None if only Blender's fill shows one."""
     obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None

@@ -97,10 +97,7 @@ def _occupied(
 
 
 def read(request: Request) -> VolumeReading | None:
-    """Return the grid that an object shows; None if it shows polygons, or no volume.
-
-    Raises MeasureError if the grid cannot be read, or is to be anything but a solid.
-    """
+    """Return the grid that an object shows; None if it shows polygons, or no volume."""
     obj = request.obj
     if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
         return None

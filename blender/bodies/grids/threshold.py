@@ -99,10 +99,7 @@ class ThresholdGridBody(Body):
 
 
 def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
-    """Return the values of a grid as one array; `unit` is in meters per Blender unit.
-
-    Raise ReadError if the grid is a level set, or has too many values.
-    """
+    """Return the values of a grid as one array, or raise ReadError if it is a level set or too large."""
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     samples = int(np.prod(reading.shape, dtype=np.float64))
@@ -122,10 +119,7 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
 def threshold_grid_body(
     grid: ThresholdGrid, options: GridOptions, preview: bool = False, order: int = KNOWN_ORDER
 ) -> ThresholdGridBody:
-    """Return the body of grid values at or above a threshold; `order` is that of the wanted mass moments.
-
-    Raise MeasureError if no value reaches the threshold, or the density is not known.
-    """
+    """Return the body of grid values at or above a threshold, with mass moments to `order`, or raise MeasureError."""
     if options.filled and options.table:
         raise ReadError(THRESHOLD_NEEDS_FACTOR)
     above = grid.set_above(options, KNOWN_ORDER, preview)

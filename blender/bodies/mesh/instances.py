@@ -143,10 +143,7 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """Return one verdict for all parts, each with the number of its instances and the area of all of them.
-
-    Counts add; faults are named only if there is a single part.
-    """
+    """Return the added health of parts, each with its number of instances and area; faults of a single part only."""
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:

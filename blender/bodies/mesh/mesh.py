@@ -60,10 +60,7 @@ MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows, or None if it has patches of one density, which are better.
-
-    Raises MeasureError if the object shows no polygons.
-    """
+    """Return the polygons that an object shows, or None if it has patches of one density, which are better."""
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
         if density is None:
@@ -75,10 +72,7 @@ def read(request: Request) -> Reading | None:
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the body that polygons bound, weighed and with walls as set.
-
-    Raises MeasureError if there is nothing to measure.
-    """
+    """Return the body that polygons bound, weighed and with walls as set, or raise MeasureError."""
     settings = request.settings
     shell = settings.kind == "shell"
     made = mesh_body(reading, settings.unit, shell=shell, union=settings.overlap == "union", threads=settings.threads)
@@ -90,11 +84,7 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
-    """Return the body that an object's surfaces bound, or with `shell` their sheets.
-
-    unit: meters per Blender unit. union: shells that overlap are united first. MeasureError if there is nothing to
-    measure.
-    """
+    """Return the body that an object's surfaces bound, united first if `union`, or with `shell` their sheets."""
     if shell:
         return _sum_of_instances(reading, unit, True, threads)
     flat = reading.singular_instance_count

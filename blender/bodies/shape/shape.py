@@ -146,10 +146,7 @@ class Shape:
         return self.body.has_surface
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
-        """Return Zernike descriptors to `order`, by quadrature above 20 and if raw moments lose too many digits.
-
-        The shape needs a surface.
-        """
+        """Return Zernike descriptors of polygons to `order`, by quadrature above 20 and if raw moments lose digits."""
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
         # About the center at about unit size, for high powers of a length are soon beyond the range of numbers.
@@ -328,10 +325,7 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a shape onto another one, about their centers, and the residual of the surfaces.
-
-    source_skin, target_skin: the surfaces of the shapes. scale: applied to the source first.
-    """
+    """Return the motion that lays a scaled shape onto another one, by the distances of their surfaces (skins)."""
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
         source_points, target_points = (

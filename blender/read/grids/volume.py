@@ -76,12 +76,7 @@ class VolumeReading:
 
 @contextmanager
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
-    """Yield one grid of the object, as long as the context lasts; None if the object shows polygons or no volume.
-
-    The default grid is "density", or else the first possible one.
-
-    Raises ReadError, and attaches the object's name to errors inside the context.
-    """
+    """Yield the named grid, else “density” or the first possible; None if the object shows polygons or no volume."""
     obj = obj.original
     volume = _volume(obj, depsgraph)
     if volume is None:
