@@ -73,8 +73,11 @@ def measure_array(
         matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
         if array.positions:
             findings = _with_positions(findings, array.positions)
-        measure = _threshold_body if array.threshold is not None else _density_body
-        made = measure(name, scan, matrix, positions, array, options, (*scan.findings, *findings), progress)
+        findings = (*scan.findings, *findings)
+        if array.threshold is None:
+            made = _density_body(scan, matrix, positions, array, options, findings, progress)
+        else:
+            made = _threshold_body(name, scan, matrix, array, options, findings, progress)
         reading = bare_reading(name, "ARRAY")
         density = None if made.mass is not None else options.density
         return measurement_of(reading, made, Request(with_options(options, density=density, mass=options.mass)))
@@ -87,7 +90,6 @@ def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tu
 
 
 def _density_body(
-    name: str,
     scan: Scan,
     matrix: NDArray[np.float64],
     positions: Positions,
@@ -113,7 +115,6 @@ def _threshold_body(
     name: str,
     scan: Scan,
     matrix: NDArray[np.float64],
-    positions: Positions,
     array: ArrayOptions,
     options: MeasureOptions,
     findings: tuple[Finding, ...],
@@ -128,7 +129,7 @@ def _threshold_body(
         threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
     )
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
-        raise ReadError(GRID_TOO_LARGE, grid=name, samples=scan.samples.size)
+        raise ReadError(GRID_TOO_LARGE, grid=name, samples=list(scan.samples.shape))
     slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
     turned = np.eye(4)
     turned[:3, :3] = np.eye(3)[:, slowest]

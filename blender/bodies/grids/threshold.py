@@ -102,9 +102,8 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
     """Return the values of a grid as one array, or raise ReadError if it is a level set or too large."""
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
-    samples = int(np.prod(reading.shape, dtype=np.float64))
-    if samples > MAX_SAMPLES:
-        raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=samples)
+    if np.prod(reading.shape, dtype=np.float64) > MAX_SAMPLES:
+        raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=list(reading.shape))
     values = np.full(reading.shape, reading.background, np.float32)
     for (i, j, k), block in reading.blocks():
         if block.dtype.itemsize > 4:
