@@ -160,9 +160,6 @@ THRESHOLD_NOT_REACHED = error(
     "threshold_not_reached",
     "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold.",
 )
-THRESHOLD_POSITIONS = error(
-    "threshold_positions", "A threshold needs samples at equal distances. Leave out --positions, or resample the scan."
-)
 THRESHOLD_NEEDS_FACTOR = error(
     "threshold_needs_factor",
     "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to Material.",
@@ -229,14 +226,13 @@ STREAMED_OPEN = warning(
     "The surface is not closed, or its faces disagree: the volume depends on the reference point. Repair the mesh, "
     "or use --stream never.",
 )
-NO_DEFORMING_BONES = error("no_deforming_bones", "No bone deforms meshes. Make those that do deforming bones.")
-BONE_MISSING = warning(
-    "bone_missing", "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."
-)
 RIG_WITHOUT_PARTS = error(
     "rig_without_parts",
-    "The armature deforms no mesh that can be measured, and nothing is parented to its bones. Add an Armature "
-    "modifier to the mesh.",
+    "No deforming bone moves a mesh that can be measured, and nothing is parented to bones. Turn on Deform, or add an "
+    "Armature modifier to the mesh.",
+)
+BONE_MISSING = warning(
+    "bone_missing", "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."
 )
 BONE_PART_IMPOSSIBLE = error(
     "bone_part_impossible", "No body has the moments of the bone's part: {cause} Check weights and normals."

@@ -38,7 +38,6 @@ from .findings import (
     MEMBERS_DENSITY_UNSET,
     MEMBERS_LEFT_OUT,
     MEMBERS_NOT_MEASURED,
-    NO_DEFORMING_BONES,
     RIG_MEAN_DENSITY,
     RIG_WALL_THIN,
     RIG_WITHOUT_PARTS,
@@ -137,7 +136,7 @@ class _Measuring:
         objects = list(self.depsgraph.view_layer.objects)
         skinned = skinned_objects(self.armature, objects)
         if skinned and not self.bones.deforming:
-            raise ReadError(NO_DEFORMING_BONES, subject=self.armature.name)
+            raise ReadError(RIG_WITHOUT_PARTS, subject=self.armature.name)
         hanging = hanging_objects(self.armature, skinned)
         unrendered = [obj.name for obj in (*skinned, *[obj for obj, _ in hanging]) if obj.hide_render]
         if unrendered:

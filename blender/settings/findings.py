@@ -38,5 +38,5 @@ POSITIONS_DAMAGED = error(
 POSITIONS_ONLY_AS_DENSITY = error(
     "positions_only_as_density",
     "The samples of the grid “{grid}” do not stand evenly, and can be measured as a density only. Set Measure As "
-    "to Density, or import the scan without positions.",
+    "to Density, or import or measure the scan without positions.",
 )

@@ -19,6 +19,7 @@ from ....core.scans.limits import DEFAULT_LIMITS, Limits
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.verdict.finding import Finding, ReadError, finding
 from ...read.findings import GRID_TOO_LARGE
+from ...settings.findings import POSITIONS_ONLY_AS_DENSITY
 from ...settings.grid import GridOptions
 from ...settings.options import MeasureOptions
 from ...settings.resolve import with_options
@@ -28,7 +29,6 @@ from ..findings import (
     GRID_AS_SHELL,
     GRID_DENSITY,
     SAMPLES_POSITIONED,
-    THRESHOLD_POSITIONS,
 )
 from ..grids.grid import density_body
 from ..grids.threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
@@ -122,7 +122,7 @@ def _threshold_body(
 ) -> Body:
     """Return the body of samples at or above a threshold, of the given density, else of the samples' own."""
     if array.positions:
-        raise ReadError(THRESHOLD_POSITIONS)
+        raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
     filled = options.density is None
     spline_order = max(array.spline_order, TRILINEAR)
     grid = GridOptions(
