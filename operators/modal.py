@@ -4,80 +4,70 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Generator
 from time import perf_counter
 
-import bpy
 from bpy.types import Context, Event
 
 from ..blender.write import reports
+from ..core.verdict.finding import MeasureError
+from .selection import refuse
 
 # Seconds of work between two of the window's events: the time that the window itself takes, within these limits,
 # to spend half of the time on work if a scene is slow to draw.
 STEP_SECONDS, MAX_STEP_SECONDS = 0.1, 1.0
 
-MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
-
-
-def redraw(context: Context) -> None:
-    """Redraw the window, if there is one: stored results show in several of its areas."""
-    for area in context.screen.areas if context.screen else ():
-        area.tag_redraw()
-
-
-@contextmanager
-def progress(count: float) -> Iterator[Callable[[float], None]]:
-    """Yield a function to call with the completed part of `count`; shown at the cursor if `count` is more than 1."""
-    manager = bpy.context.window_manager
-    shown = count > 1
-
-    def step(done: float) -> None:
-        if shown:
-            manager.progress_update(done)
-
-    if shown:
-        manager.progress_begin(0, count)
-    try:
-        yield step
-    finally:
-        if shown:
-            manager.progress_end()
-
 
 class ModalSteps:
     """Base of operators that work in steps.
 
-    The generator `_steps` does the work and yields the completed part; `_finish` alone changes anything.
+    `_begin` chooses the work and returns the last value of the steps; the generator `_steps` does it and yields the
+    completed part; `_finish` alone changes anything. All of them may raise MeasureError, which is reported.
 
     PROGRESS: for the status bar; it gets the value `share`, the completed share. CANCELED: the report after Esc.
+    MAX_AT_ONCE: up to so many steps are run without the window.
     """
 
-    PROGRESS: str
-    CANCELED: str
+    PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
+    CANCELED = "Measuring canceled; nothing was changed"
+    MAX_AT_ONCE = 0
+    _begin: Callable[[Context], float]
     _steps: Generator[float, None, None]
     _finish: Callable[[Context], set[str]]
     _returned_at = 0.0  # time at which the last step returned control to the window
 
-    def run_all_steps(self, context: Context, count: float) -> set[str]:
-        """Run every step, in one call of the operator. count: the last value that the steps yield."""
-        with progress(count) as step:
+    def execute(self, context: Context) -> set[str]:
+        return self._reporting(self._run, context, False)
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        return self._reporting(self._run, context, context.window is not None)
+
+    def modal(self, context: Context, event: Event) -> set[str]:
+        return self._reporting(self._advance, context, event)
+
+    def _reporting(self, run: Callable[..., set[str]], *arguments: object) -> set[str]:
+        try:
+            return run(*arguments)
+        except MeasureError as error:
+            return refuse(self, error)
+
+    def _run(self, context: Context, in_window: bool) -> set[str]:
+        """Run every step in this call, or let the window's timer call for them."""
+        self._count = self._begin(context)
+        if in_window and self._count > self.MAX_AT_ONCE:
+            manager = context.window_manager
+            self._timer = manager.event_timer_add(0.0, window=context.window)
+            manager.modal_handler_add(self)
+            manager.progress_begin(0, self._count)
+            self._show_progress(context, 0)
+            self._returned_at = perf_counter()
+            return {"RUNNING_MODAL"}
+        with reports.progress(self._count) as step:
             for done in self._steps:
                 step(done)
         return self._finish(context)
 
-    def start_modal(self, context: Context, count: float) -> set[str]:
-        """Run the steps as the window's timer calls for them."""
-        self._count = count
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(0.0, window=context.window)
-        manager.modal_handler_add(self)
-        manager.progress_begin(0, count)
-        self._show_progress(context, 0)
-        self._returned_at = perf_counter()
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: Context, event: Event) -> set[str]:
+    def _advance(self, context: Context, event: Event) -> set[str]:
         if event.type == "ESC":
             self._stop_modal(context)
             reports.report(self, reports.phrase(self.CANCELED))

@@ -1,21 +1,29 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Common parts of all operators on the selection: choice of objects, polls with reasons, progress, one report a run."""
+"""Common parts of all operators: choice of objects, polls with reasons, refusals, progress, one report a run."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
+from functools import wraps
+from os.path import basename, splitext
+from pathlib import Path
+from typing import Any
 
+import bpy
 from bpy.types import Context, Object, Operator
 
 from ..blender.read.visibility import measurable
-from ..blender.scene.transforms import ancestors
+from ..blender.scene.changes import ancestors
 from ..blender.session.stored import outcome
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
-from ..core.verdict.finding import Finding, finding
-from .findings import LEFT_UNCHANGED, NOTHING_MEASURABLE, NOTHING_TO_DO
-from .modal import progress
+from ..core.files.whole_file import whole_file
+from ..core.verdict.finding import FileError, Finding, MeasureError, Severity, system_reason
+from .findings import FILE_NOT_WRITTEN
+
+NO_FILE = "No file is named. Choose one."
+MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
 
 
 def selected_measurable(context: Context) -> list[Object]:
@@ -28,45 +36,101 @@ def selected_measurable(context: Context) -> list[Object]:
     return sorted(objects, key=lambda obj: len([*ancestors(obj)]))
 
 
-def poll_selection(cls: type[Operator], context: Context, any_mode: bool = False) -> bool:
-    """Return whether something is selected, in Object Mode unless any mode will do; report why not."""
-    if not any_mode and context.mode != "OBJECT":
-        return reports.unavailable(cls, "Switch to Object Mode")
-    if not context.view_layer.objects.selected:
-        return reports.unavailable(cls, "Select objects")
-    return True
+def poll_object_mode(cls: type[Operator], context: Context) -> bool:
+    """Return whether Blender is in Object Mode; give the reason why not."""
+    return context.mode == "OBJECT" or reports.unavailable(cls, "Switch to Object Mode")
 
 
-def report(operator: Operator, *findings: Finding) -> None:
+def poll_selection(cls: type[Operator], context: Context) -> bool:
+    """Return whether something is selected, in any mode; give the reason why not."""
+    return bool(context.view_layer.objects.selected) or reports.unavailable(cls, "Select objects")
+
+
+class InObjectMode:
+    """Base of operators that need Object Mode."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return poll_object_mode(cls, context)
+
+
+class OnSelection:
+    """Base of operators that need selected objects, in any mode."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return poll_selection(cls, context)
+
+
+class OnSelectionInObjectMode:
+    """Base of operators that need selected objects in Object Mode."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return poll_object_mode(cls, context) and poll_selection(cls, context)
+
+
+def redraw(context: Context) -> None:
+    """Redraw the window, if there is one: stored results show in several of its areas."""
+    for area in context.screen.areas if context.screen else ():
+        area.tag_redraw()
+
+
+def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> None:
     """Report once; refusals and warnings stay in the panel until the next action."""
-    outcome.remember(operator.bl_label, findings)
-    reports.report(operator, *findings)
+    outcome.remember(operator.bl_label, [part for part in parts if isinstance(part, Finding)])
+    reports.report(operator, *parts, level=level)
+
+
+def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
+    """Report the reason why an operator does nothing; return the result of `execute`. values: of an English text."""
+    if isinstance(reason, str):
+        report(operator, reports.phrase(reason, **values), level=Severity.ERROR)
+    else:
+        report(operator, reports.refusal(reason) if isinstance(reason, MeasureError) else reason)
+    return {"CANCELLED"}
+
+
+def report_refusals(execute: Callable[[Operator, Context], set[str]]) -> Callable[[Operator, Context], set[str]]:
+    """Decorate `execute`: a refusal is reported, and cancels the operator."""
+
+    @wraps(execute)
+    def run(self: Operator, context: Context) -> set[str]:
+        try:
+            return execute(self, context)
+        except MeasureError as error:
+            return refuse(self, error)
+
+    return run
 
 
 def summarize(
     operator: Operator,
     changed: int,
     total: int,
-    done: Finding,
+    done: str,
     failures: Sequence[Finding] = (),
-    findings: Sequence[Finding] = (),
-    idle: Finding | None = None,
+    findings: Sequence[Finding | str] = (),
+    idle: str | None = None,
+    nothing: str = "Nothing selected can be measured",
 ) -> set[str]:
     """Report the run once, and return the result of `execute`.
 
     All failures and warnings stay in the panel until the next action.
 
     done: the action on `changed` of `total` objects. failures: the reasons for objects left unchanged. findings: other
-    observations. idle: the reason if nothing had to be done.
+    observations. idle: the reason if nothing had to be done. The texts are translated and filled. nothing: the English
+    text if there are no objects.
     """
-    if not changed and not failures and idle is not None:
-        done = finding(NOTHING_TO_DO, cause=idle.as_record()) if total else finding(NOTHING_MEASURABLE)
-    sentences = [done] if changed or not failures else []
+    if not total:
+        done = reports.phrase(nothing)
+    elif not changed and not failures and idle is not None:
+        done = reports.phrase("Nothing to do: {cause}", cause=idle)
+    parts = [done] if changed or not failures else []
     if failures:
-        causes = [failure.as_record() for failure in reports.first(failures)]
-        sentences.append(finding(LEFT_UNCHANGED, count=len(failures), total=total, causes=causes))
-    outcome.remember(operator.bl_label, [*failures, *findings])
-    reports.report(operator, *sentences, *reports.first(findings))
+        parts.append(reports.phrase("{count} of {total} left unchanged:", count=len(failures), total=total))
+    outcome.remember(operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)])
+    reports.report(operator, *parts, *reports.first(failures), *reports.first(findings))
     return {"FINISHED"} if changed else {"CANCELLED"}
 
 
@@ -102,7 +166,35 @@ def apply_to_all(
         if is_changed is None or is_changed:
             changed.append(obj)
 
-    with progress(len(objects)) as step:
+    with reports.progress(len(objects)) as step:
         for done in iterate_objects(objects, run, failures):
             step(done)
     return changed, failures
+
+
+def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
+    """Write a file, whole or not at all. FileError if it cannot be written."""
+    try:
+        with whole_file(path) as file:
+            file.writelines(piece if isinstance(piece, bytes) else piece.encode() for piece in pieces)
+    except OSError as error:
+        raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
+
+
+def ask_for_table(operator: Operator, context: Context) -> set[str]:
+    """Open the file browser, at first on a table beside the .blend and of its name."""
+    if not operator.filepath:
+        operator.filepath = bpy.path.ensure_ext(bpy.data.filepath.removesuffix(".blend") or "masses", ".csv")
+    context.window_manager.fileselect_add(operator)
+    return {"RUNNING_MODAL"}
+
+
+def ensure_suffix(operator: Operator, suffix: str, others: Collection[str] = ()) -> bool:
+    """Give the path the suffix, unless it has one of the others or no name at all.
+
+    Return whether the path was changed, as `check` does.
+    """
+    path, name = operator.filepath, basename(operator.filepath)
+    if name and splitext(name)[1].lower() not in others:
+        operator.filepath = bpy.path.ensure_ext(path, suffix)
+    return operator.filepath != path

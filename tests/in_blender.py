@@ -11,7 +11,14 @@ with suppress(ImportError):
 
 
 class Reported(list):
-    """Findings that operators have reported, each followed by those among its values: the causes of refusals."""
+    """Findings that operators have reported, each followed by those among its values: the causes of refusals.
+
+    texts: the other parts of their reports.
+    """
+
+    def __init__(self):
+        super().__init__()
+        self.texts = []
 
     def add(self, finding):
         from body_moments.core.verdict.finding import Finding
@@ -41,7 +48,9 @@ def reported(monkeypatch):
 
     def kept(operator, *parts, **level):
         for part in parts:
-            if not isinstance(part, str):
+            if isinstance(part, str):
+                found.texts.append(part)
+            else:
                 found.add(part)
         report(operator, *parts, **level)
 

@@ -11,5 +11,19 @@ if TYPE_CHECKING:
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
+    FlatShape="flat.flat_shape",
+    THREADS="measure_object",
+    assemble="assembly.assembly",
+    comparable_shape_of="flat.flat_shape",
+    distance_from="flat.flat_shape",
+    flat_transform="flat.flat_fourier",
+    measure_assembly="assembly.assembly",
+    measure_body="measure_object",
+    measure_many="stacks.many",
+    measure_members="assembly.assembly",
+    measure_rig="rig",
+    measured_in_turn="stacks.many",
+    object_transform="fourier",
+    register_surfaces="shape.shape",
     rig="rig",
 )

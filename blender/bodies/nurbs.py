@@ -23,9 +23,8 @@ from ...core.moments.affine_maps import are_similarities, distinct_linear_parts,
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
 from ...core.nurbs.creases import sharpest_crease
-from ...core.nurbs.input_error import stored_area_moments
 from ...core.nurbs.patch import Patch
-from ...core.nurbs.patch_moments import area_moments, volume_moments
+from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volume_moments
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted

@@ -9,13 +9,17 @@ from ...core.lazy import lazy_names
 if TYPE_CHECKING:
     from . import assembly as assembly
     from . import rig as rig
+    from . import robots as robots
     from . import shapes as shapes
     from . import total_caveats as total_caveats
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     assembly="assembly",
+    reference="reference",
     rig="rig",
+    robots="robots",
     shapes="shapes",
     total_caveats="total_caveats",
+    vdb="grids.vdb",
 )

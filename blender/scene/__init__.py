@@ -1,3 +1,35 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Changes of objects that leave everything else as it is."""
+"""Changes of the scene: frames and data of objects, placed and created objects."""
+
+from ...core.lazy import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    add_center="rig",
+    add_marker="node_group",
+    add_primitive="primitives",
+    add_volume="scan_objects",
+    align_to_world="snap_targets",
+    balance_mesh="sculpt_balance",
+    center_of_mass_group="node_group",
+    create_physics_rig="rig",
+    defects_by_kind="mesh_faults",
+    find_primitive="primitives",
+    import_surfaces="surface_objects",
+    is_copy="match_pose",
+    matrix_along_axes="snap_targets",
+    matrix_at_center="snap_targets",
+    move_parent="parents",
+    move_to_match="match_pose",
+    place_empties="empties",
+    plan_match="match_pose",
+    read_placed="scan_objects",
+    require_editable_mesh="mesh_faults",
+    require_matchable="match_pose",
+    reverse_faces="mesh_faults",
+    select_elements="mesh_faults",
+    snap_target="snap_targets",
+    targets_in_turn="snap_targets",
+    write_volume="scan_objects",
+)

@@ -9,16 +9,39 @@ with one evaluation for all of them.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Iterator
 from typing import TypeVar
 
 import bpy
 from bpy.types import ID, Context, Depsgraph, Object
 
+from ...core.verdict.finding import EditRefusedError
+from .findings import LIBRARY_OVERRIDE, LINKED_OBJECT
+
 Planned = TypeVar("Planned")
 SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything
 # Types through which objects refer to each other: a curve by its bevel, shape keys by drivers, particles by objects.
 LINKING_TYPES = {"ARMATURE", "COLLECTION", "CURVE", "KEY", "LATTICE", "MESH", "META", "NODETREE", "PARTICLE", "TEXTURE"}
+
+
+def require_editable(data: ID) -> None:
+    """Raise EditRefusedError for a linked object or collection."""
+    if not data.is_editable:
+        raise EditRefusedError(LINKED_OBJECT)
+
+
+def require_storable_data(obj: Object) -> None:
+    """Raise EditRefusedError for a linked object, and for a library override."""
+    require_editable(obj)
+    if obj.override_library is not None:  # a file keeps only overridable properties of it
+        raise EditRefusedError(LIBRARY_OVERRIDE)
+
+
+def ancestors(obj: Object | None) -> Iterator[Object]:
+    """Yield the object, its parent, that one's parent, and so on."""
+    while obj is not None:
+        yield obj
+        obj = obj.parent
 
 
 def run_change(context: Context, change: SceneChange) -> None:

@@ -7,6 +7,52 @@ from ...core.verdict.finding import error, note, warning
 LINKED_OBJECT = error(
     "linked_object", "Linked from another file. Use Object > Relations > Make Local for the object and its data."
 )
+LIBRARY_OVERRIDE = error(
+    "library_override", "A library override, which would lose the change. Use Object > Relations > Make Local."
+)
+OPEN_OBJECT = error(
+    "open_object",
+    "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
+)
+BALANCE_NO_VERTICES = error(
+    "balance_no_vertices", "No vertices may move. Select some in Edit Mode, or assign some to the vertex group."
+)
+BALANCE_NO_GROUP = error("balance_no_group", "No vertex group. Choose or add one with the vertices that may move.")
+BALANCE_TRIANGULATION_VARIES = error(
+    "balance_triangulation_varies", "The triangulation changes with every move. Use Face > Triangulate Faces."
+)
+BALANCE_SHAPE_KEYS = error("balance_shape_keys", "The mesh has shape keys. Apply or remove them.")
+BALANCE_WALL = error("balance_wall", "Balancing needs a thin shell. Set Wall to Thin.")
+BALANCE_VARYING_DENSITY = error(
+    "balance_varying_density", "Balancing needs uniform density. Set Density From to One Value."
+)
+BALANCE_UNCLEAN = error(
+    "balance_unclean",
+    "The mesh is not closed with all faces outward. Merge by distance, fill holes and recalculate normals, or"
+    " set Kind to Shell.",
+)
+BALANCE_MODIFIED = error("balance_modified", "The measured shape is made by {modifiers}. Apply or hide them.")
+BALANCE_MODIFIED_UNKNOWN = error(
+    "balance_modified_unknown", "The measured shape is made by animation, constraints or instances. Apply them."
+)
+EMPTY_FOLLOWED = error(
+    "empty_followed", "The object follows its empty “{empty}” and would move along. Clear that parent or constraint."
+)
+EMPTY_CONSTRAINED = error("empty_constrained", "A constraint holds the empty “{empty}”. Remove it.")
+PARENT_TARGET_SCALE_ZERO = error(
+    "parent_target_scale_zero", "The scale is zero along an axis. Set the scale, or turn off Parent to Object."
+)
+MODIFIED_MESH = error(
+    "modified_mesh",
+    "Modifiers change the mesh, so its defects are not those of what is measured. Apply or hide {modifiers}.",
+)
+MIRROR_IMAGE = error(
+    "mirror_image", "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape over."
+)
+ACTIVE_IS_CHILD = error(
+    "active_is_child", "The active object is a child of this one and would move along. Clear the parent."
+)
+SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
 PARENT_SHEARS = error("parent_shears", "The parent shears the object. Clear the parent, or apply its scale.")
 CHANNEL_LOCKED = error(
     "channel_locked",
@@ -53,6 +99,10 @@ DEPENDENT_SHAPE_CHANGES = error(
 )
 DATA_COPIED = note("data_copied", "The data was copied, as other objects use it.")
 FOLLOWER_MOVED = warning("follower_moved", "“{object}” follows by a constraint and moved along.")
+RIGID_BODY_NEEDS_MESH = error("rigid_body_needs_mesh", "Only meshes can be rigid bodies. Use Object > Convert > Mesh.")
+RIGID_BODY_MASS_TOO_SMALL = error(
+    "rigid_body_mass_too_small", "The mass {mass:.3g} kg is below the {limit:.3g} kg of a rigid body. Raise Density."
+)
 RIGID_WORLD_LINKED = error(
     "rigid_world_linked",
     "The rigid body world uses the collection “{collection}”, which is linked. Give it one of this file.",

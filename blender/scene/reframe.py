@@ -29,7 +29,7 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from ..read.findings import SCALE_ZERO_AXIS
 from ..settings.density import density_anchor
-from .changes import SceneChange, dependents, independent_rounds, run_change, run_together
+from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
 from .dependents import SAME_SHAPE_RTOL, DependentsGuard, referring, same_shape, shape, transform_shape
 from .findings import (
     BOUND_TO_ARMATURE,
@@ -50,7 +50,6 @@ from .transforms import (
     MAX_SHEAR,
     Matrix4,
     TransformChannels,
-    ancestors,
     basis,
     set_location,
     set_rotation_and_scale,

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, finding
+from .changes import ancestors
 from .dependents import SAME_SHAPE_RTOL
 from .findings import DATA_COPIED
 from .transforms import (
@@ -28,7 +29,6 @@ from .transforms import (
     MAX_SHEAR,
     Matrix4,
     TransformChannels,
-    ancestors,
     euler_angles,
     rotation_and_scale,
     world,

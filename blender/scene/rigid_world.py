@@ -16,6 +16,8 @@ from bpy.types import Context, Object, RigidBodyConstraint, Scene
 from ...core.verdict.finding import EditRefusedError
 from .findings import RIGID_WORLD_LINKED
 
+MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min  # kg
+
 
 def require_rigid_world(scene: Scene, joints: bool = False) -> None:
     """Raise EditRefusedError if nothing can be added to the scene's rigid bodies, or to its joints either."""

@@ -12,7 +12,7 @@ parents and constraints.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from math import atan2, cos, pi, sin
 
 import numpy as np
@@ -22,26 +22,13 @@ from numpy.typing import NDArray
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
-from .findings import CHANNEL_LOCKED, LINKED_OBJECT, PARENT_SHEARS
+from .findings import CHANNEL_LOCKED, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
 MAX_SHEAR = 2e-6  # found in float32 products of a rotation and a scale
 
 Matrix3 = NDArray[np.float64]
 Matrix4 = NDArray[np.float64]
-
-
-def require_editable(obj: Object) -> None:
-    """Raise EditRefusedError for a linked object."""
-    if not obj.is_editable:
-        raise EditRefusedError(LINKED_OBJECT)
-
-
-def require_storable_data(obj: Object, code: str) -> None:
-    """Raise EditRefusedError for a linked object, and with this code for a library override."""
-    require_editable(obj)
-    if obj.override_library is not None:  # a file keeps only overridable properties of it
-        raise EditRefusedError(code)
 
 
 def world(obj: Object) -> Matrix4:
@@ -208,10 +195,3 @@ class TransformChannels:
         for name, value in self.values.items():
             if tuple(getattr(self.obj, name)) != value:
                 setattr(self.obj, name, value)
-
-
-def ancestors(obj: Object | None) -> Iterator[Object]:
-    """Yield the object, its parent, that one's parent, and so on."""
-    while obj is not None:
-        yield obj
-        obj = obj.parent

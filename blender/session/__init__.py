@@ -1,3 +1,24 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Session state while a file is open: staleness, results, live numbers, walls, moments."""
+
+from typing import TYPE_CHECKING
+
+from ...core.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from . import robots as robots
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    BalanceGroup="balance_group",
+    SimilarSearch="similar",
+    bill_rows="bill",
+    check_stability="statics",
+    lay_on_ground="statics",
+    make_rigid_bodies="rigid_bodies",
+    reframe_objects="snapping",
+    remeasure="snapping",
+    robots="robots",
+    store_measured="snapping",
+)

@@ -14,9 +14,12 @@ MOMENTS_OF_AREA_ONLY = error(
 INVARIANTS_ORDER = error("invariants_order", "Invariants need order {order}. Set Order, and compute the moments.")
 DENSITY_DEFAULTED = warning("density_defaulted", "No density is set: {density} was used. Set Density or a material.")
 DENSITY_DEFAULT_KEPT = note("density_default_kept", "No density is set: {density} was used. Set Density or a material.")
-OPEN_OBJECT = error(
-    "open_object",
-    "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
-)
 ROBOT_WITHOUT_BONES = error("robot_without_bones", "There is no link. Select an armature with what it moves.")
 LEFT_OUT_OF_ROBOT = warning("left_out_of_robot", "{count} of {total} objects are no links: {causes}")
+NO_SUCH_COLLECTION = error("no_such_collection", "There is no collection “{collection}”. Choose another one.")
+BALANCE_GROUP_WITHOUT_CONTACTS = error(
+    "balance_group_without_contacts", "“{collection}” has no object with a surface. Choose another collection."
+)
+BALANCE_GROUP_EMPTY_GROUP = error(
+    "balance_group_empty_group", "Nothing to follow. Select objects with a surface, or an armature that deforms some."
+)

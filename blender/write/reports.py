@@ -8,7 +8,8 @@ Findings are shown by their sentences. Both are in the language of the interface
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 import bpy
@@ -61,6 +62,20 @@ def unavailable(operator: type[Operator], reason: str) -> bool:
     """Return False from `poll`, with the reason, a text in English."""
     operator.poll_message_set(phrase(reason))
     return False
+
+
+@contextmanager
+def progress(count: float) -> Iterator[Callable[[float], None]]:
+    """Yield a function to call with the completed part of `count`; shown at the cursor if `count` is more than 1."""
+    manager = bpy.context.window_manager
+    if count <= 1:
+        yield lambda _done: None
+        return
+    manager.progress_begin(0, count)
+    try:
+        yield manager.progress_update
+    finally:
+        manager.progress_end()
 
 
 def first(parts: Sequence[Shown]) -> list[Shown | Finding]:

@@ -6,3 +6,12 @@ Standard library only, no Blender, no numpy: the process that reports never open
 file does to a child can end it. This is the one part of the add-on that starts processes, and it starts nothing but
 Blender itself (or the Python that has it as a module) with the add-on's own `operators/batch.py`.
 """
+
+from ...core.lazy import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    Journal="journal",
+    WholeRun="whole_run",
+    expand="listing",
+)

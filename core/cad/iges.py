@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +19,7 @@ from numpy.typing import NDArray
 from ..nurbs.patch import Patch
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
-from .findings import (
-    CURVES_LEFT_OUT,
-    SURFACE_DAMAGED,
-    SURFACE_TRIMMED,
-    SURFACE_UNSUPPORTED,
-    SURFACES_HIDDEN,
-)
+from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACE_TRIMMED, SURFACE_UNSUPPORTED, SURFACES_HIDDEN
 from .iges_text import Entry, IgesText, integers, numbers, padded
 from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 from .trims import Piece, trims_nothing
@@ -49,6 +44,8 @@ NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTA
 REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, 510: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # and points: they bound nothing
 PARAMETER_CURVE = 142
+Value = TypeVar("Value")
+Pair: TypeAlias = tuple[Value, Value]
 
 
 def read_iges(path: Path) -> SurfaceFile:
@@ -160,10 +157,7 @@ class _Reader:
         return known
 
     def _surface(self, entry: Entry, above: NDArray) -> list[Patch]:
-        spline = _Spline(self._text.fields(entry))
-        return blender_patches(
-            spline.knots, spline.orders, spline.points, spline.weights, spline.domain, above @ self._matrix(entry)
-        )
+        return blender_patches(*_spline(self._text.fields(entry)), above @ self._matrix(entry))
 
     def _trimmed(self, entry: Entry, above: NDArray) -> list[Patch]:
         fields = self._text.fields(entry)
@@ -171,17 +165,17 @@ class _Reader:
         base = self._entries[pointer]
         if base.type != SURFACE:
             raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
-        spline = _Spline(self._text.fields(base))
-        if holes or has_outer and not self._trims_nothing(fields, pointer, spline):
+        *_, domain = _spline(self._text.fields(base))
+        if holes or has_outer and not self._trims_nothing(fields, pointer, domain):
             raise SurfaceRefusedError(SURFACE_TRIMMED)
         return self._surface(base, above @ self._matrix(entry))
 
-    def _trims_nothing(self, fields: list[str], surface: int, spline: _Spline) -> bool:
+    def _trims_nothing(self, fields: list[str], surface: int, domain: Pair[Pair[float]]) -> bool:
         """Return whether the outer boundary is that of the surface's own domain."""
         (outer,) = integers(fields[3:], 1)
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
         pieces = self._pieces(curve, 0, iter(range(MAX_PIECES))) if base == surface else None
-        return pieces is not None and trims_nothing(pieces, spline.domain)
+        return pieces is not None and trims_nothing(pieces, domain)
 
     def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
         """Return the curve as lines and splines in order; None if it is something else.
@@ -226,23 +220,19 @@ def _spline_piece(fields: list[str]) -> list[Piece] | None:
     return [Piece(points[:, :2], straight=degree == 1)]
 
 
-class _Spline:
-    """The parameters of a rational B-spline surface; s, the first direction, is the file's first."""
-
-    def __init__(self, fields: list[str]) -> None:
-        last_s, last_t, degree_s, degree_t = integers(fields, 4)
-        counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
-        if min(degrees) < 1:
-            raise ValueError("degrees")
-        knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
-        total = counts[0] * counts[1]
-        values = numbers(fields[9 : 9 + sum(knot_counts) + 4 * total + 4])
-        s_knots, t_knots, weights, points, part = np.split(
-            values, np.cumsum([knot_counts[0], knot_counts[1], total, 3 * total])
-        )
-        self.knots = (s_knots.tolist(), t_knots.tolist())
-        self.orders = (degree_s + 1, degree_t + 1)
-        # The first direction runs fastest.
-        self.weights = weights.reshape(counts[::-1]).T
-        self.points = points.reshape(*counts[::-1], 3).swapaxes(0, 1)
-        self.domain = ((float(part[0]), float(part[1])), (float(part[2]), float(part[3])))
+def _spline(fields: list[str]) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:
+    """Return knots, orders, points, weights and domain of a surface; s is the first direction of the file."""
+    last_s, last_t, degree_s, degree_t = integers(fields, 4)
+    counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
+    if min(degrees) < 1:
+        raise ValueError("degrees")
+    knot_counts = [count + degree + 1 for count, degree in zip(counts, degrees)]
+    total = counts[0] * counts[1]
+    values = numbers(fields[9 : 9 + sum(knot_counts) + 4 * total + 4])
+    s_knots, t_knots, weights, points, part = np.split(
+        values, np.cumsum([knot_counts[0], knot_counts[1], total, 3 * total])
+    )
+    domain = (float(part[0]), float(part[1])), (float(part[2]), float(part[3]))
+    knots, orders = (s_knots.tolist(), t_knots.tolist()), (degree_s + 1, degree_t + 1)
+    # The first direction runs fastest.
+    return knots, orders, points.reshape(*counts[::-1], 3).swapaxes(0, 1), weights.reshape(counts[::-1]).T, domain

@@ -204,8 +204,5 @@ SYSTEM_UNITS = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}  # The
 
 
 def density_unit(chosen: str, system: str) -> str:
-    """Return the unit to show densities in, one of `DENSITY_UNITS`.
-
-    chosen: one of `DENSITY_UNITS`, or "AUTO". system: a scene's unit system, one of `SYSTEM_UNITS`.
-    """
+    """Return one of `DENSITY_UNITS`: the chosen one, or for "AUTO" that of a unit system (`SYSTEM_UNITS`)."""
     return SYSTEM_UNITS[system] if chosen == "AUTO" else chosen

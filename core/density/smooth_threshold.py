@@ -60,10 +60,7 @@ def smooth_threshold_body(
 
 
 def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.float64]:
-    """Return a uniform spline's values (parts (nx - 1) + 1, …) at its (nx, ny, nz) coefficients and between.
-
-    The outermost of the coefficients go on beyond the grid.
-    """
+    """Return a uniform spline's values (parts (nx - 1) + 1, …) at its (nx, ny, nz) coefficients and between them."""
     values = np.asarray(coefficients, np.float64)
     reach = (order + 1) // 2
     for axis in range(3):

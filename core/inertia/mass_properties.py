@@ -217,6 +217,33 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike |
     return MassProperties.from_moments(sum_moments(weighed), preferred_axes=preferred_axes)
 
 
+def affine_image(
+    properties: MassProperties, linear: ArrayLike, center: ArrayLike, mass: float, preferred_axes: ArrayLike
+) -> MassProperties:
+    """Return the mass properties of a body that is stretched, sheared and turned by the (3, 3) part of a map.
+
+    `center` and `mass` are those of the image; each principal axis points the way of a column of `preferred_axes`.
+    The bounds are those of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
+    second moments alone leave the signs open.
+    """
+    linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
+    second = np.trace(properties.inertia) / 2.0 * IDENTITY_3 - properties.inertia
+    second = linear @ second @ linear.T * (mass / properties.mass)
+    spread, axes = np.linalg.eigh(second)
+    spread, axes = np.maximum(spread[::-1], 0.0), axes[:, ::-1]
+    axes = axes * np.where((axes * preferred).sum(axis=0) < 0.0, -1.0, 1.0)
+    if np.linalg.det(axes) < 0.0:
+        axes[:, np.abs((axes * preferred).sum(axis=0)).argmin()] *= -1.0
+    moments = np.array([spread[1] + spread[2], spread[2] + spread[0], spread[0] + spread[1]])
+    return replace(
+        properties,
+        mass=float(mass),
+        center=np.asarray(center, np.float64),
+        inertia=np.trace(second) * IDENTITY_3 - second,
+        principal=PrincipalFrame(moments, axes, symmetry="", is_unique=False, finding=None),
+    )
+
+
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return (n,) whether centers are in these boxes, (n, 3) and (n, 3), and second central moments of a positive mass.
 

@@ -1,3 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measurements of objects, and the records, documents and pages made of them."""
+
+from ..lazy import lazy_names
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    FORMATS="documents",
+    to_html="page",
+)

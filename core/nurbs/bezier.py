@@ -154,10 +154,7 @@ def cells_of_nets(
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
-    """Return the Bézier patches of g control nets (g, count_s, count_t, 3 or 4), for some spans of s and t.
-
-    anchor: (g, 3) points near the nets, which the patches are about; in the order of nets, spans of s, spans of t.
-    """
+    """Return Bézier patches of nets (g, count_s, count_t, 3 or 4) about anchors (g, 3), by net and spans of s and t."""
     s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
     t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
     (u, k), (v, kk), (g, _, count, d) = active_rows.shape, columns.shape, nets.shape

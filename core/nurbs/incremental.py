@@ -45,10 +45,7 @@ class IncrementalPatchMoments:
         self.area = 0.0
 
     def moments(self, points: NDArray) -> Moments:
-        """Return the flux through the patch with these control points (count_s, count_t, 3), about `about`.
-
-        Only spans on which moved control points act are evaluated.
-        """
+        """Return the flux through the patch, evaluated anew only on spans on which moved control points act."""
         moved = (points != self._points).any(axis=2)
         self._points = points.copy()
         if moved.all():

@@ -16,7 +16,7 @@ differences is reported as an estimate: it is the coarser rule's error, while th
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from math import ceil
 
@@ -31,7 +31,7 @@ from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
 from .bezier import BezierCells, Rule, Weights, cells_of
 from .findings import WALL_THICKER_THAN_CURVATURE
-from .patch import Patch, patches_center
+from .patch import Patch, patches_center, patches_size
 
 VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
 AREA_RTOL = 1e-11
@@ -129,10 +129,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """Return (c,) the areas between neighboring points at which the patch turns over: rules may miss such kinks.
-
-    normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both directions.
-    """
+    """Return (c,) areas between points with normals (3, m, c, n) where patches turn over: rules may miss such kinks."""
     total = np.zeros(normal.shape[2])
     for (points,), other_weights in zip(rule, weights[::-1]):
         nodes, _ = gauss_legendre_with_ends(points)
@@ -266,6 +263,29 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
     return total
 
 
+def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
+    """Return moments with the bounds of a change that sweeps a volume `swept`, no farther away than `reach`.
+
+    A skin that moves sweeps a volume, and so do gaps along seams; a monomial of degree d is at most reach^d in it.
+    """
+    return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
+
+
+def with_area_error(area: Moments, slope: float, stored: float, reach: float) -> Moments:
+    """Return area moments with bounds of moving each control point by at most `stored`; slope: from `area_slope`."""
+    if reach == 0.0:
+        return area  # The patches are one point, without any digits in their stored coordinates.
+    return with_swept_error(area, stored * (slope + area.total / reach), reach)
+
+
+def stored_area_moments(
+    patches: Sequence[Patch], order: int, about: NDArray | None = None, *, stored: float
+) -> Moments:
+    """Return the area moments of patches, by default about their box's center, with bounds of storing the points."""
+    area = area_moments(patches, order, about)[0]
+    return with_area_error(area, area_slope(patches), stored, patches_size(patches) + 4.0 * stored)
+
+
 def exact_points(order: int, degree: int) -> int:
     """Return the Gauss points per span of a polynomial direction that make moments of this degree exact."""
     return max(1, ceil(((degree + 3) * (order - 1) - 1) / 2))
@@ -279,11 +299,12 @@ def integrate_adaptively(
     degree: int | None = None,
     thickness: float = 1.0,
 ) -> Integral:
-    """Integrate over patches, cell by cell, by the first rule that suffices: two agree to a cell's, or its mean, share.
+    """Integrate over patches, cell by cell, by the first rule that agrees with the one before.
 
     integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
     count as error. unit: (K,) factors from a cell's size to bounds of its moments. degree: of a moment's integrand, if
-    a polynomial, along a direction of constant weights, so that fewer points are exact there. thickness: of a sheet.
+    a polynomial, along a direction of constant weights, so that fewer points are exact there; else None. thickness: the
+    factor of an area. Rules agree to the tolerance of the cell's own size, or of its share of the whole one.
     """
     k = len(unit)
     values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
@@ -334,9 +355,9 @@ def integrate_adaptively(
 
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """Return (c,) areas that all rules may miss, of cells with weights that differ by more than the factor `steep`.
+    """Return (c,) the areas that all rules may miss, as weights beyond a factor draw a cell to a point.
 
-    It is the squared diagonal of the control points' box of a cell that is drawn to a point but for its margin.
+    An area is the squared diagonal of the box around the cell's control points.
     """
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:

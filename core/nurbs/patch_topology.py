@@ -45,8 +45,8 @@ SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held
 class BoundaryLoop:
     """Open sides that run round a hole.
 
-    caps: the patches that close it and face as theirs do. component: that of the sides. zero_area: closed
-    already. area: of the cap, an estimate. self_intersecting: flat, and crossing itself.
+    caps: the patches that close it and face as theirs do. component: that of the sides. zero_area: closed already.
+    area: of the cap, an estimate. self_intersecting: flat, and crossing itself.
     """
 
     caps: tuple[Patch, ...]
@@ -82,10 +82,7 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
-    """Find the seams, orientation and holes of patches; points within the tolerance are the same.
-
-    MeasureError if knots may tear one: a gap within a patch is not one of its sides.
-    """
+    """Find the seams, orientation and holes of patches; MeasureError if knots may tear one unseen by its sides."""
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
     curves = [patch.side(axis, end) for patch in patches for axis, end, _ in SIDES]
@@ -366,6 +363,6 @@ def _cap_loop(
     flat = bool(np.abs(arms @ axes[2]).max() <= tolerance)
     # A way there and back has no net area; of a loop in space only its cone's area shows that.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
-    slim = area <= tolerance * weigh.sum()
+    slim = bool(area <= tolerance * weigh.sum())
     crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)
     return BoundaryLoop(tuple(caps), component, flat, slim, area, crossing)

@@ -16,7 +16,7 @@ from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..solid.measure import measure_solid
-from ..verdict.finding import FileError, Finding, MeasureError, finding
+from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.method import Verdict
 from .diagnosis import Reference, diagnose
 from .findings import (
@@ -63,10 +63,7 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain.
-
-    upright: the rotation that its file asks for, if another axis than z is up.
-    """
+    """A measured shape in its own coordinates: hull points, moments if certain, and the rotation to z up, if any."""
 
     points: NDArray[np.float64]
     moments: Moments | None
@@ -99,7 +96,7 @@ class Auditor:
     """Judges descriptions; a mesh is measured once, however many links name it."""
 
     roots: Roots
-    _meshes: dict[tuple, _Piece | Finding] = field(default_factory=dict)
+    _meshes: dict[tuple, _Piece] = field(default_factory=dict)
 
     def audit(self, description: Description) -> Audit:
         """Return the findings about each link of a description."""
@@ -147,16 +144,9 @@ class Auditor:
             return _measured(Surface.from_triangles(stated.points, stated.triangles))
         key = shape.file, shape.size
         if key not in self._meshes:
-            try:
-                surface, upright = read_mesh(self.roots.find(shape.file))
-            except FileError as error:
-                self._meshes[key] = error.finding
-            else:
-                self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
-        known = self._meshes[key]
-        if isinstance(known, Finding):
-            raise FileError(known)
-        return known
+            surface, upright = read_mesh(self.roots.find(shape.file))
+            self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
+        return self._meshes[key]
 
 
 def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:

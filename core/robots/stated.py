@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding
 from .model import Inertial, Shape
 
@@ -91,10 +92,7 @@ class StatedLink:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A robot description, with the whole file as `source`.
-
-    `scales`: "length": meters per unit of the file's numbers, "mass": kilograms.
-    """
+    """A robot description, with the whole file as `source`. scales: units of its "length" in m and "mass" in kg."""
 
     name: str
     format: str
@@ -103,13 +101,9 @@ class Description:
     scales: Mapping[str, float] = field(default_factory=lambda: {"length": 1.0, "mass": 1.0})
 
 
-def rotation_about(axis: int, angle: float) -> NDArray[np.float64]:
-    """Return the (3, 3) rotation about a coordinate axis."""
-    turn = np.eye(3)
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    turn[i, i] = turn[j, j] = np.cos(angle)
-    turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
-    return turn
+def rotation_about(axis: NDArray, angle: float) -> NDArray[np.float64]:
+    """Return the (3, 3) rotation about a (3,) axis of any length."""
+    return rotation_matrix([np.cos(angle / 2.0), *(np.sin(angle / 2.0) / np.linalg.norm(axis) * axis)])
 
 
 def rotation_of_angles(roll: float, pitch: float, yaw: float) -> NDArray[np.float64]:

@@ -19,8 +19,8 @@ from ..verdict.finding import FileError, finding
 from .findings import ARRAYS_LEFT_OUT, DAMAGE_INCOMPLETE, RAW_WITHOUT_LAYOUT, SCAN_DIMENSIONS, SCAN_SAMPLE_TYPE
 from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
+from .suffixes import SAMPLE_TYPES
 
-TYPES = ("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float32", "float64")
 ENTRY = b"PK\1\2"  # first bytes of an entry in a zip archive's directory
 MAX_ARRAY_HEADER = 10_000  # bytes, like numpy.load
 
@@ -112,8 +112,8 @@ def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, 
 def read_raw(
     path: str | Path, shape: Sequence[int], dtype: str, big_endian: bool = False, limits: Limits = DEFAULT_LIMITS
 ) -> Scan:
-    """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of TYPES."""
-    if dtype not in TYPES:
+    """Read samples with no header: shape (nx, ny, nz), x running fastest; dtype: one of SAMPLE_TYPES."""
+    if dtype not in SAMPLE_TYPES:
         raise FileError(SCAN_SAMPLE_TYPE, type=dtype)
     kind = np.dtype(dtype).newbyteorder(">" if big_endian else "<")
     shape = shape_of(shape)
@@ -123,7 +123,7 @@ def read_raw(
 
 def read_named_raw(path: Path, limits: Limits) -> Scan:
     """Read a raw file that is called NAME_XxYxZ_TYPE.raw, like the Open SciVis collection."""
-    layout = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(TYPES)), path.name, re.IGNORECASE)
+    layout = re.search(r"_(\d+)x(\d+)x(\d+)_({:s})\.raw$".format("|".join(SAMPLE_TYPES)), path.name, re.IGNORECASE)
     if not layout:
         raise FileError(RAW_WITHOUT_LAYOUT)
     return read_raw(path, [int(size[:20]) for size in layout.groups()[:3]], layout[4].lower(), limits=limits)

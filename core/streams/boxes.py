@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,37 +13,26 @@ from ..mesh.surface import Surface
 from ..verdict.finding import FileError, finding
 from .findings import AT_ROW, NON_FINITE_COORDINATES
 
+Box = tuple[NDArray[np.float64], NDArray[np.float64]]
 
-class BoxOfBlocks:
-    """Bounding box of blocks, which grows block by block. element: "triangle" or "vertex", the meaning of a row."""
 
-    def __init__(self, element: str) -> None:
-        self._element = element
-        self._low, self._high = np.full(3, np.inf), np.full(3, -np.inf)
-        self._rows = self._bad = self._first = 0
+def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
+    """Return the least and the largest of (n, 3) or (n, 3, 3) coordinates in blocks, zero if there are none.
 
-    def add(self, rows: NDArray[np.floating]) -> None:
-        """Add (n, 3) or (n, 3, 3) coordinates."""
-        if not len(rows):
-            return
-        low, high = Surface(rows.reshape(-1, 3)).box
-        if np.isfinite(low).all() and np.isfinite(high).all():
-            self._low, self._high = np.minimum(self._low, low), np.maximum(self._high, high)
+    element: "triangle" or "vertex", the meaning of a row. FileError with the first wrong row if some are not finite.
+    """
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    rows = bad = first = 0
+    for block in blocks:
+        least, largest = Surface(block.reshape(-1, 3)).box if len(block) else (low, high)
+        if np.isfinite([least, largest]).all() or not len(block):
+            low, high = np.minimum(low, least), np.maximum(high, largest)
         else:
-            bad = ~np.isfinite(rows.reshape(len(rows), -1))
-            if not self._bad:
-                self._first = self._rows + int(np.argmax(bad.any(axis=1)))
-            self._bad += int(np.count_nonzero(bad))
-        self._rows += len(rows)
-
-    @property
-    def is_finite(self) -> bool:
-        """True if all coordinates so far are finite."""
-        return not self._bad
-
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return the least and the largest coordinates, zero if there are none; FileError if some are not finite."""
-        if self._bad:
-            place = finding(AT_ROW, element=self._element, row=self._first)
-            raise FileError(NON_FINITE_COORDINATES, count=self._bad, place=place.as_record())
-        return (self._low, self._high) if self._rows else (np.zeros(3), np.zeros(3))
+            wrong = ~np.isfinite(block.reshape(len(block), -1))
+            first = first if bad else rows + int(np.argmax(wrong.any(axis=1)))
+            bad += int(np.count_nonzero(wrong))
+        rows += len(block)
+    if bad:
+        place = finding(AT_ROW, element=element, row=first).as_record()
+        raise FileError(NON_FINITE_COORDINATES, count=bad, place=place)
+    return (low, high) if rows else (np.zeros(3), np.zeros(3))

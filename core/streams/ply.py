@@ -14,7 +14,7 @@ from ..mesh.surface import Surface, normals
 from ..scans.findings import FILE_UNRECOGNIZED
 from ..scans.scan import damaged
 from ..verdict.finding import FileError
-from .boxes import BoxOfBlocks
+from .boxes import Box, box_of_blocks
 from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS, PLY_CONCAVE_POLYGONS
 from .misread import map_file
 from .ply_header import INDICES, MAX_HEADER, Element, Header, parse_header
@@ -45,11 +45,9 @@ class PlyFile:
         except (ValueError, KeyError, IndexError) as error:
             raise FileError(FILE_UNRECOGNIZED, format="PLY") from error
 
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def box(self) -> Box:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
-        box = BoxOfBlocks("vertex")
-        box.add(self._points)
-        return box.box()
+        return box_of_blocks([self._points], "vertex")
 
     sampled_box = box
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError
-from .boxes import BoxOfBlocks
+from .boxes import Box, box_of_blocks
 from .findings import STL_CUT_SHORT
 from .misread import map_file
 from .stl_text import BY_COUNT, BY_WORD, check_stl_text
@@ -54,27 +54,23 @@ class StlFile:
             check_stl_text(map_file(path))
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
 
-    def sampled_box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def sampled_box(self) -> Box:
         """Return a box of some of the triangles; of a text that of its first ones."""
-        box = BoxOfBlocks("triangle")
         with open(self._path, "rb") as file:
-            if self._binary:
-                samples = []
-                for number in range(0, self.face_count, max(1, self.face_count // SAMPLES)):
-                    file.seek(HEAD + RECORD * number)
-                    samples.append(file.read(RECORD))
-                box.add(np.frombuffer(b"".join(samples), CORNERS)["at"].astype(np.float32))
-            else:
-                for corners in islice(self._text_corners(file), 1):
-                    box.add(corners)
-        return box.box() if box.is_finite else self.box()
+            blocks = [self._samples(file)] if self._binary else list(islice(self._text_corners(file), 1))
+        is_finite = all(np.isfinite(block).all() for block in blocks)
+        return box_of_blocks(blocks, "triangle") if is_finite else self.box()
 
-    def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _samples(self, file: BinaryIO) -> NDArray[np.float32]:
+        samples = []
+        for number in range(0, self.face_count, max(1, self.face_count // SAMPLES)):
+            file.seek(HEAD + RECORD * number)
+            samples.append(file.read(RECORD))
+        return np.frombuffer(b"".join(samples), CORNERS)["at"].astype(np.float32)
+
+    def box(self) -> Box:
         """Return the least and the largest coordinates. Raises FileError if some are not finite."""
-        box = BoxOfBlocks("triangle")
-        for piece in self.pieces():
-            box.add(piece.points.reshape(-1, 3, 3))
-        return box.box()
+        return box_of_blocks((piece.points.reshape(-1, 3, 3) for piece in self.pieces()), "triangle")
 
     def pieces(self) -> Iterator[Surface]:
         """Yield the triangles, three points each."""

@@ -29,11 +29,16 @@ from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_who
 from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, THREEMF_EXTENSION, THREEMF_FIELD
 
 MAX_INSTANCES = 100_000  # meshes that the build places
+MAX_DEPTH = 100  # components within components
 MAX_TEXT = 60  # letters of a wrong field that are shown
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
 _KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here, or of no effect on shape
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _BLOCK = 1 << 16
+_DAMAGE = (
+    *(zipfile.BadZipFile, zlib.error, EOFError, expat.ExpatError),
+    *(RuntimeError, LookupError, ValueError, OverflowError),
+)
 
 
 @dataclass
@@ -60,17 +65,13 @@ class Placed:
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
     """Return each mesh of a file's build at each of its places, in the file's unit, and that unit in meters.
 
-    Of `limits`, `entries` and `unpacked_bytes` count. FileError if the file is damaged, beyond a limit, or needs an
-    extension that changes shapes.
+    FileError if the file is damaged, beyond limits (`entries`, `unpacked_bytes`), or needs an unknown extension.
     """
     try:
         with zipfile.ZipFile(path) as archive:
             return _Package(Path(path), archive, limits).build()
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, expat.ExpatError) as error:
-        reason = str(error).rstrip(".") or type(error).__name__
-        raise damaged(Path(path), DAMAGE_INCOMPLETE, kind="3MF file", error=reason) from error
-    except (KeyError, ValueError, IndexError, OverflowError) as error:
-        reason = "{}: {}".format(type(error).__name__, error)
+    except _DAMAGE as error:
+        reason = "{}: {}".format(type(error).__name__, error).rstrip(": .")
         raise damaged(Path(path), DAMAGE_INCOMPLETE, kind="3MF file", error=reason) from error
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
@@ -104,8 +105,11 @@ class _Package:
         root = self._root()
         model = self.model(root)
         placed: list[Placed] = []
-        for part, identifier, matrix in model.items:
-            self._place(part, identifier, matrix, (), "", placed)
+        for item in model.items:
+            for one in self._placed(*item, (), ""):
+                placed.append(one)
+                if len(placed) > MAX_INSTANCES:
+                    raise FileError(FILE_TOO_LARGE, limit=MAX_INSTANCES, content="placed meshes")
         return placed, UNITS[model.unit]
 
     def _root(self) -> str:
@@ -115,27 +119,21 @@ class _Package:
                     return posixpath.join("/", target)
         return "/3D/3dmodel.model"
 
-    def _place(
-        self,
-        part: str,
-        identifier: str,
-        matrix: NDArray[np.float64],
-        above: tuple[tuple[str, str], ...],
-        name: str,
-        placed: list[Placed],
-    ) -> None:
+    def _placed(
+        self, part: str, identifier: str, matrix: NDArray[np.float64], above: tuple[tuple[str, str], ...], name: str
+    ) -> Iterator[Placed]:
         key = (part, identifier)
         if key in above:
             raise ValueError("an object is a component of itself")
-        if len(placed) >= MAX_INSTANCES or len(above) > 100:
-            raise FileError(FILE_TOO_LARGE, limit=MAX_INSTANCES, content="placed meshes")
+        if len(above) > MAX_DEPTH:
+            raise FileError(FILE_TOO_LARGE, limit=MAX_DEPTH, content="nested components")
         found = self.model(part).objects[identifier]
         name = name or found.name
         if len(found.triangles):
             points, triangles = self._mesh(key, found)
-            placed.append(Placed(name or "Object " + identifier, key, points, triangles, matrix))
+            yield Placed(name or "Object " + identifier, key, points, triangles, matrix)
         for part, identifier, local in found.components:
-            self._place(part, identifier, matrix @ local, (*above, key), found.name or name, placed)
+            yield from self._placed(part, identifier, matrix @ local, (*above, key), found.name or name)
 
     def _mesh(self, key: tuple[str, str], found: _Object) -> tuple[NDArray, NDArray]:
         if key not in self._arrays:

@@ -1,52 +1,27 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Import a scan: a file of samples becomes a Volume object.
+"""Import a scan: a file of samples becomes a Volume object."""
 
-Blender takes voxels from .vdb files only, so one is written beside the scan.
-"""
-
-from __future__ import annotations
-
-import os
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntVectorProperty, StringProperty
-from bpy.types import Context, Menu, Object, Operator
+from bpy.types import Context, Menu, Operator
 from bpy_extras.io_utils import ImportHelper
-from numpy.typing import NDArray
 
-from ...blender.read.grids.vdb import openvdb
-from ...blender.settings.grid_values import positions_text
-from ...blender.settings.limits import scan_limits
+from ...blender import read, scene, settings
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
-from ...core.scans.formats import SUFFIXES, read_scan, sample_matrix, scan_suffix
-from ...core.scans.numpy_files import TYPES, read_raw
-from ...core.scans.positions import Positions, place_samples, read_all_positions
-from ...core.scans.scan import Scan
+from ...core.scans.suffixes import SAMPLE_TYPES, SUFFIXES
 from ...core.streams.findings import FILE_UNREADABLE
-from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
-from ..findings import (
-    FILE_EXISTS,
-    NO_IMPORT_FILE,
-    OPENVDB_MISSING,
-    SCAN_CT_NUMBERS,
-    SCAN_DRAWN_EVENLY,
-    SCAN_IMPORTED,
-    SCAN_NON_FINITE,
-    VOLUME_NOT_WRITTEN,
-)
-
-GRID_NAME = "density"
-SAMPLES_PER_SLAB = 1 << 22  # samples at a time
+from ...core.verdict.finding import FileError, Finding, MeasureError, system_reason
+from .. import selection
+from ..findings import FILE_EXISTS, FILE_NOT_WRITTEN
 
 
-class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
+class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, ImportHelper):
     """Import a scan or array of densities as a Volume object. A .vdb file is written beside it"""
 
     bl_idname = "object.body_moments_import_scan"
@@ -107,7 +82,7 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
     raw_type: EnumProperty(
         name="Raw Type",
         description="Sample type of a .raw file",
-        items=[(name, name, "") for name in TYPES],
+        items=[(name, name, "") for name in SAMPLE_TYPES],
         default="uint8",
     )
     raw_big_endian: BoolProperty(
@@ -116,122 +91,51 @@ class OBJECT_OT_body_moments_import_scan(Operator, ImportHelper):
         default=False,
     )
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        if context.mode != "OBJECT":
-            return reports.unavailable(cls, "Switch to Object Mode")
-        return True
-
     def execute(self, context: Context) -> set[str]:
+        path = Path(bpy.path.abspath(self.filepath))
+        if path.is_dir():
+            return selection.refuse(self, selection.NO_FILE)
+        module = read.vdb.openvdb()
+        if module is None:
+            return selection.refuse(self, "This Python has no openvdb module. Use Blender.")
         try:
-            findings = self._import(context)
+            findings = self._import(context, module, path)
+        except OSError as error:
+            return selection.refuse(self, FileError(FILE_UNREADABLE, error=system_reason(error)).about(path.name))
         except MeasureError as error:
-            reports.report(self, reports.refusal(error.about(Path(self.filepath).name)))
-            return {"CANCELLED"}
+            return selection.refuse(self, error.about(path.name))
         reports.report(self, *findings)
         return {"FINISHED"}
 
-    def _import(self, context: Context) -> list[Finding]:
-        """Make the object, and return findings about the steps and decisions."""
-        module = openvdb()
-        if module is None:
-            raise FileError(OPENVDB_MISSING)
-        path = Path(bpy.path.abspath(self.filepath))
-        if path.is_dir():
-            raise FileError(NO_IMPORT_FILE)
-        target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
-        scan = self._scan(path)
-        matrix, decided = sample_matrix(
-            scan, tuple(map(shortest_decimal, self.spacing)) if self.use_spacing else None, None, None
-        )
-        files = self._position_files()
-        positions = _read_positions(files, scan)
-        matrix, positions = place_samples(matrix, positions, shortest_decimal(self.position_unit))
-        for axis, row in enumerate(positions):
-            if row is not None:  # Blender's voxels are even: the first and the last are where they belong
-                matrix[:3, axis] *= row[-1] / (len(row) - 1)
+    def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
+        """Make the object, and return findings and texts about the steps and decisions."""
+        limits = replace(settings.limits.scan_limits(), allow_outside=self.allow_outside)
+        raw = (self.raw_shape, self.raw_type, self.raw_big_endian) if all(self.raw_shape) else None
+        files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
+        files = {axis: bpy.path.abspath(file) for axis, file in files.items() if file}
+        spacing = self.spacing if self.use_spacing else None
+        placed = scene.read_placed(path, limits, raw, spacing, files, self.position_unit)
+        target = placed.target
         if target.exists() and not self.overwrite:
             raise FileError(FILE_EXISTS, file=target.name)
-        matrix[:3] /= shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         try:
-            low = _write(module, target, scan, matrix)
+            low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
-            raise FileError(VOLUME_NOT_WRITTEN, error=getattr(error, "strerror", None) or str(error)) from error
-        obj = _object(context, target)
-        obj.body_moments.sample_positions = positions_text(positions)
-        findings = [finding(SCAN_IMPORTED, samples=list(scan.samples.shape), file=target.name), *decided]
+            raise FileError(FILE_NOT_WRITTEN, error=getattr(error, "strerror", None) or str(error)) from error
+        obj = scene.add_volume(context, placed)
+        samples = list(placed.scan.samples.shape)
+        texts = [reports.phrase("Imported {samples:size} samples as “{file}”", samples=samples, file=target.name)]
         if files:
-            findings.append(finding(SCAN_DRAWN_EVENLY, axes=sorted(files)))
+            text = (
+                "Blender draws samples evenly. They are measured where they stand; the ends along {axes} are in their "
+                "places."
+            )
+            texts.append(reports.phrase(text, axes=sorted(files)))
         if low < 0.0:
             obj.body_moments.values_from = "TABLE"
-            findings.append(finding(SCAN_CT_NUMBERS))
-        return findings
-
-    def _position_files(self) -> dict[str, str]:
-        files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
-        return {axis: bpy.path.abspath(path) for axis, path in files.items() if path}
-
-    def _scan(self, path: Path) -> Scan:
-        limits = replace(scan_limits(), allow_outside=self.allow_outside)
-        try:
-            if scan_suffix(path) == ".raw" and all(self.raw_shape):
-                return read_raw(path, self.raw_shape, self.raw_type, self.raw_big_endian, limits)
-            return read_scan(path, limits)
-        except OSError as error:
-            raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-
-
-def _read_positions(files: dict[str, str], scan: Scan) -> Positions:
-    try:
-        return read_all_positions(files, scan.samples.shape)
-    except OSError as error:
-        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-
-
-def _write(module: ModuleType, target: Path, scan: Scan, matrix: NDArray) -> float:
-    """Write the scan as a grid, whole or not at all, and return its least value.
-
-    The background differs from every sample's value, so that none is lost, but is zero if no sample is negative.
-    """
-    least, exact = np.inf, True
-    for _, slab in _slabs(scan):
-        if not np.isfinite(slab.min()) or not np.isfinite(slab.max()):
-            raise FileError(SCAN_NON_FINITE)
-        least = min(least, float(slab.min()))
-        exact = exact and np.array_equal(slab.astype(np.float32), slab)
-    kind, grid_of = (np.float32, module.FloatGrid) if exact else (np.float64, module.DoubleGrid)
-    grid = grid_of(0.0 if least >= 0.0 else float(np.nextafter(kind(least), kind(-np.inf))))
-    grid.name, grid.gridClass = GRID_NAME, "fog volume"
-    grid.transform = module.createLinearTransform(matrix.T.tolist())
-    for start, slab in _slabs(scan):
-        grid.copyFromArray(np.ascontiguousarray(slab), ijk=(start, 0, 0))
-    partial = target.with_name("{:s}.{:d}.partial.vdb".format(target.stem, os.getpid()))
-    try:
-        module.write(str(partial), grid)
-        os.replace(partial, target)
-    finally:
-        partial.unlink(missing_ok=True)
-    return least
-
-
-def _slabs(scan: Scan) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    samples = scan.samples
-    planes = max(1, SAMPLES_PER_SLAB // (samples.shape[1] * samples.shape[2]))
-    for start in range(0, samples.shape[0], planes):
-        yield start, samples[start : start + planes].astype(np.float64) * scan.slope + scan.intercept
-
-
-def _object(context: Context, path: Path) -> Object:
-    volume = bpy.data.volumes.new(path.stem)
-    volume.filepath = str(path)
-    obj = bpy.data.objects.new(path.stem, volume)
-    obj.body_moments.grid = GRID_NAME
-    context.collection.objects.link(obj)
-    for previous in context.selected_objects:
-        previous.select_set(False)
-    obj.select_set(True)
-    context.view_layer.objects.active = obj
-    return obj
+            texts.append(reports.phrase("Negative values are taken as CT numbers, by the transfer table."))
+        return [*texts, *placed.findings]
 
 
 def _menu(menu: Menu, _context: Context) -> None:

@@ -9,18 +9,30 @@ import bpy
 from bpy.props import StringProperty
 from bpy.types import Context, Operator, OperatorProperties
 
-from ...blender.read.total_caveats import open_body_caveats, total_caveats
+from ...blender import read, write
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
-from ...blender.write.text_report import stored_document, text
 from ...blender.write.translations import localized
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict.finding import Severity
 from .. import selection
-from ..findings import NO_VALUE_TO_COPY, REPORT_COPIED, VALUE_COPIED
 
 
-def copy_text(operator: Operator, context: Context, text: str, done: Finding) -> None:
-    """Without a window there is no clipboard, and long reports are cut short: the text goes to the standard output."""
+class OnStored:
+    """Base of operators that need a selected object with stored results."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        if not selection.poll_selection(cls, context):
+            return False
+        stored = any(properties.is_stored(obj) for obj in context.view_layer.objects.selected)
+        return stored or reports.unavailable(cls, "Measure the selected objects first")
+
+
+def copy_text(operator: Operator, context: Context, text: str, done: str) -> None:
+    """Copy a text, and report that it is done.
+
+    Without a window there is no clipboard, and long reports are cut short: the text goes to the standard output.
+    """
     if bpy.app.background:
         sys.stdout.write(text.removesuffix("\n") + "\n")
     else:
@@ -44,19 +56,10 @@ class OBJECT_OT_body_moments_copy_value(Operator):
 
     def execute(self, context: Context) -> set[str]:
         if not self.value:
-            reports.report(self, finding(NO_VALUE_TO_COPY))
+            reports.report(self, reports.phrase("No value to copy"), level=Severity.WARNING)
             return {"CANCELLED"}
-        copy_text(self, context, self.value, finding(VALUE_COPIED, value=self.value))
+        copy_text(self, context, self.value, reports.phrase("Copied {value}", value=self.value))
         return {"FINISHED"}
-
-
-def poll_stored(cls: type[Operator], context: Context) -> bool:
-    """Return whether a selected object has stored results; report why not."""
-    if not selection.poll_selection(cls, context, any_mode=True):
-        return False
-    if not any(properties.is_stored(obj) for obj in context.view_layer.objects.selected):
-        return reports.unavailable(cls, "Measure the selected objects first")
-    return True
 
 
 def selected_document(context: Context) -> dict[str, Any]:
@@ -64,13 +67,13 @@ def selected_document(context: Context) -> dict[str, Any]:
     objects = selection.selected_measurable(context)
     outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]
-    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
-    caveats += total_caveats(counted, context.view_layer)
+    caveats = read.total_caveats.open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+    caveats += read.total_caveats.total_caveats(counted, context.view_layer)
     version = ".".join(map(str, bpy.app.version))
-    return stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)
+    return write.text_report.stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)
 
 
-class OBJECT_OT_body_moments_copy_report(Operator):
+class OBJECT_OT_body_moments_copy_report(OnStored, Operator):
     """Copy the stored mass properties of the selected objects."""
 
     bl_idname = "object.body_moments_copy_report"
@@ -80,14 +83,13 @@ class OBJECT_OT_body_moments_copy_report(Operator):
     )
     bl_options = {"REGISTER"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return poll_stored(cls, context)
-
     def execute(self, context: Context) -> set[str]:
         document = selected_document(context)
         count = len(document["objects"]) + len(document["errors"])
-        copy_text(self, context, text(document), finding(REPORT_COPIED, count=count))
+        done = reports.phrase(
+            "Copied the report of {count} object", "Copied the report of {count} objects", count=count
+        )
+        copy_text(self, context, write.text_report.text(document), done)
         return {"FINISHED"}
 
 

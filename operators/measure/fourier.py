@@ -5,31 +5,30 @@
 from __future__ import annotations
 
 import os
+from errno import ENOENT
 from math import pi
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
-from ...blender.bodies.flat.flat_fourier import FlatTransform, flat_transform
-from ...blender.bodies.fourier import ObjectTransform, object_transform
-from ...blender.bodies.measure_object import THREADS
+from ...blender import bodies, write
 from ...blender.read.visibility import measurable
 from ...blender.settings.options import MeasureOptions
-from ...blender.write import reports, spectrum
-from ...command.findings import FOURIER_NOT_WRITTEN
-from ...core.fourier.wave_vectors import FrequencyGrid
+from ...blender.write import reports
+from ...core import fourier
 from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
-from .. import files
-from ..findings import (
-    FOURIER_FOLDER_MISSING,
-    FOURIER_PATH_MISSING,
-    FOURIER_WRITTEN,
-    PANEL_FOURIER_DEFAULT,
-)
+from ...core.verdict.finding import FileError, system_reason
+from .. import selection
+from ..findings import FILE_NOT_WRITTEN
 from ..modal import ModalSteps
+
+if TYPE_CHECKING:
+    from ...blender.bodies.flat.flat_fourier import FlatTransform
+    from ...blender.bodies.fourier import ObjectTransform
+    from ...core.fourier.wave_vectors import FrequencyGrid
 
 SUFFIX = ".npz"
 
@@ -108,7 +107,7 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
         return {"RUNNING_MODAL"}
 
     def check(self, context: Context) -> bool:
-        return files.ensure_suffix(self, SUFFIX)
+        return selection.ensure_suffix(self, SUFFIX)
 
     def draw(self, context: Context) -> None:
         column = self.layout.column()
@@ -116,9 +115,11 @@ class OBJECT_OT_body_moments_fourier(_Settings, Operator):
         for name in ("of", "frame", "count", "largest"):
             column.prop(self, name)
         if not self.largest:
-            column.label(text=str(finding(PANEL_FOURIER_DEFAULT)), icon="INFO")
+            column.label(text="0 rad/m: from the object's size", icon="INFO")
 
     def execute(self, context: Context) -> set[str]:
+        if not self.filepath:
+            return selection.refuse(self, selection.NO_FILE)
         settings = {name: getattr(self, name) for name in ("filepath", "of", "frame", "count", "largest")}
         invoked = "EXEC_DEFAULT" if context.window is None else "INVOKE_DEFAULT"
         try:
@@ -139,42 +140,20 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
 
     poll = OBJECT_OT_body_moments_fourier.poll
 
-    def execute(self, context: Context) -> set[str]:
-        """All at once: in background there is nobody to press Esc."""
-        try:
-            self._begin(context)
-            return self.run_all_steps(context, 1.0)
-        except MeasureError as error:
-            return self._refuse(error)
-
-    def invoke(self, context: Context, event: Event) -> set[str]:
-        try:
-            self._begin(context)
-        except MeasureError as error:
-            return self._refuse(error)
-        return self.start_modal(context, 1.0)
-
-    def modal(self, context: Context, event: Event) -> set[str]:
-        try:
-            return ModalSteps.modal(self, context, event)
-        except MeasureError as error:
-            return self._refuse(error)
-
-    def _begin(self, context: Context) -> None:
+    def _begin(self, context: Context) -> float:
         obj, depsgraph = context.object, context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
-        if not self.filepath:
-            raise FileError(FOURIER_PATH_MISSING)
         if not self._path.parent.is_dir():
-            raise FileError(FOURIER_FOLDER_MISSING, folder=str(self._path.parent))
+            raise FileError(FILE_NOT_WRITTEN, error=os.strerror(ENOENT))
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
         self._work: ObjectTransform | FlatTransform
         if self.of == "FLAT":
-            self._work = flat_transform(obj, depsgraph, self._grid, frame=frame)
+            self._work = bodies.flat_transform(obj, depsgraph, self._grid, frame=frame)
         else:
-            options, area = MeasureOptions(threads=THREADS), self.of == "AREA"
-            self._work = object_transform(obj, depsgraph, options, self._grid, frame=frame, area=area)
+            options, area = MeasureOptions(threads=bodies.THREADS), self.of == "AREA"
+            self._work = bodies.object_transform(obj, depsgraph, options, self._grid, frame=frame, area=area)
         self._steps = (done for done in self._work.steps())
+        return 1.0
 
     def _grid(self, size: float) -> FrequencyGrid:
         """Return the grid for a body of this size in m.
@@ -182,26 +161,27 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         Without a given largest frequency, its step is π over the size.
         """
         largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
-        return FrequencyGrid(self.count, largest, self._dimension)
+        return fourier.FrequencyGrid(self.count, largest, self._dimension)
 
     def _finish(self, context: Context) -> set[str]:
         transform, findings = self._work.result()
         try:
-            spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
+            write.spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError(FOURIER_NOT_WRITTEN, error=system_reason(error)) from error
+            raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
-        image = spectrum.picture(name, transform.values, self.count, self._dimension)
+        image = write.spectrum.picture(name, transform.values, self.count, self._dimension)
         for area in context.screen.areas if context.screen else ():
             if area.type == "IMAGE_EDITOR":
                 area.spaces.active.image = image
-        done = finding(FOURIER_WRITTEN, count=len(transform.q), file=self._path.name, image=image.name)
+        done = reports.phrase(
+            "Wrote {count} frequencies to {file}; the image {image} shows slices of their magnitude",
+            count=len(transform.q),
+            file=self._path.name,
+            image=image.name,
+        )
         reports.report(self, done, *reports.first(findings))
         return {"FINISHED"}
-
-    def _refuse(self, error: MeasureError) -> set[str]:
-        reports.report(self, reports.refusal(error))
-        return {"CANCELLED"}
 
 
 CLASSES = (OBJECT_OT_body_moments_fourier_run, OBJECT_OT_body_moments_fourier)

@@ -8,25 +8,23 @@ import os
 import time
 from collections.abc import Generator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
 from ...blender.write import reports
-from ...command.supervisor import listing
-from ...command.supervisor.journal import Journal
-from ...command.supervisor.whole_run import WholeRun
+from ...command import supervisor
+from ...core import measurement
 from ...core.files.whole_file import whole_file
-from ...core.measurement.page import to_html
-from ...core.verdict.finding import MeasureError, finding, system_reason
-from ..findings import (
-    LIBRARY_FAILED,
-    LIBRARY_MEASURED,
-    LIBRARY_MEASURED_WITH_FAILURES,
-    LIBRARY_NOT_STARTED,
-)
+from ...core.verdict.finding import Severity, system_reason
+from .. import selection
 from ..modal import ModalSteps
+
+if TYPE_CHECKING:
+    from ...command.supervisor.journal import Journal
+    from ...command.supervisor.whole_run import WholeRun
 
 RESULT, REPORT = "body_moments.jsonl", "body_moments.html"
 JOURNAL = RESULT + ".journal"
@@ -85,30 +83,24 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Context) -> set[str]:
+        in_window = context.window is not None and not bpy.app.background
         try:
-            count = self._begin(context)
-        except MeasureError as refusal:
-            reports.report(self, refusal.finding)
-            return {"CANCELLED"}
+            return self._reporting(self._run, context, in_window)
         except OSError as error:
-            reports.report(self, finding(LIBRARY_NOT_STARTED, error=system_reason(error)))
-            return {"CANCELLED"}
-        if bpy.app.background or context.window is None:
-            return self.run_all_steps(context, count)
-        return self.start_modal(context, count)
+            return selection.refuse(self, "No process can be started: {error}.", error=system_reason(error))
 
     def modal(self, context: Context, event: Event) -> set[str]:
         outcome = ModalSteps.modal(self, context, event)
         return {"PASS_THROUGH"} if outcome == {"RUNNING_MODAL"} and event.type != "TIMER" else outcome
 
     def _begin(self, context: Context) -> int:
-        """Start the run; how many files it has. Raises MeasureError and OSError."""
+        """Start the run; return the number of its files. Raises MeasureError and OSError."""
         folder = self.directory
         if self.source != FOLDER:
             library = context.preferences.filepaths.asset_libraries[int(self.source.removeprefix("LIBRARY_"))]
             folder = library.path
         folder = os.path.abspath(bpy.path.abspath(folder))
-        count = sum(1 for _ in listing.expand([folder]))
+        count = sum(1 for _ in supervisor.expand([folder]))
         self._folder = Path(folder)
         words = [folder, "--format", "jsonl", *(["--thumbnails"] if self.thumbnails else [])]
         is_begun = (self._folder / JOURNAL).exists() and not (self._folder / RESULT).exists()
@@ -116,7 +108,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         if self.asset_metadata:
             words += ["--asset-metadata", "file" if self.overwrite else "copy"]
         blender = None if bpy.app.module else bpy.app.binary_path
-        self._steps = self._watch(WholeRun(words, self._folder / RESULT, blender))
+        self._steps = self._watch(supervisor.WholeRun(words, self._folder / RESULT, blender))
         return count
 
     def _watch(self, run: WholeRun) -> Generator[float, None, None]:
@@ -131,16 +123,21 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
     def _finish(self, context: Context) -> set[str]:
         result = self._folder / RESULT
         if self._exit_code not in (0, 1, 70) or not result.exists():
-            reports.report(self, finding(LIBRARY_FAILED, code=self._exit_code))
-            return {"CANCELLED"}
-        with Journal(result.with_name(JOURNAL)) as journal:
+            text = "Measuring the library failed with exit code {code}. Use the command line to see why."
+            return selection.refuse(self, text, code=self._exit_code)
+        with supervisor.Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)
             failed = sum(entry.status != "ok" for entry in journal.entries.values())
             documents = _Documents(journal, paths)
             with whole_file(self._folder / REPORT) as file:
-                file.writelines(piece.encode("utf-8", "backslashreplace") for piece in to_html(documents))
-        code = LIBRARY_MEASURED_WITH_FAILURES if failed else LIBRARY_MEASURED
-        reports.report(self, finding(code, count=len(paths), failed=failed, file=str(self._folder / REPORT)))
+                file.writelines(piece.encode("utf-8", "backslashreplace") for piece in measurement.to_html(documents))
+        counts = {"count": len(paths), "failed": failed, "file": str(self._folder / REPORT)}
+        if failed:
+            text = "Files measured: {count}, not or not fully: {failed}; report: {file}"
+            reports.report(self, reports.phrase(text, **counts), level=Severity.WARNING)
+        else:
+            texts = ("{count} file measured; report: {file}", "{count} files measured; report: {file}")
+            reports.report(self, reports.phrase(*texts, **counts))
         return {"FINISHED"}
 
 

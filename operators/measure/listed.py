@@ -11,36 +11,28 @@ from bpy.props import BoolProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator, Scene
 
 from ...blender.write import reports
-from ...core.files.whole_file import whole_file
-from ...core.measurement.documents import FORMATS
-from ...core.verdict.finding import FileError, MeasureError, finding, system_reason
-from .. import files, selection
-from ..findings import CSV_COPIED, FILE_NOT_WRITTEN, NO_EXPORT_FILE, NUMBERS_SAVED, NUMBERS_SUFFIX
-from .copy import copy_text, poll_stored, selected_document
+from ...core import measurement
+from .. import selection
+from .copy import OnStored, copy_text, selected_document
 
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
 
-class OBJECT_OT_body_moments_copy_csv(Operator):
+class OBJECT_OT_body_moments_copy_csv(OnStored, Operator):
     """Copy the stored mass properties of the selected objects to the clipboard as a table, in SI units"""
 
     bl_idname = "object.body_moments_copy_csv"
     bl_label = "Copy as CSV"
     bl_options = {"REGISTER"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return poll_stored(cls, context)
-
     def execute(self, context: Context) -> set[str]:
         document = selected_document(context)
-        copy_text(
-            self, context, "".join(FORMATS["csv"]([document])), finding(CSV_COPIED, count=len(document["objects"]))
-        )
+        done = reports.phrase("Copied {count} row.", "Copied {count} rows.", count=len(document["objects"]))
+        copy_text(self, context, "".join(measurement.FORMATS["csv"]([document])), done)
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_save_numbers(Operator):
+class OBJECT_OT_body_moments_save_numbers(OnStored, Operator):
     """Save the stored mass properties of the selected objects and their total, in SI units, as .csv, .json or .jsonl"""
 
     bl_idname = "object.body_moments_save_numbers"
@@ -51,34 +43,23 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
     check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
     filter_glob: StringProperty(default="*.csv;*.json;*.jsonl", options={"HIDDEN"})
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return poll_stored(cls, context)
-
     def invoke(self, context: Context, _event: Event) -> set[str]:
-        return files.ask_for_table(self, context)
+        return selection.ask_for_table(self, context)
 
     def check(self, _context: Context) -> bool:
-        return files.ensure_suffix(self, ".csv", SUFFIXES)
+        return selection.ensure_suffix(self, ".csv", SUFFIXES)
 
+    @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        try:
-            if not self.filepath:
-                raise FileError(NO_EXPORT_FILE)
-            path = Path(bpy.path.abspath(self.filepath))
-            if path.suffix.lower() not in SUFFIXES:
-                raise FileError(NUMBERS_SUFFIX, file=path.name)
-            document = selected_document(context)
-            try:
-                with whole_file(path) as file:
-                    for piece in FORMATS[SUFFIXES[path.suffix.lower()]]([document]):
-                        file.write(piece.encode())
-            except OSError as error:
-                raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
-        except MeasureError as error:
-            selection.report(self, reports.refusal(error))
-            return {"CANCELLED"}
-        selection.report(self, finding(NUMBERS_SAVED, count=len(document["objects"]), file=path.name))
+        if not self.filepath:
+            return selection.refuse(self, selection.NO_FILE)
+        path = Path(bpy.path.abspath(self.filepath))
+        if path.suffix.lower() not in SUFFIXES:
+            return selection.refuse(self, "The format is unknown. Let the file's name end in .csv, .json or .jsonl.")
+        document = selected_document(context)
+        selection.write_file(path, measurement.FORMATS[SUFFIXES[path.suffix.lower()]]([document]))
+        texts = ("Saved {count} object to “{file}”.", "Saved {count} objects to “{file}”.")
+        selection.report(self, reports.phrase(*texts, count=len(document["objects"]), file=path.name))
         return {"FINISHED"}
 
 

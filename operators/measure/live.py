@@ -8,10 +8,9 @@ from bpy.types import Context, Object, Operator
 
 from ...blender.read.visibility import measurable
 from ...blender.session import live
-from ...blender.session.tracking import posed
+from ...blender.session.tracking import armatures
 from ...blender.write import reports
 from .. import selection
-from ..modal import redraw
 
 
 class OBJECT_OT_body_moments_live(Operator):
@@ -27,16 +26,15 @@ class OBJECT_OT_body_moments_live(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if context.object is None or not _subjects(context):
-            return reports.unavailable(cls, "Select objects")
-        return True
+        active = context.object is not None and bool(_subjects(context))
+        return active or reports.unavailable(cls, "Select objects")
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        if any(live.following.is_live(obj) for obj in posed.subjects([context.object])):
+        if any(live.following.is_live(obj) for obj in armatures.subjects([context.object])):
             for obj in objects:
                 live.live.stop(obj)
-            redraw(context)
+            selection.redraw(context)
             return {"FINISHED"}
         depsgraph = context.evaluated_depsgraph_get()
         refusals = []
@@ -46,13 +44,13 @@ class OBJECT_OT_body_moments_live(Operator):
                 refusals.append(reports.failure(obj.name, result.refusal))
         if refusals:
             selection.report(self, *reports.first(refusals))
-        redraw(context)
+        selection.redraw(context)
         return {"FINISHED"}
 
 
 def _subjects(context: Context) -> list[Object]:
     """Return the measurable ones of the active object and the selected objects."""
-    objects = posed.subjects([context.object, *context.view_layer.objects.selected])
+    objects = armatures.subjects([context.object, *context.view_layer.objects.selected])
     return [obj for obj in objects if measurable(obj)]
 
 

@@ -5,30 +5,23 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from typing import Any
 
 import bpy
 from bpy.props import EnumProperty
 
-from ...blender.bodies.measure_object import Measured
-from ...blender.bodies.stacks.many import measure_many
-from ...blender.bodies.stacks.stack import Stacked
+from ...blender import bodies, session
 from ...blender.session import displayed
-from ...blender.session.stored import outcome, results
-from ...blender.session.tracking.staleness import mark_up_to_date
+from ...blender.session.stored import outcome
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import reports
 from ...core.density.materials import BY_NAME
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, Severity, finding
 from ...core.verdict.sentences import of_severity
-from ..findings import (
-    MEASURED_ONE,
-    MEASURED_ONE_WITH_WARNINGS,
-    MEASURED_SEVERAL,
-    OBJECT_WARNINGS,
-    WITH_WARNINGS,
-)
-from ..modal import MAX_OBJECTS_WITHOUT_REDRAW, ModalSteps, redraw
+from .. import selection
+from ..findings import OBJECT_WARNINGS
+from ..modal import ModalSteps
 
 AS_SET = "AS_SET"
 
@@ -39,8 +32,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     bl_idname = "object.body_moments_measure"
     bl_label = "Measure"
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
-    CANCELED = "Measuring canceled; nothing was changed"
+    MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
 
     # Settings for the redo panel; by default the objects keep their own settings.
     material: EnumProperty(
@@ -75,17 +67,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        if not context.selected_objects:
-            return reports.unavailable(cls, "Select objects")
-        return True
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        return self.run_all_steps(context, self._begin(context))
-
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if len(context.selected_objects) <= MAX_OBJECTS_WITHOUT_REDRAW or context.window is None:
-            return self.execute(context)
-        return self.start_modal(context, self._begin(context))
+        return bool(context.selected_objects) or reports.unavailable(cls, "Select objects")
 
     def _begin(self, context: bpy.types.Context) -> int:
         """Start with the selected objects, in edit mode the edited ones; return their number."""
@@ -93,7 +75,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         self._objects = objects = list(context.selected_objects)
         for obj in objects:
             self._change_settings(obj)
-        self._results: list[tuple[bpy.types.Object, Measured | Stacked]] = []
+        self._results: list[tuple[bpy.types.Object, Any]] = []
         self._refusals: dict[bpy.types.Object, Finding] = {}
         self._steps = self._measure(objects, context.evaluated_depsgraph_get())
         return len(objects)
@@ -113,7 +95,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     def _measure(self, objects: list[bpy.types.Object], depsgraph: bpy.types.Depsgraph) -> Generator[int, None, None]:
         done = 0
-        for together in measure_many(objects, depsgraph):
+        for together in bodies.measure_many(objects, depsgraph):
             for obj, found in together:
                 if isinstance(found, Exception):
                     self._refusals[obj] = internal_error.finding_of(found)
@@ -124,39 +106,38 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Nothing is stored before everything is measured, so that a canceled run leaves nothing behind."""
-        stored: list[bpy.types.Object] = []
-        refusals: dict[bpy.types.Object, Finding | Exception] = {**self._refusals}
-        for obj, refusal in results.store_many(self._results, context.scene):
+        failed = session.store_measured(context, self._results)
+        for obj, _ in self._results:
             displayed.remember_failure(obj, None)
-            if refusal is None:
-                stored.append(obj)
-            else:
-                refusals[obj] = refusal
         for obj, refusal in self._refusals.items():
             displayed.remember_failure(obj, refusal)
+        refusals = {**self._refusals, **failed}
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
-        shapes = {obj: found.shape_digest for obj, found in self._results if isinstance(found, Stacked)}
-        mark_up_to_date(context, stored, shapes)
-        self._report(len(stored))
-        redraw(context)
-        return {"FINISHED"} if stored else {"CANCELLED"}
+        count = len(self._results) - len(failed)
+        self._report(count)
+        selection.redraw(context)
+        return {"FINISHED"} if count else {"CANCELLED"}
 
-    def _report(self, stored: int) -> None:
+    def _report(self, count: int) -> None:
         warnings = [
             finding(OBJECT_WARNINGS, object=obj.name_full, causes=[cause.as_record() for cause in causes])
             for obj, measured in self._results
             if (causes := of_severity(measured.findings, Severity.WARNING, Severity.ERROR))
         ]
-        tried = stored + len(self._failures)
-        done = [finding(MEASURED_SEVERAL, count=stored, total=tried)] if tried > 1 else []
-        if tried == stored == 1:
-            name = self._results[0][0].name
-            done.append(finding(MEASURED_ONE_WITH_WARNINGS if warnings else MEASURED_ONE, object=name))
-        elif warnings:
-            names = [warning.values["object"] for warning in warnings]
-            done.append(finding(WITH_WARNINGS, count=len(names), objects=names))
+        tried = count + len(self._failures)
+        names = [warning.values["object"] for warning in warnings]
+        if tried == count == 1:
+            text = "Measured {object}, with warnings" if warnings else "Measured {object}"
+            done = [reports.phrase(text, object=self._results[0][0].name)]
+        else:
+            done = (
+                [reports.phrase("Measured {count} of {total} objects", count=count, total=tried)] if tried > 1 else []
+            )
+            if warnings:
+                done.append(reports.phrase("{count} with warnings: {objects}", count=len(names), objects=names))
         outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else [])
-        reports.report(self, *done, *(reports.first(self._failures) if self._failures else ()))
+        level = Severity.WARNING if warnings else Severity.NOTE
+        reports.report(self, *done, *reports.first(self._failures), level=level)
 
 
 CLASSES = (OBJECT_OT_body_moments_measure,)

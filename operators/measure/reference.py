@@ -4,45 +4,48 @@
 
 from __future__ import annotations
 
-import bmesh
-import numpy as np
-from bpy.types import Context, Object, Operator
+from typing import TYPE_CHECKING
 
-from ...blender.read.reference import ReferenceChoice
-from ...blender.session.stored import reference
+import bmesh
+from bpy.types import Context, Object, Operator
+from mathutils import Vector
+
+from ...blender import read
+from ...blender.session import stored
 from ...blender.write import properties, reports
 from ...blender.write.findings import NO_STORED_RESULTS
-from ...core.inertia.reference import ReferredInertia
-from ...core.verdict.finding import MeasureError, QueryError, finding
+from ...core.verdict.finding import Finding, finding
 from .. import selection
-from ..findings import AXIS_NEEDS_TWO_POINTS, REFERENCE_STORED, REPORT_COPIED
-from ..modal import redraw
 from .copy import copy_text
+
+if TYPE_CHECKING:
+    from ...blender.read.reference import ReferenceChoice
+    from ...core.inertia.reference import ReferredInertia
 
 POINTS = 2  # points of an axis
 
 
-class OBJECT_OT_body_moments_store_reference(Operator):
+class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
     """Store the inertia of the selected objects about the chosen reference as custom properties"""
 
     bl_idname = "object.body_moments_store_reference"
     bl_label = "Store Inertia about Reference"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return selection.poll_selection(cls, context, any_mode=True)
-
     def execute(self, context: Context) -> set[str]:
         objects = [obj for obj in context.view_layer.objects.selected if properties.is_stored(obj)]
 
         def store(obj: Object) -> None:
-            reference.store(obj, context.scene)
+            stored.reference.store(obj, context.scene)
             properties.retrigger_drivers(obj)
 
-        stored, failures = selection.apply_to_all(objects, store)
-        done = finding(REFERENCE_STORED, count=len(stored)) if objects else finding(NO_STORED_RESULTS)
-        return selection.summarize(self, len(stored), len(objects), done, failures)
+        changed, failures = selection.apply_to_all(objects, store)
+        texts = (
+            "Stored the inertia of {count} object about the reference",
+            "Stored the inertia of {count} objects about the reference",
+        )
+        done, nothing = reports.phrase(*texts, count=len(changed)), "The selected objects have no results"
+        return selection.summarize(self, len(changed), len(objects), done, failures, nothing=nothing)
 
 
 class OBJECT_OT_body_moments_copy_reference(Operator):
@@ -59,12 +62,15 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
         return True
 
     def execute(self, context: Context) -> set[str]:
-        result = reference.referred(context.object, context.scene)
-        if not isinstance(result, ReferredInertia):
-            selection.report(self, result or finding(NO_STORED_RESULTS))
-            return {"CANCELLED"}
-        text = _text(context.object.name, ReferenceChoice.from_settings(context.scene.body_moments_reference), result)
-        copy_text(self, context, text, finding(REPORT_COPIED, count=1))
+        result = stored.reference.referred(context.object, context.scene)
+        if result is None or isinstance(result, Finding):
+            return selection.refuse(self, result or finding(NO_STORED_RESULTS))
+        text = _text(
+            context.object.name,
+            read.reference.ReferenceChoice.from_settings(context.scene.body_moments_reference),
+            result,
+        )
+        copy_text(self, context, text, reports.phrase("Copied the report of {count} object", count=1))
         return {"FINISHED"}
 
 
@@ -95,31 +101,27 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Context) -> set[str]:
-        try:
-            points = _selected_points(context)
-            if len(points) != POINTS:
-                raise QueryError(AXIS_NEEDS_TWO_POINTS, count=len(points))
-        except MeasureError as error:
-            selection.report(self, reports.refusal(error))
-            return {"CANCELLED"}
+        points = _selected_points(context)
+        if len(points) != POINTS:
+            text = "{count} points are selected. Select two vertices, or two objects."
+            return selection.refuse(self, text, count=len(points))
         settings = context.scene.body_moments_reference
         settings.about, settings.first, settings.second = "AXIS", points[0], points[1]
-        redraw(context)
+        selection.redraw(context)
         return {"FINISHED"}
 
 
-def _selected_points(context: Context) -> list[np.ndarray]:
+def _selected_points(context: Context) -> list[Vector]:
     """World positions: in Edit Mode in the order in which vertices were selected, else the active object last."""
     if context.mode != "EDIT_MESH":
         objects = sorted(context.view_layer.objects.selected, key=lambda obj: (obj == context.object, obj.name))
-        return [np.array(obj.matrix_world.translation[:], np.float64) for obj in objects]
+        return [obj.matrix_world.translation for obj in objects]
     points = []
     for obj in context.objects_in_mode_unique_data:
         mesh = bmesh.from_edit_mesh(obj.data)
         chosen = [vertex for vertex in mesh.select_history if isinstance(vertex, bmesh.types.BMVert)]
         chosen += [vertex for vertex in mesh.verts if vertex.select and vertex not in chosen]
-        matrix = np.array(obj.matrix_world, np.float64)
-        points += [matrix[:3, :3] @ np.array(vertex.co[:], np.float64) + matrix[:3, 3] for vertex in chosen]
+        points += [obj.matrix_world @ vertex.co for vertex in chosen]
     return points
 
 

@@ -4,39 +4,18 @@
 
 from __future__ import annotations
 
-import numpy as np
-from bpy.types import Context, Depsgraph, Object, Operator
+from bpy.types import Context, Object, Operator
 
-from ...blender.bodies.flat.flat import area_findings, flat_region
-from ...blender.read.fingerprint import fingerprint, matrix_hash, settings_hash
+from ...blender import write
 from ...blender.read.visibility import SECTION_TYPES
+from ...blender.session import stored
 from ...blender.session.stored import outcome
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
-from ...blender.write import section as record
-from ...core.flat.section import Section, measure_section
-from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import Finding, Severity, finding
+from ...core.verdict.finding import Severity
 from ...core.verdict.sentences import of_severity
-from ..findings import (
-    MEASURED_SECTION,
-    MEASURED_SECTION_WITH_WARNINGS,
-    MEASURED_SECTIONS,
-    SECTION_COPIED,
-    WITH_WARNINGS,
-)
-from ..modal import redraw
+from .. import selection
 from .copy import copy_text
-
-
-def section_of(obj: Object, depsgraph: Depsgraph) -> tuple[Section, str, tuple[Finding, ...]]:
-    """Return an object's section in SI units and world axes, a description of the measured part, and the findings.
-
-    Raises MeasureError if there is no section.
-    """
-    found = flat_region(obj, depsgraph, exact=False)
-    section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
-    return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
@@ -52,44 +31,33 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not _objects_with_sections(context):
-            return reports.unavailable(cls, "Select faces in Edit Mode, or a flat mesh, 2D curve or text")
-        return True
+        reason = "Select faces in Edit Mode, or a flat mesh, 2D curve or text"
+        return bool(_objects_with_sections(context)) or reports.unavailable(cls, reason)
 
     def execute(self, context: Context) -> set[str]:
         depsgraph = context.evaluated_depsgraph_get()
-        sections, failures = [], []
-        for obj in _objects_with_sections(context):
-            try:
-                properties.require_storable(obj)
-                sections.append((obj, *section_of(obj, depsgraph)))
-            except Exception as error:
-                failures.append(reports.failure(obj.name_full, error))
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
-        for obj, section, what, findings in sections:
-            numbers = np.concatenate(
-                [
-                    section.plane.origin,
-                    section.plane.axes.ravel(),
-                    section.second,
-                    section.centroid,
-                    [section.area, section.perimeter],
-                ]
-            )
-            mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
-            record.store(obj, section, what, findings, mark, unit)
-        staleness.mark_stamps(context, [(obj, stamp) for obj, *_ in sections if (stamp := stamps.of_section(obj))])
-        redraw(context)
-        warned = [obj.name for obj, *_, found in sections if of_severity(found, Severity.WARNING, Severity.ERROR)]
-        if len(sections) > 1:
-            done = [finding(MEASURED_SECTIONS, count=len(sections))]
-            done += [finding(WITH_WARNINGS, count=len(warned), objects=warned)] if warned else []
+        sections = []
+
+        def measure(obj: Object) -> None:
+            properties.require_storable(obj)
+            sections.append((obj, stored.sections.section_of(obj, depsgraph)))
+
+        measured, failures = selection.apply_to_all(_objects_with_sections(context), measure)
+        stored.sections.store_sections(context, sections)
+        selection.redraw(context)
+        warned = [obj.name for obj, found in sections if of_severity(found[2], Severity.WARNING, Severity.ERROR)]
+        if len(measured) == 1:
+            text = "Measured the section of {object}, with warnings" if warned else "Measured the section of {object}"
+            done = [reports.phrase(text, object=measured[0].name)]
         else:
-            code = MEASURED_SECTION_WITH_WARNINGS if warned else MEASURED_SECTION
-            done = [finding(code, object=obj.name) for obj, *_ in sections]
+            texts = ("Measured {count} section", "Measured {count} sections")
+            done = [reports.phrase(*texts, count=len(measured))] if measured else []
+            if warned:
+                done.append(reports.phrase("{count} with warnings: {objects}", count=len(warned), objects=warned))
         outcome.remember(self.bl_label, failures)
-        reports.report(self, *done, *reports.first(failures))
-        return {"FINISHED"} if sections else {"CANCELLED"}
+        level = Severity.WARNING if warned else Severity.NOTE
+        reports.report(self, *done, *reports.first(failures), level=level)
+        return {"FINISHED"} if measured else {"CANCELLED"}
 
 
 class OBJECT_OT_body_moments_copy_section(Operator):
@@ -101,16 +69,15 @@ class OBJECT_OT_body_moments_copy_section(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if context.object is None or record.stored(context.object) is None:
-            return reports.unavailable(cls, "Measure a section first")
-        return True
+        is_stored = context.object is not None and write.section.stored(context.object) is not None
+        return is_stored or reports.unavailable(cls, "Measure a section first")
 
     def execute(self, context: Context) -> set[str]:
         obj = context.object
-        stored = record.stored(obj)
-        assert stored is not None
-        text = record.text(obj.name, stored, staleness.stale_reason(obj, context.scene, stamps.of_section))
-        copy_text(self, context, text, finding(SECTION_COPIED, object=obj.name))
+        section = write.section.stored(obj)
+        assert section is not None
+        text = write.section.text(obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section))
+        copy_text(self, context, text, reports.phrase("Copied the section of {object}", object=obj.name))
         return {"FINISHED"}
 
 

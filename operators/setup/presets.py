@@ -7,22 +7,12 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import EnumProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender.scene.transforms import require_storable_data
+from ...blender.scene.changes import require_storable_data
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.settings.properties import COPIED_PROPERTIES, copy_settings
 from ...blender.write import reports
 from ...core.density.materials import BY_NAME
-from ...core.verdict.finding import finding
 from .. import selection
-from ..findings import (
-    BLENDER_MATERIAL_SET,
-    LIBRARY_OVERRIDE_SETTINGS,
-    MATERIAL_NOT_LOCAL,
-    MATERIAL_SET,
-    MATERIAL_SET_ALREADY,
-    SETTINGS_COPIED,
-    SETTINGS_EQUAL,
-)
 
 PRESET_FOLDER = "body_moments"  # folder of the user's presets
 
@@ -54,9 +44,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if not _targets(context):
-            return reports.unavailable(cls, "Select objects")
-        return True
+        return bool(_targets(context)) or reports.unavailable(cls, "Select objects")
 
     def invoke(self, context: Context, _event) -> set[str]:
         context.window_manager.invoke_search_popup(self)
@@ -68,7 +56,7 @@ class OBJECT_OT_body_moments_set_material(Operator):
         objects = _targets(context)
 
         def set_density(obj: Object) -> bool:
-            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
+            require_storable_data(obj)
             settings = obj.body_moments
             before = _density_of(settings)
             settings.mass_from = "DENSITY"
@@ -79,8 +67,9 @@ class OBJECT_OT_body_moments_set_material(Operator):
             return before != _density_of(settings)
 
         changed, failures = selection.apply_to_all(objects, set_density)
-        done = finding(MATERIAL_SET, count=len(changed), material=material.name)
-        idle = finding(MATERIAL_SET_ALREADY, material=material.name)
+        texts = ("Set {count} object to {material}", "Set {count} objects to {material}")
+        done = reports.phrase(*texts, count=len(changed), material=material.name)
+        idle = reports.phrase("already set to {material}", material=material.name)
         return selection.summarize(self, len(changed), len(objects), done, failures, idle=idle)
 
 
@@ -114,12 +103,11 @@ class MATERIAL_OT_body_moments_set_density(Operator):
     def execute(self, _context: Context) -> set[str]:
         target = bpy.data.materials.get((self.target, None))
         if target is None:
-            reports.report(self, finding(MATERIAL_NOT_LOCAL, material=self.target))
-            return {"CANCELLED"}
+            return selection.refuse(self, "No local material “{material}”. Make it local.", material=self.target)
         entry = BY_NAME[self.material]
         target.body_moments.density = entry.density
         target.body_moments.material = entry.name
-        reports.report(self, finding(BLENDER_MATERIAL_SET, target=target.name, material=entry.name))
+        reports.report(self, reports.phrase("Set “{target}” to {material}", target=target.name, material=entry.name))
         return {"FINISHED"}
 
 
@@ -136,21 +124,21 @@ class OBJECT_OT_body_moments_copy_settings(Operator):
     @classmethod
     def poll(cls, context: Context) -> bool:
         active = context.view_layer.objects.active
-        if active is None or not any(obj != active for obj in context.view_layer.objects.selected):
-            return reports.unavailable(cls, "Select other objects besides the active one")
-        return True
+        others = active is not None and any(obj != active for obj in context.view_layer.objects.selected)
+        return others or reports.unavailable(cls, "Select other objects besides the active one")
 
     def execute(self, context: Context) -> set[str]:
         active = context.view_layer.objects.active
         objects = [obj for obj in context.view_layer.objects.selected if obj != active]
 
         def copy(obj: Object) -> bool:
-            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
+            require_storable_data(obj)
             return copy_settings(active.body_moments, obj.body_moments)
 
         copied, failures = selection.apply_to_all(objects, copy)
-        done = finding(SETTINGS_COPIED, count=len(copied))
-        return selection.summarize(self, len(copied), len(objects), done, failures, idle=finding(SETTINGS_EQUAL))
+        texts = ("Copied the settings to {count} object", "Copied the settings to {count} objects")
+        done, idle = reports.phrase(*texts, count=len(copied)), reports.phrase("the settings are equal")
+        return selection.summarize(self, len(copied), len(objects), done, failures, idle=idle)
 
 
 class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):

@@ -2,32 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Actions of the buttons beside warnings on the active object, which is measured again after them."""
 
-from __future__ import annotations
-
-import bmesh
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
-from ...blender.bodies.measure_object import measure_object
+from ...blender import bodies, scene
 from ...blender.read.visibility import measurable
-from ...blender.scene.transforms import require_storable_data
+from ...blender.scene.changes import require_storable_data
 from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
 from ...blender.write import properties, reports
 from ...core.solid.findings import INVERTED_COMPONENTS
-from ...core.verdict.finding import EditRefusedError, MeasureError, finding
+from ...core.verdict.finding import MeasureError
 from ...core.verdict.findings import FLIPPED_FACES
 from .. import selection
-from ..findings import (
-    FACES_REVERSED,
-    LIBRARY_OVERRIDE_SETTINGS,
-    NO_REVERSED_FACES,
-    NOTHING_TO_DO,
-)
-from ..measure.select_faults import require_editable_mesh
 
 # Findings whose elements are the faces that were reversed; without elements, all faces were
 REVERSED = (FLIPPED_FACES, INVERTED_COMPONENTS)
@@ -40,50 +29,43 @@ def measure_anew(context: Context, objects: list[Object]) -> None:
         bpy.ops.object.body_moments_measure()
 
 
-def _poll_active(cls: type[Operator], context: Context, mesh: bool = False) -> bool:
-    obj = context.object
-    if obj is None or not measurable(obj):
-        return reports.unavailable(cls, "Make a measurable object active")
-    if mesh and obj.type != "MESH":
-        return reports.unavailable(cls, "Make a mesh object active")
-    if mesh and context.mode != "OBJECT":
-        return reports.unavailable(cls, "Switch to Object Mode")
-    return True
+class _OnActive:
+    """Base of operators that change the settings of the active object, if it can keep them."""
 
-
-def _refuse(operator: Operator, refusal: MeasureError) -> set[str]:
-    selection.report(operator, reports.failure(refusal.subject, refusal))
-    return {"CANCELLED"}
-
-
-class OBJECT_OT_body_moments_count_as_union(Operator):
-    """Unite the overlapping components of the active object before it is measured, and measure it again"""
-
-    bl_idname = "object.body_moments_count_as_union"
-    bl_label = "Count as Union"
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return _poll_active(cls, context)
+        obj = context.object
+        is_measurable = obj is not None and measurable(obj)
+        return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
         obj = context.object
         try:
-            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
-        except EditRefusedError as refusal:
-            return _refuse(self, refusal.about(obj.name_full))
+            return self._change(context, obj)
+        except MeasureError as refusal:
+            return selection.refuse(self, reports.failure(obj.name_full, refusal))
+
+
+class OBJECT_OT_body_moments_count_as_union(_OnActive, Operator):
+    """Unite the overlapping components of the active object before it is measured, and measure it again"""
+
+    bl_idname = "object.body_moments_count_as_union"
+    bl_label = "Count as Union"
+
+    def _change(self, context: Context, obj: Object) -> set[str]:
+        require_storable_data(obj)
         obj.body_moments.overlap = "UNION"
         measure_anew(context, [obj])
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_measure_as_shell(Operator):
+class OBJECT_OT_body_moments_measure_as_shell(_OnActive, Operator):
     """Measure the active object as a sheet of the given thickness"""
 
     bl_idname = "object.body_moments_measure_as_shell"
     bl_label = "Measure as Shell"
-    bl_options = {"REGISTER", "UNDO"}
 
     thickness: FloatProperty(
         name="Thickness",
@@ -94,16 +76,8 @@ class OBJECT_OT_body_moments_measure_as_shell(Operator):
         unit="LENGTH",
     )
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return _poll_active(cls, context)
-
-    def execute(self, context: Context) -> set[str]:
-        obj = context.object
-        try:
-            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
-        except EditRefusedError as refusal:
-            return _refuse(self, refusal.about(obj.name_full))
+    def _change(self, context: Context, obj: Object) -> set[str]:
+        require_storable_data(obj)
         obj.body_moments.kind = "SHELL"
         if self.thickness:
             obj.body_moments.thickness = self.thickness
@@ -111,7 +85,7 @@ class OBJECT_OT_body_moments_measure_as_shell(Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_recalculate_outside(Operator):
+class OBJECT_OT_body_moments_recalculate_outside(_OnActive, Operator):
     """Reverse the faces of the active mesh that were measured as reversed, and measure it again."""
 
     bl_idname = "object.body_moments_recalculate_outside"
@@ -120,38 +94,25 @@ class OBJECT_OT_body_moments_recalculate_outside(Operator):
         "Reverse the faces of the active mesh that were measured as reversed: flipped ones, and those of components "
         "that are inside out. Cavities keep facing inward. Other objects that use the mesh change too"
     )
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return _poll_active(cls, context, mesh=True)
+        if context.object is not None and context.object.type != "MESH":
+            return reports.unavailable(cls, "Make a mesh object active")
+        return super().poll(context) and selection.poll_object_mode(cls, context)
 
-    def execute(self, context: Context) -> set[str]:
-        obj = context.object
-        try:
-            require_editable_mesh(obj)
-            measurement = measure_object(obj, context.evaluated_depsgraph_get())
-        except MeasureError as refusal:
-            return _refuse(self, refusal.about(obj.name_full))
+    def _change(self, context: Context, obj: Object) -> set[str]:
+        scene.require_editable_mesh(obj)
+        measurement = bodies.measure_body(obj, context.evaluated_depsgraph_get()).measurement
         found = [shown.elements for shown in measurement.findings if shown.code in REVERSED]
-        whole = np.arange(len(obj.data.polygons) if any(not len(elements) for elements in found) else 0)
-        faces = np.unique(np.concatenate([whole, *(np.asarray(elements, np.int64) for elements in found)]))
-        if not len(faces):
-            reports.report(self, finding(NOTHING_TO_DO, cause=finding(NO_REVERSED_FACES).as_record()))
+        count = scene.reverse_faces(obj.data, found)
+        if not count:
+            cause = reports.phrase("no faces were measured as reversed")
+            reports.report(self, reports.phrase("Nothing to do: {cause}", cause=cause))
             return {"CANCELLED"}
-        _reverse(obj.data, faces)
         measure_anew(context, [obj])
-        reports.report(self, finding(FACES_REVERSED, count=len(faces)))
+        reports.report(self, reports.phrase("Reversed {count} face", "Reversed {count} faces", count=count))
         return {"FINISHED"}
-
-
-def _reverse(data: bpy.types.Mesh, faces: np.ndarray) -> None:
-    mesh = bmesh.new()
-    mesh.from_mesh(data)
-    mesh.faces.ensure_lookup_table()
-    bmesh.ops.reverse_faces(mesh, faces=[mesh.faces[index] for index in faces.tolist()], flip_multires=True)
-    mesh.to_mesh(data)
-    mesh.free()
 
 
 class SCENE_OT_body_moments_set_millimeters(Operator):
@@ -168,10 +129,9 @@ class SCENE_OT_body_moments_set_millimeters(Operator):
     )
 
     def execute(self, context: Context) -> set[str]:
-        scene = context.scene
-        copy_defaults(scene)
-        scene.body_moments.units_answered = True
-        units = scene.unit_settings
+        copy_defaults(context.scene)
+        context.scene.body_moments.units_answered = True
+        units = context.scene.unit_settings
         units.system, units.scale_length, units.length_unit = "METRIC", MILLIMETER, "MILLIMETERS"
         measured = [obj for obj in context.view_layer.objects if properties.is_stored(obj) and obj.is_editable]
         if self.remeasure and measured:
@@ -191,7 +151,7 @@ class SCENE_OT_body_moments_keep_units(Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_accept(Operator):
+class OBJECT_OT_body_moments_accept(_OnActive, Operator):
     """Accept this warning for the active object: it becomes a note, also when the object is measured again"""
 
     bl_idname = "object.body_moments_accept"
@@ -207,16 +167,8 @@ class OBJECT_OT_body_moments_accept(Operator):
             return cls.__doc__ or ""
         return "Show this note as a warning again"
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return _poll_active(cls, context)
-
-    def execute(self, context: Context) -> set[str]:
-        obj = context.object
-        try:
-            require_storable_data(obj, LIBRARY_OVERRIDE_SETTINGS)
-        except EditRefusedError as refusal:
-            return _refuse(self, refusal.about(obj.name_full))
+    def _change(self, context: Context, obj: Object) -> set[str]:
+        require_storable_data(obj)
         if not self.code or not set_accepted(obj, self.code, self.accepted):
             return {"CANCELLED"}
         if properties.is_stored(obj):
@@ -233,9 +185,7 @@ class OBJECT_OT_body_moments_select_refused(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        if context.mode != "OBJECT":
-            return reports.unavailable(cls, "Switch to Object Mode")
-        return outcome.last() is not None
+        return selection.poll_object_mode(cls, context) and outcome.last() is not None
 
     def execute(self, context: Context) -> set[str]:
         last = outcome.last()

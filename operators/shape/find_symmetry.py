@@ -5,12 +5,10 @@
 They are found by the moments and confirmed on the surfaces, and kept with each object, in its own axes, for the panel.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import bpy
-import numpy as np
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
@@ -21,34 +19,21 @@ from bpy.props import (
     PointerProperty,
     StringProperty,
 )
-from bpy.types import Context, Event, Object, Operator, PropertyGroup
+from bpy.types import Context, Object, Operator, PropertyGroup
 
-from ...blender.bodies.flat.flat_shape import FlatShape, comparable_shape_of, distance_from
-from ...blender.bodies.shape.shape import Shape
-from ...blender.read.fingerprint import scale_hash
-from ...blender.scene.transforms import require_storable_data
+from ...blender import bodies
+from ...blender.scene.changes import require_storable_data
+from ...blender.session import stored
 from ...blender.session.tracking import staleness, stamps
 from ...blender.write import reports
-from ...core.shape.symmetries import Symmetry
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict.finding import Finding
 from .. import selection
-from ..findings import (
-    LIBRARY_OVERRIDE_SYMMETRY,
-    NOTHING_MEASURABLE,
-    SYMMETRY_AXES,
-    SYMMETRY_FOUND,
-    SYMMETRY_FOUND_OF_DISPLAY_MESH,
-    SYMMETRY_INVERSION,
-    SYMMETRY_NONE,
-    SYMMETRY_PLANES,
-    SYMMETRY_REVOLUTION,
-    SYMMETRY_REVOLUTION_REVERSIBLE,
-    SYMMETRY_SEARCHED,
-    SYMMETRY_SPHERE,
-)
-from ..modal import ModalSteps, redraw
+from ..modal import ModalSteps
 
-MAX_STORED_ELEMENTS = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
+if TYPE_CHECKING:
+    from ...blender.bodies.flat.flat_shape import FlatShape
+    from ...blender.bodies.shape.shape import Shape
+    from ...core.shape.symmetries import Symmetry
 
 
 class BodyMomentsElement(PropertyGroup):
@@ -83,7 +68,7 @@ class BodyMomentsSymmetry(PropertyGroup):
     elements: CollectionProperty(type=BodyMomentsElement)
 
 
-class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
+class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Operator):
     """Find the rotation axes and mirror planes of the selected objects."""
 
     bl_idname = "object.body_moments_find_symmetry"
@@ -105,106 +90,63 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, Operator):
         description="Largest allowed distance of the surface from its images, relative to the radius of gyration",
     )
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return selection.poll_selection(cls, context, any_mode=True)
-
-    def execute(self, context: Context) -> set[str]:
-        self._begin(context)
-        return self.run_all_steps(context, len(self._objects))
-
-    def invoke(self, context: Context, _event: Event) -> set[str]:
-        self._begin(context)
-        if context.window is None:
-            return self.run_all_steps(context, len(self._objects))
-        return self.start_modal(context, len(self._objects))
-
-    def _begin(self, context: Context) -> None:
+    def _begin(self, context: Context) -> int:
         self._objects = selection.selected_measurable(context)
         self._results: list[tuple[Object, Shape | FlatShape, Symmetry, Symmetry]] = []
         self._failures: list[Finding] = []
 
         def find(obj: Object) -> Iterator[float]:
-            require_storable_data(obj, LIBRARY_OVERRIDE_SYMMETRY)
-            shape = comparable_shape_of(obj, context.evaluated_depsgraph_get())
+            require_storable_data(obj)
+            shape = bodies.comparable_shape_of(obj, context.evaluated_depsgraph_get())
             yield 0.3
-            skin = distance_from(shape)
+            skin = bodies.distance_from(shape)
             yield from (0.4 + 0.5 * share for share in skin.build())
             self._results.append((obj, shape, *shape.find_symmetries(skin, self.tolerance)))
 
         self._steps = selection.iterate_objects(self._objects, find, self._failures)
+        return len(self._objects)
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept before all are looked at, so that a canceled search leaves nothing behind."""
         for obj, shape, found_symmetry, allowed in self._results:
-            _store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
+            stored.symmetry.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
         # Blender reports what was written as a change of the object.
         staleness.mark_stamps(
             context, [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))]
         )
+        texts = ("{object}: {group}, {description}", "{object}: {group}, {description}, of the display mesh")
         symmetries = [
-            finding(
-                SYMMETRY_FOUND_OF_DISPLAY_MESH if shape.is_display_mesh else SYMMETRY_FOUND,
-                object=obj.name,
-                group=found_symmetry.group,
-                description=[clause.as_record() for clause in describe(found_symmetry)],
+            reports.phrase(
+                texts[shape.is_display_mesh], object=obj.name, group=found.group, description=", ".join(describe(found))
             )
-            for obj, shape, found_symmetry, _ in self._results
+            for obj, shape, found, _ in self._results
         ]
-        redraw(context)
+        selection.redraw(context)
         if self._failures or not symmetries:
             count = len(symmetries)
-            done = finding(SYMMETRY_SEARCHED, count=count) if self._objects else finding(NOTHING_MEASURABLE)
+            done = reports.phrase("Searched {count} object", "Searched {count} objects", count=count)
             return selection.summarize(self, count, len(self._objects), done, self._failures, symmetries)
         reports.report(self, *reports.first(symmetries))
         return {"FINISHED"}
 
 
-def _store_symmetry(
-    obj: Object, shape: Shape | FlatShape, confirmed: Symmetry, allowed: Symmetry, tolerance: float
-) -> None:
-    stored = obj.body_moments_symmetry
-    stored.group, stored.compatible, stored.tolerance = confirmed.group, allowed.group, tolerance
-    stored.of_display_mesh = shape.is_display_mesh
-    stored.fingerprint = stamps.Stamp.parse(shape.fingerprint)._replace(transform=scale_hash(obj)).text
-    stored.elements.clear()
-    turn = shape.rotation.T
-    for kind, order, direction in _elements(confirmed)[:MAX_STORED_ELEMENTS]:
-        element = stored.elements.add()
-        element.kind, element.order, element.direction = kind, order, turn @ _canonical_direction(turn, direction)
-
-
-def _canonical_direction(turn: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Return the direction of a line whose largest component, in the object's axes, is positive."""
-    local = turn @ direction
-    return direction if local[np.argmax(np.abs(local))] > 0.0 else -direction
-
-
-def _elements(found_symmetry: Symmetry) -> list[tuple[str, int, np.ndarray]]:
-    if len(found_symmetry.revolution_axes) == 1:
-        return [("ROUND", 0, found_symmetry.revolution_axes[0])] + [
-            ("PLANE", 0, normal) for normal in found_symmetry.planes
-        ]
-    return [("AXIS", order, axis) for axis, order in found_symmetry.axes] + [
-        ("PLANE", 0, normal) for normal in found_symmetry.planes
-    ]
-
-
-def describe(found_symmetry: Symmetry) -> list[Finding]:
+def describe(symmetry: "Symmetry") -> list[str]:
     """Describe the elements of a symmetry."""
-    if len(found_symmetry.revolution_axes) == 3:
-        return [finding(SYMMETRY_SPHERE)]
-    if len(found_symmetry.revolution_axes) == 1:
-        reversible = found_symmetry.group == "D∞h"
-        return [finding(SYMMETRY_REVOLUTION_REVERSIBLE if reversible else SYMMETRY_REVOLUTION)]
+    phrase = reports.phrase
+    if len(symmetry.revolution_axes) == 3:
+        return [phrase("sphere")]
+    if len(symmetry.revolution_axes) == 1:
+        reversible = symmetry.group == "D∞h"
+        return [phrase("body of revolution, symmetric end to end" if reversible else "body of revolution")]
     clauses = []
-    if found_symmetry.axes:
-        clauses.append(finding(SYMMETRY_AXES, count=len(found_symmetry.axes), order=found_symmetry.axes[0][1]))
-    if found_symmetry.planes:
-        clauses.append(finding(SYMMETRY_PLANES, count=len(found_symmetry.planes)))
-    if found_symmetry.has_center and not clauses:
-        clauses.append(finding(SYMMETRY_INVERSION))
-    return clauses or [finding(SYMMETRY_NONE)]
+    if symmetry.axes:
+        texts = ("{count} rotation axis, {order}-fold", "{count} rotation axes, up to {order}-fold")
+        clauses.append(phrase(*texts, count=len(symmetry.axes), order=symmetry.axes[0][1]))
+    if symmetry.planes:
+        clauses.append(phrase("{count} mirror plane", "{count} mirror planes", count=len(symmetry.planes)))
+    if symmetry.has_center and not clauses:
+        clauses.append(phrase("center of inversion"))
+    return clauses or [phrase("no symmetry")]
 
 
 CLASSES = (BodyMomentsElement, BodyMomentsSymmetry, OBJECT_OT_body_moments_find_symmetry)

@@ -2,31 +2,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Align Object to World: turn the object and its children until its principal axes lie along the world's."""
 
-import numpy as np
 from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
-from numpy.typing import NDArray
 
-from ...blender.scene import reframe
-from ...blender.scene.transforms import world
-from ...core.verdict.finding import finding
+from ...blender import scene, session
+from ...blender.write import reports
 from .. import selection
-from ..findings import ALIGNED_TO_WORLD, ALREADY_ALIGNED
 from . import base as snapping
 
 # Targets of principal axes 1, 2 and 3. An odd order would mirror the body, so axis 3 is reversed in it.
 ORDERS = ("XYZ", "YZX", "ZXY", "XZY", "YXZ", "ZYX")
 
 
-def directions(order: str) -> NDArray[np.float64]:
-    """Return the (3, 3) rotation: the target directions of principal axes 1, 2, 3 in the world, as columns."""
-    frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
-    if np.linalg.det(frame) < 0.0:
-        frame[:, 2] = -frame[:, 2]
-    return frame
-
-
-class OBJECT_OT_body_moments_align_to_world(Operator):
+class OBJECT_OT_body_moments_align_to_world(selection.OnSelectionInObjectMode, Operator):
     """Rotate the object so that its principal axes align with the world axes."""
 
     bl_idname = "object.body_moments_align_to_world"
@@ -62,33 +50,21 @@ class OBJECT_OT_body_moments_align_to_world(Operator):
 
     strict: snapping.STRICT_PROPERTY
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return selection.poll_selection(cls, context)
-
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
-        frame = directions(self.order)
-        # one after the other, for a child moves with its parent
-        moved, failures = selection.apply_to_all(objects, lambda obj: self._align(context, obj, frame))
-        snapping.remeasure(context, moved)
-        done = finding(ALIGNED_TO_WORLD, count=len(moved))
-        return selection.summarize(self, len(moved), len(objects), done, failures, idle=finding(ALREADY_ALIGNED))
 
-    def _align(self, context: Context, obj: Object, frame: NDArray) -> bool:
-        """Align the object, and return whether it had to be moved."""
-        reframe.check_movable(obj)
-        body = snapping.snap_target(context, obj, self.strict)
-        goal = body.center if self.pivot == "CENTER" else np.zeros(3)
-        aligned = body.is_principal(frame)
-        is_there = aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(obj, body.size)
-        if not is_there:
-            turn = np.eye(3) if aligned else frame @ body.axes.T
-            target = world(obj)
-            target[:3, :3] = turn @ target[:3, :3]
-            target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
-            reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
-        return not is_there
+        def align(obj: Object) -> bool:
+            return scene.align_to_world(context, obj, self.order, self.pivot == "ORIGIN", self.strict)
+
+        moved, failures = selection.apply_to_all(
+            objects, align
+        )  # one after the other, for a child moves with its parent
+        session.remeasure(context, moved)
+        done = reports.phrase(
+            "Aligned {count} object to the world axes", "Aligned {count} objects to the world axes", count=len(moved)
+        )
+        idle = reports.phrase("already aligned")
+        return selection.summarize(self, len(moved), len(objects), done, failures, idle=idle)
 
 
 CLASSES = (OBJECT_OT_body_moments_align_to_world,)

@@ -2,22 +2,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cursor to Center of Mass, of one object or of all selected together."""
 
-import numpy as np
+from collections.abc import Sequence
+
 from bpy.props import BoolProperty
 from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
-from ...blender.bodies.stacks.many import measured_in_turn
-from ...blender.session.findings import OPEN_OBJECT
-from ...core.inertia.mass_properties import combine
+from ...blender import bodies
+from ...blender.scene.findings import OPEN_OBJECT
+from ...blender.write import reports
+from ...core import inertia
 from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import EditRefusedError, finding
+from ...core.verdict.finding import EditRefusedError
 from ...core.verdict.method import Verdict
 from .. import selection
-from ..findings import CURSOR_MOVED, NOTHING_MEASURABLE
 
 
-class VIEW3D_OT_body_moments_cursor_to_center(Operator):
+class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
     """Move the 3D cursor to the common center of mass of the selected objects"""
 
     bl_idname = "view3d.body_moments_cursor_to_center"
@@ -30,35 +31,38 @@ class VIEW3D_OT_body_moments_cursor_to_center(Operator):
         default=False,
     )
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return selection.poll_selection(cls, context, any_mode=True)
-
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
-        measured, bodies = measured_in_turn(objects, context.evaluated_depsgraph_get()), []
+        measured, bodies_measured = bodies.measured_in_turn(objects, context.evaluated_depsgraph_get()), []
 
         def add(obj: Object) -> None:
             measurement = measured(obj).measurement
             if measurement.method.verdict == Verdict.OPEN:
                 raise EditRefusedError(OPEN_OBJECT)
-            bodies.append((measurement.mass_moments, measurement.mass_properties))
+            bodies_measured.append((measurement.mass_moments, measurement.mass_properties))
 
         added, failures = selection.apply_to_all(objects, add)
         findings = []
-        if bodies:
+        if bodies_measured:
             # One body keeps its measured frame, with the signs by its own exact third moments.
-            total = bodies[0][1] if len(bodies) == 1 else combine([moments for moments, _ in bodies])
+            total = bodies_measured[0][1]
+            if len(bodies_measured) > 1:
+                total = inertia.combine([moments for moments, _ in bodies_measured])
             cursor = context.scene.cursor
             cursor.location = total.center / shortest_decimal(context.scene.unit_settings.scale_length)
             if self.rotate:
-                _rotate_cursor(cursor, total.principal.axes)
+                turn_cursor(cursor, total.principal.axes.tolist())
                 findings = [total.principal.finding] if total.principal.finding is not None else []
-        done = finding(CURSOR_MOVED, count=len(added)) if objects else finding(NOTHING_MEASURABLE)
+        done = reports.phrase(
+            "Moved the 3D cursor to the center of mass of {count} object",
+            "Moved the 3D cursor to the center of mass of {count} objects",
+            count=len(added),
+        )
         return selection.summarize(self, len(added), len(objects), done, failures, findings)
 
 
-def _rotate_cursor(cursor: View3DCursor, axes: np.ndarray) -> None:
+def turn_cursor(cursor: View3DCursor, axes: Sequence[Sequence[float]]) -> None:
+    """Turn the 3D cursor to axes, the columns of a matrix, in its own rotation mode."""
     mode = cursor.rotation_mode
     rotation = Matrix(axes).to_quaternion()
     if mode == "QUATERNION":

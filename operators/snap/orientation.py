@@ -10,11 +10,10 @@ from bpy.props import BoolProperty, StringProperty
 from bpy.types import Context, Operator
 from mathutils import Matrix
 
+from ...blender import scene
 from ...blender.write import reports
-from ...core.verdict.finding import MeasureError, finding
+from ...core.verdict.finding import MeasureError, Severity
 from .. import selection
-from ..findings import ORIENTATION_CREATED, ORIENTATION_NEEDS_VIEWPORT
-from . import base as snapping
 
 
 class OBJECT_OT_body_moments_create_orientation(Operator):
@@ -39,29 +38,30 @@ class OBJECT_OT_body_moments_create_orientation(Operator):
         obj = context.view_layer.objects.active
         if obj is None or not obj.select_get():
             return reports.unavailable(cls, "Make an object active and select it")
-        return selection.poll_selection(cls, context)
+        return selection.poll_object_mode(cls, context)
 
     def execute(self, context: Context) -> set[str]:
         obj = context.view_layer.objects.active
         try:
-            body = snapping.snap_target(context, obj)
+            body = scene.snap_target(context, obj)
         except MeasureError as error:
-            selection.report(self, reports.failure(obj.name_full, error))
-            return {"CANCELLED"}
+            return selection.refuse(self, reports.failure(obj.name_full, error))
         place = _view_3d(context)
         if place is None:
-            reports.report(self, finding(ORIENTATION_NEEDS_VIEWPORT))
+            reports.report(
+                self, reports.phrase("A transform orientation needs an open 3D Viewport."), level=Severity.WARNING
+            )
             return {"CANCELLED"}
         name = self.name or "{:s} Principal".format(obj.name)
         slot = context.scene.transform_orientation_slots[0]
         before = slot.type
         with context.temp_override(**place):
             bpy.ops.transform.create_orientation(name=name, use=True, overwrite=True)
-        slot.custom_orientation.matrix = Matrix(body.axes)
+        slot.custom_orientation.matrix = Matrix(body.axes.tolist())
         if not self.use:
             slot.type = before
         free = [body.finding] if body.finding is not None else []
-        reports.report(self, finding(ORIENTATION_CREATED, name=name), *free)
+        reports.report(self, reports.phrase("Created the transform orientation “{name}”", name=name), *free)
         return {"FINISHED"}
 
 

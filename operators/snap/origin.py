@@ -5,18 +5,13 @@
 Blender's own operator ignores modifiers and moves other users of the data.
 """
 
-import numpy as np
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Operator
 
-from ...blender.scene import reframe
-from ...blender.scene.transforms import world
-from ...core.verdict.finding import finding
 from .. import selection
-from ..findings import ORIGINS_MOVED
-from . import base as snapping
+from .base import reframe_selected
 
 
-class OBJECT_OT_body_moments_origin_to_center(Operator):
+class OBJECT_OT_body_moments_origin_to_center(selection.OnSelectionInObjectMode, Operator):
     """Move the origin to the exact center of mass of the evaluated object."""
 
     bl_idname = "object.body_moments_origin_to_center"
@@ -27,28 +22,12 @@ class OBJECT_OT_body_moments_origin_to_center(Operator):
     )
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return selection.poll_selection(cls, context)
-
     def execute(self, context: Context) -> set[str]:
-        return snapping.reframe_selected(
-            self,
-            context,
-            matrix_at_center,
-            finding(ORIGINS_MOVED),
-            move_only=True,
+        done = (
+            "Moved the origin of {count} object to the center of mass",
+            "Moved the origins of {count} objects to the center of mass",
         )
-
-
-def matrix_at_center(obj: Object, body: snapping.SnapTarget) -> np.ndarray | None:
-    """Return the object's matrix with its origin at the body's center, or None if it is there already."""
-    target = world(obj)
-    off = np.abs(target[:3, 3] - body.center).max()
-    if off <= reframe.location_tolerance(obj, body.size):
-        return None
-    target[:3, 3] = body.center
-    return target
+        return reframe_selected(self, context, False, done)
 
 
 CLASSES = (OBJECT_OT_body_moments_origin_to_center,)

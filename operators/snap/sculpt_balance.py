@@ -2,62 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance: move chosen vertices least so that the center of mass comes over a point, "make it stand".
 
-The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as their weights say. The
-change is made on the mesh itself and measured again, the way the object is always measured; if it cuts faces that are
-not flat anew, it is solved again for the new cut. A change that misses the point is undone.
+The vertices are the selected ones in Edit Mode, or a vertex group in Object Mode, as freely as their weights say.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-
-import bmesh
-import bpy
-import numpy as np
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, StringProperty
-from bpy.types import Context, Object, Operator
-from numpy.typing import NDArray
+from bpy.types import Context, Operator
 
-from ...blender.bodies.measure_object import measure_object
-from ...blender.read.objects import read_object
-from ...blender.read.reading import Part
-from ...blender.read.tracking import tracking_paused
-from ...blender.scene.transforms import FLOAT32
+from ...blender import scene, session
 from ...blender.write import reports
-from ...core.measurement.measurement import Measurement
-from ...core.mesh.surface import Surface
-from ...core.moments.moments import Measure
-from ...core.numerics.float32 import shortest_decimal
-from ...core.statics.balancing import BalanceResult, balance
-from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
-from ...core.verdict.method import Method, Verdict
+from ...core.verdict.finding import MeasureError
 from .. import selection
-from ..findings import (
-    BALANCE_GROUP_EMPTY,
-    BALANCE_INSTANCES,
-    BALANCE_LINKED_MESH,
-    BALANCE_MESH_SHARED,
-    BALANCE_MODIFIED,
-    BALANCE_MODIFIED_UNKNOWN,
-    BALANCE_NO_ACTIVE_GROUP,
-    BALANCE_NO_GROUP,
-    BALANCE_NO_SELECTION,
-    BALANCE_ONLY_ACTIVE,
-    BALANCE_SHAPE_KEYS,
-    BALANCE_TRIANGULATION_VARIES,
-    BALANCE_UNCLEAN,
-    BALANCE_VARYING_DENSITY,
-    BALANCE_WALL,
-    BALANCE_ZERO_SCALE,
-    BALANCED,
-)
-from . import base as snapping
-
-MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
-REACHED_RTOL = 1e-6  # rounding of a center in float32, relative to the body's size
-ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported as 0
 
 
 class OBJECT_OT_body_moments_sculpt_balance(Operator):
@@ -137,206 +91,34 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
 
     def execute(self, context: Context) -> set[str]:
         obj = context.active_object
-        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         target = context.scene.cursor.location if self.target == "CURSOR" else self.point
-        balance_target = _Target(
-            np.array(target, np.float64) * unit,
-            np.eye(3) if self.axes == "ALL" else _horizontal_directions(context.scene),
-            self.limit * unit,
-        )
         try:
-            mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, self.group)
-            with tracking_paused():  # a trial that is undone is not an edit
-                findings = _balance_mesh(context, obj, mesh, balance_target, unit)
-            obj.data.update_tag()  # for others that show the mesh it is one
+            balanced = scene.balance_mesh(context, obj, self.group, target[:], self.axes, self.limit)
         except MeasureError as error:
-            selection.report(self, reports.failure(obj.name_full, error))
-            return {"CANCELLED"}
-        snapping.remeasure(context, [obj])
-        reports.report(self, *findings)
+            return selection.refuse(self, reports.failure(obj.name_full, error))
+        session.remeasure(context, [obj])
+        texts = [
+            reports.phrase(
+                "Moved {count} vertex by at most {distance:length}; the center of mass went from {start:point} to "
+                "{end:point}",
+                "Moved {count} vertices by at most {distance:length}; the center of mass went from {start:point} to "
+                "{end:point}",
+                **balanced._asdict(),
+            )
+        ]
+        if obj.data.users - obj.data.use_fake_user > 1:
+            texts.append(reports.phrase("Other objects use this mesh and changed too."))
+        if any(
+            other.type == "MESH" and other.data.is_editmode and other.data != obj.data
+            for other in context.view_layer.objects
+        ):
+            texts.append(
+                reports.phrase(
+                    "Only “{object}” was balanced; the other meshes in Edit Mode are unchanged.", object=obj.name
+                )
+            )
+        reports.report(self, *texts)
         return {"FINISHED"}
-
-
-@dataclass(frozen=True)
-class _Target:
-    """point: (3,) in m, across: (r, 3) along which directions, limit: of a move in m, 0 for the size of the body."""
-
-    point: NDArray[np.float64]
-    across: NDArray[np.float64]
-    limit: float
-
-
-def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
-    """Return the two directions (2, 3) across gravity, or across Z without gravity."""
-    down = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
-    axis: NDArray[np.float64] = down if down.any() else np.eye(3)[2]
-    return np.linalg.svd(axis[None])[2][1:]
-
-
-class _EditedMesh:
-    """The mesh of an object in Edit Mode; a BMesh gives and takes its vertices one by one only."""
-
-    def __init__(self, obj: Object):
-        self.obj, self.is_changed = obj, False
-        vertices = self._vertices()
-        self.start = np.array([vertex.co[:] for vertex in vertices], np.float32).reshape(-1, 3)
-        selected = np.fromiter((vertex.select for vertex in vertices), bool, len(vertices))
-        self.movable = np.flatnonzero(selected)
-        self.weights = np.ones(len(self.movable))
-        if not len(self.movable):
-            raise EditRefusedError(BALANCE_NO_SELECTION)
-
-    def _vertices(self) -> bmesh.types.BMVertSeq:
-        return bmesh.from_edit_mesh(self.obj.data).verts
-
-    def set_points(self, points: NDArray[np.float32]) -> None:
-        """Move the vertices to (n, 3) points."""
-        self.is_changed = True
-        vertices = self._vertices()
-        vertices.ensure_lookup_table()
-        for index in self.movable.tolist():
-            vertices[index].co = points[index].tolist()
-        mesh = bmesh.from_edit_mesh(self.obj.data)
-        mesh.normal_update()
-        bmesh.update_edit_mesh(self.obj.data)
-
-
-class _GroupedMesh:
-    """The mesh of an object in Object Mode, and a vertex group of it."""
-
-    def __init__(self, obj: Object, name: str):
-        group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
-        if group is None:
-            raise (
-                EditRefusedError(BALANCE_NO_GROUP, group=name) if name else EditRefusedError(BALANCE_NO_ACTIVE_GROUP)
-            )
-        self.mesh, self.is_changed = obj.data, False
-        weights = np.zeros(len(self.mesh.vertices))
-        for vertex in self.mesh.vertices:  # Blender gives weights one by one only
-            for entry in vertex.groups:
-                if entry.group == group.index:
-                    weights[vertex.index] = entry.weight
-        self.movable = np.flatnonzero(weights > 0.0)
-        self.weights = weights[self.movable]
-        if not len(self.movable):
-            raise EditRefusedError(BALANCE_GROUP_EMPTY, group=group.name)
-        self.start = np.empty(3 * len(weights), np.float32)
-        self.mesh.attributes["position"].data.foreach_get("vector", self.start)
-        self.start = self.start.reshape(-1, 3)
-
-    def set_points(self, points: NDArray[np.float32]) -> None:
-        """Move the vertices to (n, 3) points."""
-        self.is_changed = True
-        self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
-        self.mesh.vertices[0].co = self.mesh.vertices[0].co  # tells Blender, which keeps normals and a box
-
-
-def _balance_mesh(
-    context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh, target: _Target, unit: float
-) -> list[Finding]:
-    """Carry out the change, or undo all of it. Return the findings."""
-    _require_balanceable(obj)
-    part = _read_surface(context, obj, mesh)
-    before = _measure(context, obj)
-    linear, offset = part.matrices[0, :3, :3] * unit, part.matrices[0, :3, 3] * unit
-    start = part.surface.transform(linear, offset)
-    size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
-    tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(start.points).max()
-    with _restored_on_error(context, mesh):
-        surface = start
-        for _ in range(MAX_ATTEMPTS):
-            balanced = balance(
-                surface,
-                mesh.movable,
-                target.point,
-                across=target.across,
-                weights=mesh.weights,
-                limit=target.limit or size,
-                shell=before.kind == "shell",
-            )
-            points = _mesh_coordinates(mesh, balanced, start, linear)
-            mesh.set_points(points)
-            after = _measure(context, obj)
-            off = np.abs(target.across @ (target.point - after.mass_properties.center)).max()
-            if off <= tolerance:
-                break
-            surface = replace(_read_surface(context, obj, None).surface.transform(linear, offset), points=start.points)
-        else:
-            raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
-    moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
-    number, largest = int(np.count_nonzero(moves.any(axis=1))), float(np.linalg.norm(moves, axis=1).max())
-    centers = [
-        np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
-        for center in (before.mass_properties.center, after.mass_properties.center)
-    ]
-    findings = [finding(BALANCED, count=number, distance=largest, start=centers[0], end=centers[1])]
-    if obj.data.users - obj.data.use_fake_user > 1:
-        findings.append(finding(BALANCE_MESH_SHARED))
-    if any(
-        candidate.type == "MESH" and candidate.data.is_editmode and candidate.data != obj.data
-        for candidate in context.view_layer.objects
-    ):
-        findings.append(finding(BALANCE_ONLY_ACTIVE, object=obj.name))
-    return findings
-
-
-@contextmanager
-def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[None]:
-    """Put the vertices back if the block fails."""
-    try:
-        yield
-    except BaseException:
-        if mesh.is_changed:
-            mesh.set_points(mesh.start)
-            context.view_layer.update()
-        raise
-
-
-def _require_balanceable(obj: Object) -> None:
-    """Raise EditRefusedError if the mesh cannot be changed, or its change is not the object's."""
-    if not obj.data.is_editable:
-        raise EditRefusedError(BALANCE_LINKED_MESH)
-    if obj.data.shape_keys is not None:
-        raise EditRefusedError(BALANCE_SHAPE_KEYS)
-    if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
-        raise EditRefusedError(BALANCE_WALL)
-
-
-def _measure(context: Context, obj: Object) -> Measurement:
-    """Measure the object in the usual way; EditRefusedError if its center cannot be differentiated by its vertices."""
-    measurement = measure_object(obj, context.evaluated_depsgraph_get())
-    if measurement.mass_moments[0].measure == Measure.MASS:
-        raise EditRefusedError(BALANCE_VARYING_DENSITY)
-    if measurement.kind == "solid" and (measurement.method != Method(Verdict.EXACT) or measurement.health.welded):
-        raise EditRefusedError(BALANCE_UNCLEAN)
-    return measurement
-
-
-def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
-    """Return the surface as it is measured; EditRefusedError if its vertices differ from the mesh."""
-    reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
-    part = reading.parts[0]
-    if reading.all_singular:
-        raise EditRefusedError(BALANCE_ZERO_SCALE)
-    if reading.instance_count > 1:
-        raise EditRefusedError(BALANCE_INSTANCES)
-    if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
-        shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-        raise (
-            EditRefusedError(BALANCE_MODIFIED, modifiers=shown) if shown else EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
-        )
-    return part
-
-
-def _mesh_coordinates(
-    mesh: _EditedMesh | _GroupedMesh, balanced: BalanceResult, start: Surface, linear: NDArray
-) -> NDArray[np.float32]:
-    """Return (n, 3) the mesh's own coordinates; vertices that are not movable stay to the bit."""
-    points = mesh.start.copy()
-    moves = balanced.points[mesh.movable] - start.points[mesh.movable]
-    local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves.T).T
-    points[mesh.movable] = local.astype(np.float32)
-    return points
 
 
 CLASSES = (OBJECT_OT_body_moments_sculpt_balance,)

@@ -27,7 +27,8 @@ ORDER = {
     "blender": (
         ("registration", "settings", "write"),
         ("read",),
-        ("bodies", "scene"),
+        ("bodies",),
+        ("scene",),
         ("session",),
     ),
 }

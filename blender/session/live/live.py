@@ -22,7 +22,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ....core.inertia.affine_image import affine_image
+from ....core.inertia.mass_properties import affine_image
 from ....core.measurement.body import Body
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.moments.affine_maps import are_singular

@@ -26,7 +26,7 @@ from ...bodies.measure_object import measure_body
 from ...bodies.mesh.hull import object_hull
 from ...read.objects import read_object
 from ...read.reading import float64_matrix
-from ..findings import OPEN_OBJECT
+from ...scene.findings import OPEN_OBJECT
 from ..tracking import updates
 
 MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured

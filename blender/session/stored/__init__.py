@@ -26,6 +26,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     assembly="assembly",
     balance_groups="balance_groups",
+    compute_moments="moments_to_order",
     density="density",
     faults="faults",
     listing="listing",
@@ -34,8 +35,10 @@ __getattr__, __dir__, __all__ = lazy_names(
     reference="reference",
     results="results",
     rig="rig",
+    sections="sections",
     stability="stability",
     sums="sums",
+    symmetry="symmetry",
     threshold="threshold",
     walls="walls",
 )

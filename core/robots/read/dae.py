@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...verdict.number_text import parse_number, parse_numbers, parse_whole, parse_wholes
+from ..stated import rotation_about
 from .triangles import Arrays, Gathered, fan
 from .xml import MAX_DEPTH, Node, parse
 
@@ -77,11 +78,7 @@ def _matrix(node: Node) -> NDArray[np.float64]:
         elif child.tag == "scale":
             step[:3, :3] = np.diag(values)
         else:
-            x, y, z = values[:3] / np.linalg.norm(values[:3])
-            cosine, sine = np.cos(np.radians(values[3])), np.sin(np.radians(values[3]))
-            cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-            axis = np.array([x, y, z])
-            step[:3, :3] = cosine * np.eye(3) + sine * cross + (1.0 - cosine) * np.outer(axis, axis)
+            step[:3, :3] = rotation_about(values[:3], np.radians(values[3]))
         matrix = matrix @ step
     return matrix
 

@@ -113,15 +113,13 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
         first, second, third = (numbers(attributes["euler"], 3, (0.0, 0.0, 0.0)) * unit).tolist()
         turn = np.eye(3)
         for axis, angle in zip(model.euler, (first, second, third)):
-            step = rotation_about("xyz".index(axis.lower()), angle)
+            step = rotation_about(np.eye(3)["xyz".index(axis.lower())], angle)
             turn = turn @ step if axis.islower() else step @ turn
         fixed_axes = model.euler == "XYZ"
         return turn, (first, second, third) if fixed_axes else None, None
     if "axisangle" in attributes:
         values = numbers(attributes["axisangle"], 4, (0.0, 0.0, 1.0, 0.0))
-        half = values[3] * unit / 2.0
-        axis = _direction(values[:3], attributes["axisangle"])
-        return rotation_matrix([np.cos(half), *(np.sin(half) * axis)]), None, None
+        return rotation_about(_direction(values[:3], attributes["axisangle"]), values[3] * unit), None, None
     if "xyaxes" in attributes:
         values = numbers(attributes["xyaxes"], 6, ())
         x = _direction(values[:3], attributes["xyaxes"])

@@ -212,7 +212,7 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
             step = values.reshape(4, 4).T
         elif kind.startswith("rotate") and len(values) == len(kind) - 6:
             for axis, angle in zip(kind[6:], np.radians(values)):  # rotateXYZ turns about x first
-                step[:3, :3] = rotation_about("XYZ".index(axis), angle) @ step[:3, :3]
+                step[:3, :3] = rotation_about(np.eye(3)["XYZ".index(axis)], angle) @ step[:3, :3]
         matrix = matrix @ (np.linalg.inv(step) if inverse else step)
     return np.asarray(matrix, np.float64)
 

@@ -7,6 +7,7 @@ Document types, and with them entities, are refused.
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -67,39 +68,6 @@ class Node:
         return self.attributes.get(name, default)
 
 
-class _Builder:
-    def __init__(self, data: bytes) -> None:
-        self.data = data
-        self.document = Node("", {}, 0)
-        self.open = [self.document]
-        self.count = 0
-        self.parser = expat.ParserCreate()
-        self.parser.buffer_text = True
-        self.parser.StartElementHandler = self._start
-        self.parser.EndElementHandler = self._end
-        self.parser.CharacterDataHandler = self._text
-        self.parser.StartDoctypeDeclHandler = self._refuse
-
-    def _refuse(self, *_: object) -> None:
-        raise FileError(XML_ENTITIES)
-
-    def _start(self, tag: str, attributes: dict[str, str]) -> None:
-        self.count += 1
-        check_size(len(self.open), self.count)
-        node = Node(tag, attributes, self.parser.CurrentByteIndex, self.parser.CurrentLineNumber)
-        self.open[-1].children.append(node)
-        self.open.append(node)
-
-    def _end(self, _tag: str) -> None:
-        node, end = self.open.pop(), self.parser.CurrentByteIndex
-        # The index is behind <a/>, but at </a> of other elements.
-        is_empty = self.data[end - 2 : end] == b"/>" and end == _end_of_tag(self.data, node.start)
-        node.end = end if is_empty else _end_of_tag(self.data, end)
-
-    def _text(self, text: str) -> None:
-        self.open[-1].text += text
-
-
 def check_size(depth: int, count: int) -> None:
     """Raise FileError if a file nests too many elements, or has too many."""
     if depth > MAX_DEPTH:
@@ -115,12 +83,35 @@ def _end_of_tag(data: bytes, start: int) -> int:
 
 def parse(data: bytes) -> Node:
     """Return the root of a document. FileError if it is none, or is refused."""
-    builder = _Builder(data)
+    document = Node("", {}, 0)
+    parser, waiting, counts = expat.ParserCreate(), [document], itertools.count(1)
+
+    def refuse(*_: object) -> None:
+        raise FileError(XML_ENTITIES)
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        check_size(len(waiting), next(counts))
+        node = Node(tag, attributes, parser.CurrentByteIndex, parser.CurrentLineNumber)
+        waiting[-1].children.append(node)
+        waiting.append(node)
+
+    def end(_tag: str) -> None:
+        node, place = waiting.pop(), parser.CurrentByteIndex
+        # The index is behind <a/>, but at </a> of other elements.
+        is_empty = data[place - 2 : place] == b"/>" and place == _end_of_tag(data, node.start)
+        node.end = place if is_empty else _end_of_tag(data, place)
+
+    def add_text(text: str) -> None:
+        waiting[-1].text += text
+
+    parser.buffer_text = True
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.CharacterDataHandler, parser.StartDoctypeDeclHandler = add_text, refuse
     try:
-        builder.parser.Parse(data, True)
+        parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
         raise FileError(XML_INVALID, error=" ".join(str(error).split())) from error
-    return builder.document.children[0]  # expat has seen that there is one
+    return document.children[0]  # expat has seen that there is one
 
 
 def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:

@@ -48,25 +48,18 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """Return a robot as a layer of its own, in meters, with a prim for each link; parameters as of `urdf.write`."""
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
-    lines = header(robot.name, remarks, 1.0, ROOT)
-    lines += ['def Xform "{}"'.format(ROOT), "{"]
+    lines: list[str] = []
     for link in robot.ordered():
         inertial = link.inertial
-        lines += _indented(_prim("def Xform", names[link.name], () if inertial is None else APIS))
-        lines += _indented(["{"])
-        if inertial is not None:
-            lines += _indented(mass_attributes(inertial), 2)
+        inner = [] if inertial is None else mass_attributes(inertial)
         if not inertial_only:
-            lines += _indented(_transform(link.pose), 2)
+            inner += _transform(link.pose)
             for count, shape in enumerate(link.shapes, start=1):
-                if shape.kind != "mesh":
-                    lines += _indented(_shape(shape, "shape_{}".format(count)), 2)
-                elif shape.surface is not None:
-                    lines += _indented(_mesh(shape.surface, shape.pose, "shape_{}".format(count)), 2)
-        lines += _indented(["}"])
+                inner += _shape(shape, "shape_{}".format(count))
+        lines += _prim("def Xform", names[link.name], inner, () if inertial is None else APIS)
     for joint in () if inertial_only else robot.joints:
-        lines += _indented(_joint(robot, joint, joints[joint.name], names))
-    return "\n".join([*lines, "}", ""])
+        lines += _joint(robot, joint, joints[joint.name], names)
+    return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *_prim("def Xform", ROOT, lines), ""])
 
 
 def write_over(
@@ -78,10 +71,8 @@ def write_over(
 ) -> str:
     """Return a layer that gives the prims of another one their mass, and nothing else.
 
-    `paths`: the prims of each root, from the top. `geometry`: the other layer's file, relative to this one.
-    `meters_per_unit`: unit scale of the Blender scene, left out by its exporter. `remarks`: comments at the beginning.
-    Prims stand in one another as objects do, and a body within a body is none: so each root carries all that is fixed
-    to it.
+    paths: the prims of each root, from the top. geometry: the other layer's file, relative to this one. A body within a
+    body is none, so each root carries all that is fixed to it. meters_per_unit: of the scene, left out by its exporter.
     """
     tree: dict[str, dict] = {}
     bodies = {}
@@ -104,7 +95,7 @@ def _overs(tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tup
         path = (*above, name)
         body = bodies.get(path, [])
         inner = [*body, *_overs(branch, path, bodies)]
-        lines += [*_prim("over", name, APIS if body else ()), "{", *_indented(inner), "}"]
+        lines += _prim("over", name, inner, APIS if body else ())
     return lines
 
 
@@ -133,10 +124,7 @@ def quoted(text: str) -> str:
 
 
 def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)) -> list[str]:
-    """Return the lines that give a prim its mass, in the units of its stage.
-
-    meters_per_unit: of the stage. scale: (3,) scale of the prim; the center is in its local space.
-    """
+    """Return the lines that give a prim its mass, in units of its stage. scale: (3,) of the prim, for the center."""
     center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
     inertia = inertial.inertia / meters_per_unit**2
     entries = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]
@@ -188,15 +176,12 @@ def _doubles(values: Iterable[float]) -> str:
     return "({})".format(", ".join(map(number, values)))
 
 
-def _indented(lines: Iterable[str], depth: int = 1) -> list[str]:
-    return [_INDENT * depth + line for line in lines]
-
-
-def _prim(kind: str, name: str, apis: Sequence[str] = ()) -> list[str]:
-    start = "{} {}".format(kind, quoted(name))
-    if not apis:
-        return [start]
-    return [start + " (", "    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis))), ")"]
+def _prim(kind: str, name: str, inner: Iterable[str], apis: Sequence[str] = ()) -> list[str]:
+    """Return the lines of a prim with attributes and prims in it."""
+    head = ["{} {}".format(kind, quoted(name))]
+    if apis:
+        head = [head[0] + " (", "    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis))), ")"]
+    return [*head, "{", *(_INDENT + line for line in inner), "}"]
 
 
 def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
@@ -212,9 +197,10 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 def _shape(shape: Shape, name: str) -> list[str]:
-    """Return a primitive to collide as."""
+    """Return a shape to collide as; nothing for a mesh without a surface."""
+    if shape.kind == "mesh":
+        return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name)
     kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
-    lines = [*_prim("def " + kinds[shape.kind], name, ("PhysicsCollisionAPI",)), "{"]
     scale = None
     if shape.kind == "box":
         attributes, scale = ["double size = 1"], shape.size
@@ -225,7 +211,8 @@ def _shape(shape: Shape, name: str) -> list[str]:
     else:
         attributes = ["double radius = {}".format(number(shape.size[0])), 'uniform token axis = "Z"']
         attributes.append("double height = {}".format(number(shape.size[1])))
-    return [*lines, *_indented([*attributes, *_transform(shape.pose, scale)]), "}"]
+    inner = [*attributes, *_transform(shape.pose, scale)]
+    return _prim("def " + kinds[shape.kind], name, inner, ("PhysicsCollisionAPI",))
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
@@ -241,8 +228,7 @@ def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
         'uniform token physics:approximation = "convexHull"',
         *_transform(pose),
     ]
-    head = _prim("def Mesh", name, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
-    return [*head, "{", *_indented(attributes), "}"]
+    return _prim("def Mesh", name, attributes, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
@@ -271,7 +257,7 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
         "point3f physics:localPos1 = (0, 0, 0)",
         "quatf physics:localRot1 = {}".format(singles(quaternion(turn))),
     ]
-    return [*_prim("def " + kind, name, apis), "{", *_indented([*lines, *more]), "}"]
+    return _prim("def " + kind, name, [*lines, *more], apis)
 
 
 def _in_degrees(kind: str, value: float) -> float:

@@ -70,7 +70,7 @@ def test_settings_are_not_copied_to_linked_objects(linked, reported):
     local, *_ = linked
     local.body_moments.density = 5.0
     assert run("copy_settings") == {"CANCELLED"}
-    assert [reported.values("left_unchanged")[name] for name in ("count", "total")] == [2, 2]
+    assert reported.codes.count("failure") == 2
 
 
 def test_similar_objects_of_one_name_are_selected_each(linked):
@@ -91,7 +91,7 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
         local.body_moments.density = 5.0
         bpy.context.view_layer.objects.active = local
     run(operator, **options)
-    assert any("override" in code or code == "linked_results" for code in reported.codes)
+    assert {"library_override", "linked_results"} & {*reported.codes}
     assert not overridden.is_property_set("body_moments_symmetry") and "body_mass" not in overridden
     assert overridden.rigid_body is None and overridden.body_moments.density == 1000.0
     assert not overridden.body_moments.material

@@ -7,7 +7,7 @@ import itertools
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.scene import transforms
+from body_moments.blender.scene import changes, transforms
 from body_moments.core.verdict.finding import EditRefusedError
 from mathutils import Quaternion
 
@@ -162,12 +162,12 @@ def test_linked_objects_are_refused(tmp_path):
     own.name = "Own"
     with bpy.data.libraries.load(str(tmp_path / "a.blend"), link=True) as (_, names):
         names.objects = ["Linked"]
-    transforms.require_editable(own)
-    transforms.require_storable_data(own, "channel_locked")
-    for check in (transforms.require_editable, lambda obj: transforms.require_storable_data(obj, "channel_locked")):
+    changes.require_editable(own)
+    changes.require_storable_data(own)
+    for check in (changes.require_editable, changes.require_storable_data):
         with pytest.raises(EditRefusedError) as error:
             check(names.objects[0])
         assert error.value.finding.code == "linked_object"
     parent, child = add(None, "Parent"), add(None, "Child")
     child.parent = parent
-    assert [*transforms.ancestors(child)] == [child, parent] and [*transforms.ancestors(None)] == []
+    assert [*changes.ancestors(child)] == [child, parent] and [*changes.ancestors(None)] == []

@@ -15,13 +15,12 @@ import bpy
 from body_moments.blender.bodies import measure_object as measure
 from body_moments.blender.bodies import request
 from body_moments.blender.bodies.stacks import many
-from body_moments.blender.scene import reframe
+from body_moments.blender.scene import empties, reframe
 from body_moments.blender.session import displayed
+from body_moments.blender.session.stored import sections
 from body_moments.blender.write import properties, section
 from body_moments.operators import batch
-from body_moments.operators.measure import section as measure_section
 from body_moments.operators.measure.measure_selected import OBJECT_OT_body_moments_measure
-from body_moments.operators.snap import empty
 
 from tests.blender import batch_files as files
 from tests.blender.objects import add, mesh_body, only, place
@@ -48,7 +47,7 @@ OPERATORS = {
 
 @pytest.fixture(autouse=True)
 def in_steps(monkeypatch):
-    monkeypatch.setattr("body_moments.operators.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 0)
+    monkeypatch.setattr(OBJECT_OT_body_moments_measure, "MAX_AT_ONCE", 0)
 
 
 def three(flat=False):
@@ -97,7 +96,7 @@ def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, reporte
     bodies = three(flat=name == "section")
     before = [state(body) for body in bodies]
     if name == "section":
-        plant(monkeypatch, error, "b", module=measure_section, function="section_of")
+        plant(monkeypatch, error, "b", module=sections, function="section_of")
     else:
         plant(monkeypatch, error, "b")
     assert OPERATORS[name]() == {"FINISHED"}
@@ -114,7 +113,7 @@ def test_the_error_of_one_object_ends_no_other(name, error, monkeypatch, reporte
     if name not in {"cursor", "similar", "empty"}:
         assert after[2] != before[2] and (name == "match" or after[0] != before[0])
     if name == "empty":
-        assert {one[empty.OBJECT_KEY].name for one in bpy.data.objects if empty.OBJECT_KEY in one} == {"a", "c"}
+        assert {one[empties.OBJECT_KEY].name for one in bpy.data.objects if empties.OBJECT_KEY in one} == {"a", "c"}
 
 
 def test_internal_error_is_kept_for_the_panel(monkeypatch):

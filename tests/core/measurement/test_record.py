@@ -256,7 +256,7 @@ def test_one_document_is_itself_and_several_are_an_array():
 
 def test_number_rows_on_one_line_change_no_value_or_text():
     name = 'a [\n  1,\n 2 ] "x" \\n [ 1.5, 2 ] Ünï 立方体 \udcff'
-    odd = finding("object_defects", object="[\n      1\n    ]", defects=[])
+    odd = finding("object_warnings", object="[\n      1\n    ]", causes=[])
     body = replace(box(name), findings=(odd,), density=1e-300)
     document = one_document(body, order=3)
     assert json.loads("".join(documents.to_json([document]))) == document

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from body_moments.blender.bodies.files.array import ArrayOptions, measure_array
 from body_moments.blender.bodies.measure_object import measure_object
+from body_moments.blender.read.grids import vdb
 from body_moments.blender.read.grids.volume import volume_reading
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.density import grid_moments
-from body_moments.operators.imports import import_scan
 
 from tests.blender.findings import refused, said
 from tests.close import close
@@ -52,7 +52,7 @@ def test_no_sample_is_lost_and_ct_numbers_go_by_the_table(least, tmp_path, repor
     values = samples("f4", -1000)
     values[0, 0, :2] = least, -999.0
     obj = imported(written(tmp_path / "ct.nrrd", nrrd(values, "spacings: 1 1 1")))
-    assert obj.body_moments.values_from == "TABLE" and "scan_ct_numbers" in reported.codes
+    assert obj.body_moments.values_from == "TABLE" and "CT numbers" in reported.texts[-1]
     bpy.context.view_layer.update()
     with volume_reading(obj, bpy.context.evaluated_depsgraph_get()) as reading:
         ((_, found),) = reading.blocks()
@@ -90,7 +90,8 @@ def test_refused_import_leaves_no_data(tmp_path, reported):
     before = len(bpy.data.objects), len(bpy.data.volumes)
     assert refusal(written(tmp_path / "a.nrrd", b"nonsense")) == "file_unrecognized"
     assert reported[-2].values["object"] == "a.nrrd"
-    assert refusal("") == refusal(tmp_path) == "no_import_file"
+    with pytest.raises(RuntimeError, match="No file"):
+        bpy.ops.object.body_moments_import_scan(filepath=str(tmp_path))
     assert refusal(written(tmp_path / "a.txt", b"nonsense")) == "file_type"
     good = written(tmp_path / "b.nrrd", nrrd(samples()))
     written(tmp_path / "b.vdb", b"mine")
@@ -127,11 +128,11 @@ def test_a_volume_is_written_whole_or_not_at_all(error, tmp_path, monkeypatch, c
                 partial.write(b"half")
             raise error
 
-    real = import_scan.openvdb()
-    monkeypatch.setattr(import_scan, "openvdb", Failing)
+    real = vdb.openvdb()
+    monkeypatch.setattr(vdb, "openvdb", Failing)
     with pytest.raises(RuntimeError, match="no space left"):
         bpy.ops.object.body_moments_import_scan(filepath=str(path), overwrite=True)
-    assert reported.values("volume_not_written") == {"error": "no space left"}
+    assert reported.values("file_not_written") == {"error": "no space left"}
     assert (tmp_path / "a.vdb").read_bytes() == kept
     assert sorted(one.name for one in tmp_path.iterdir()) == ["a.nii", "a.vdb"]
 
@@ -162,7 +163,7 @@ def uneven(tmp_path, **options):
 @pytest.mark.parametrize("spline_order", [1, 2, 4])
 def test_uneven_slices_are_measured_at_their_positions(tmp_path, reported, spline_order):
     obj, samples, z = uneven(tmp_path, position_unit=0.001)
-    assert reported.values("scan_drawn_evenly") == {"axes": ["z"]}
+    assert "“z”" in reported.texts[-1]
     obj.body_moments.spline_order = spline_order
     truth = grid_moments(samples, samples.shape, np.eye(4), spline_order, positions=(None, None, z * 0.001))
     found = measure(obj)

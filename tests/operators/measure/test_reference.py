@@ -144,7 +144,7 @@ def test_axis_runs_from_other_object_to_active(active, selected, points, reporte
     if points is None:
         with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
             bpy.ops.object.body_moments_axis_from_selection()
-        assert reported.values("axis_needs_two_points") == {"count": len(selected)}
+        assert reported.texts[-1].startswith(str(len(selected)))
         return
     assert bpy.ops.object.body_moments_axis_from_selection() == {"FINISHED"}
     chosen = bpy.context.scene.body_moments_reference

@@ -105,7 +105,7 @@ OPERATORS = [
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
 def test_esc_between_two_objects_leaves_everything_as_it_was(cls, settings, monkeypatch):
-    monkeypatch.setattr("body_moments.operators.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
+    monkeypatch.setattr(OBJECT_OT_body_moments_measure, "MAX_AT_ONCE", 1)
     bodies = three()
     before = [place(body) for body in bodies]
     operator, window = pressed(cls, **settings)
@@ -148,7 +148,7 @@ def test_esc_within_an_object_leaves_everything_as_it_was(cls, count):
 
 @pytest.mark.parametrize(("cls", "settings"), OPERATORS)
 def test_a_fault_in_a_step_gives_the_window_back(cls, settings, monkeypatch):
-    monkeypatch.setattr("body_moments.operators.measure.measure_selected.MAX_OBJECTS_WITHOUT_REDRAW", 1)
+    monkeypatch.setattr(OBJECT_OT_body_moments_measure, "MAX_AT_ONCE", 1)
     three()
     operator, window = pressed(cls, **settings)
 

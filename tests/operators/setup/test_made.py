@@ -5,9 +5,9 @@
 import bpy
 import numpy as np
 import pytest
+from body_moments.blender.scene import node_group
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.session.tracking.stamps import Stale
-from body_moments.operators.setup import node_group
 
 from tests.blender.objects import add, mesh_body, only, seen, strip_mesh
 

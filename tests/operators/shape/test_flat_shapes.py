@@ -138,7 +138,7 @@ def test_mirrored_letter_stays_in_place(reported):
     was = place(image)
     only(target, image)
     assert run("match_pose") == {"CANCELLED"}
-    assert (place(image) == was).all() and "flat_mirror_image" in reported.codes
+    assert (place(image) == was).all() and "mirror_image" in reported.codes
 
 
 @pytest.mark.filterwarnings("error")

@@ -127,7 +127,7 @@ def test_constrained_object_leaves_others_to_be_matched(held, reported):
     limit.use_min_x, limit.min_x = True, 5.0
     only(target, *others)
     bpy.context.view_layer.update()
-    assert run("match_pose") == {"FINISHED"} and reported.values("poses_matched")["count"] == 2
+    assert run("match_pose") == {"FINISHED"} and "2 objects" in reported.texts[0]
     apart = [np.abs(place(other) - place(target)).max() for other in others]
     assert [distance > 1.0 for distance in apart] == [number == held for number in range(3)]
 
@@ -191,13 +191,13 @@ def test_a_library_measured_in_batch_is_searched(tmp_path, reported):
     assert rows["Copy"] == "copy" and rows["Image"] == "mirror" and rows["Big"] == "scaled_copy"
     assert bpy.context.scene.body_moments_search.looked_at == "library.jsonl"
     refused("find_in_library", filepath=str(tmp_path / "none.jsonl"))
-    assert reported.codes[-1] == "library_file_unreadable"
+    assert "cannot be read" in reported.texts[-1] and not reported.codes
     bpy.context.object.data = bpy.data.meshes.new("Nothing")
     refused("find_in_library", filepath=str(path))
-    assert reported.codes[-1] != "library_file_unreadable" and found() == rows
+    assert reported.codes and found() == rows
 
 
-def test_search_results_survive_saving_and_loading(tmp_path, reported):
+def test_search_results_survive_saving_and_loading(tmp_path):
     scene_of_shapes()
     run("find_similar")
     run("find_symmetry")
@@ -210,7 +210,6 @@ def test_search_results_survive_saving_and_loading(tmp_path, reported):
     assert run("select_found", name="Image") == {"FINISHED"}
     assert bpy.context.object.name == "Image" and selected() == {"Image"}
     refused("select_found", name="Nobody")
-    assert reported.codes[-1] == "object_not_in_view_layer"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Empties at the principal frames of objects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+
+import bpy
+import numpy as np
+from bpy.types import Context, Depsgraph, Object
+from mathutils import Matrix
+
+from ...core.verdict.finding import EditRefusedError
+from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
+from .findings import EMPTY_CONSTRAINED, EMPTY_FOLLOWED, PARENT_TARGET_SCALE_ZERO
+from .snap_targets import SnapTarget, targets_in_turn
+from .transforms import TransformChannels, basis, world
+
+OBJECT_KEY = "principal_frame_of"  # ID property of such an empty: the object whose frame it shows
+RESTORED_PROPERTIES = ("parent", "parent_type", "parent_bone", "empty_display_size")
+
+
+def place_empties(
+    context: Context,
+    objects: Sequence[Object],
+    is_parent: bool,
+    display: str,
+    size: float,
+    progress: Callable[[float], None],
+) -> tuple[list[SnapTarget], dict[Object, Exception]]:
+    """Put an empty at the principal frame of each object; one put there before is moved.
+
+    Return the objects whose empties were elsewhere, and the reasons for the others that were refused. is_parent: the
+    empties become children. display: type of new empties. size: relative to the largest radius of gyration.
+    """
+    existing = {
+        empty[OBJECT_KEY]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OBJECT_KEY in empty
+    }
+    placed: list[SnapTarget] = []
+    failures: dict[Object, Exception] = {}
+    count = 0
+
+    def add(obj: Object) -> SceneChange:
+        nonlocal count
+        yield
+        try:
+            if is_parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
+                raise EditRefusedError(PARENT_TARGET_SCALE_ZERO)
+            body = target_in_turn(obj)
+            count += 1
+            progress(count)
+            yield  # all are measured before the scene changes
+            if (yield from _place(existing.get(obj), context, body, is_parent, display, size)):
+                placed.append(body)
+        except Exception as error:
+            failures[obj] = error
+
+    followers = dependents(existing.values())  # objects that move with an empty are measured after it
+    for several in independent_rounds((obj, {obj, *followers.get(existing.get(obj), ())}) for obj in objects):
+        target_in_turn = targets_in_turn(context, several)
+        run_change(context, run_together(map(add, several)))
+    return placed, failures
+
+
+def _place(
+    existing: Object | None, context: Context, body: SnapTarget, is_parent: bool, display: str, size: float
+) -> Generator[None, Depsgraph, bool]:
+    """Move the empty, or a new one, to the body's frame; return whether it was elsewhere.
+
+    Raises EditRefusedError if the empty cannot be there: then nothing has changed.
+    """
+    parent = body.obj if is_parent else None
+    if existing is not None:
+        return (yield from _moved(existing, body, parent, size))
+    empty = _new_empty(context, body.obj)
+    empty.empty_display_type = display
+    try:
+        return (yield from _moved(empty, body, parent, size))
+    except BaseException:
+        bpy.data.objects.remove(empty)
+        raise
+
+
+def _new_empty(context: Context, obj: Object) -> Object:
+    empty = bpy.data.objects.new("{:s} Principal Frame".format(obj.name), None)
+    empty.show_in_front = True  # the center of mass is mostly inside
+    empty.rotation_mode = "QUATERNION"
+    empty[OBJECT_KEY] = obj
+    collections = [
+        collection
+        for collection in obj.users_collection
+        if collection.library is None
+        and collection.override_library is None  # others take no objects
+        and collection in context.scene.collection.children_recursive
+    ]
+    (collections[0] if collections else context.scene.collection).objects.link(empty)
+    return empty
+
+
+def _moved(empty: Object, body: SnapTarget, parent: Object | None, size: float) -> Generator[None, Depsgraph, bool]:
+    """Move the empty to the body's frame; return whether it was elsewhere. EditRefusedError if it cannot be there."""
+    if _follows(body.obj, empty):
+        raise EditRefusedError(EMPTY_FOLLOWED, empty=empty.name)
+    if _is_there(empty, body) and empty.parent == parent:
+        return False
+    saved = TransformChannels(empty)
+    before = {name: getattr(empty, name) for name in RESTORED_PROPERTIES}
+    before["matrix_parent_inverse"] = empty.matrix_parent_inverse.copy()
+    was = world(body.obj)
+    frame = np.eye(4)
+    frame[:3, :3], frame[:3, 3] = body.axes, body.center
+    try:
+        empty.parent = parent
+        if parent is not None:
+            empty.parent_type = "OBJECT"
+            empty.matrix_parent_inverse = Matrix(np.linalg.inv(world(parent)))
+        empty.empty_display_size = size * body.size
+        empty.matrix_world = Matrix(frame)
+        yield
+        if parent is not None and not _is_there(empty, body):  # a curve also lays its children along its path
+            outer = np.linalg.solve(basis(empty).T, world(empty).T).T
+            inverse = np.array(empty.matrix_parent_inverse, np.float64) @ np.linalg.inv(outer)
+            empty.matrix_parent_inverse, empty.matrix_basis = Matrix(inverse), Matrix(frame)
+            yield
+        held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
+        if held or follows:
+            raise EditRefusedError(EMPTY_FOLLOWED if follows else EMPTY_CONSTRAINED, empty=empty.name)
+    except BaseException:
+        for name, value in before.items():
+            setattr(empty, name, value)
+        saved.restore()
+        raise
+    return True
+
+
+def _follows(obj: Object, empty: Object) -> bool:
+    return any(
+        ancestor == empty or any(getattr(constraint, "target", None) == empty for constraint in ancestor.constraints)
+        for ancestor in ancestors(obj)
+    )
+
+
+def _is_there(empty: Object, body: SnapTarget) -> bool:
+    now = world(empty)
+    off = np.abs(now[:3, 3] - body.center).max()
+    return bool(off <= 1e-6 * body.size + 1e-6 * np.abs(body.center).max() and body.is_principal(now[:3, :3]))

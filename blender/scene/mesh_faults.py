@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faults of meshes: their elements, selected in Edit Mode or repaired."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.types import Object
+
+from ...core.measurement.measurement import Measurement
+from ...core.verdict.finding import EditRefusedError
+from .findings import LINKED_OBJECT, MODIFIED_MESH
+
+# Modifiers that only move vertices: the faults' indices are those of the mesh itself.
+DEFORMING_MODIFIERS = {
+    "ARMATURE",
+    "CAST",
+    "CORRECTIVE_SMOOTH",
+    "CURVE",
+    "DISPLACE",
+    "HOOK",
+    "LAPLACIANDEFORM",
+    "LAPLACIANSMOOTH",
+    "LATTICE",
+    "MESH_DEFORM",
+    "NORMAL_EDIT",
+    "SHRINKWRAP",
+    "SIMPLE_DEFORM",
+    "SMOOTH",
+    "SURFACE_DEFORM",
+    "UV_PROJECT",
+    "UV_WARP",
+    "VERTEX_WEIGHT_EDIT",
+    "VERTEX_WEIGHT_MIX",
+    "VERTEX_WEIGHT_PROXIMITY",
+    "VOLUME_DISPLACE",
+    "WARP",
+    "WAVE",
+    "WEIGHTED_NORMAL",
+    "DATA_TRANSFER",
+}
+
+
+def require_editable_mesh(obj: Object) -> None:
+    """Raise EditRefusedError if the measured mesh is not the editable one."""
+    if not obj.data.is_editable:  # nor is it then of a linked object
+        raise EditRefusedError(LINKED_OBJECT)
+    changing = [
+        modifier.name
+        for modifier in obj.modifiers
+        if modifier.show_viewport and modifier.type not in DEFORMING_MODIFIERS
+    ]
+    if changing:
+        raise EditRefusedError(MODIFIED_MESH, modifiers=changing)
+
+
+def defects_by_kind(measurement: Measurement) -> dict[str, np.ndarray]:
+    """Return the elements of each kind of defect that a mesh has: (k, 2) vertices of edges, or (k,) faces."""
+    elements = measurement.health.defective_elements
+    arrays = {field.name: np.asarray(getattr(elements, field.name), np.int64) for field in fields(elements)}
+    return {name: indices for name, indices in arrays.items() if len(indices)}
+
+
+def select_elements(obj: Object, elements: dict[str, np.ndarray]) -> None:
+    """Select exactly these elements of a mesh in Edit Mode."""
+    edges = [indices for indices in elements.values() if indices.ndim == 2]
+    faces = [indices for indices in elements.values() if indices.ndim == 1]
+    mesh = bmesh.from_edit_mesh(obj.data)
+    for sequence in (mesh.verts, mesh.edges, mesh.faces):
+        sequence.ensure_lookup_table()
+    for sequence in (mesh.faces, mesh.edges, mesh.verts):
+        for element in sequence:
+            element.select = False
+    for start, end in (pair for indices in edges for pair in indices.tolist()):
+        edge = mesh.edges.get((mesh.verts[start], mesh.verts[end]))
+        if edge is not None:  # the diagonals of a tessellation are no edges of the mesh
+            edge.hide_set(False)
+            edge.select_set(True)
+    for index in (index for indices in faces for index in indices.tolist()):
+        mesh.faces[index].hide_set(False)
+        mesh.faces[index].select_set(True)
+    bmesh.update_edit_mesh(obj.data)
+
+
+def reverse_faces(mesh: bpy.types.Mesh, elements: Sequence[Sequence[int]]) -> int:
+    """Reverse the faces of several lists, all faces if one of them is empty; return their number."""
+    if not all(map(len, elements)):
+        elements = [range(len(mesh.polygons))]
+    faces = sorted({int(index) for indices in elements for index in indices})
+    if faces:
+        edited = bmesh.new()
+        edited.from_mesh(mesh)
+        edited.faces.ensure_lookup_table()
+        bmesh.ops.reverse_faces(edited, faces=[edited.faces[index] for index in faces], flip_multires=True)
+        edited.to_mesh(mesh)
+        edited.free()
+    return len(faces)

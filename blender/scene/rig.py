@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects that are made for a character: rigid bodies with joints, and an empty at its center of mass.
+
+A bone's part moves with the bone, and so does its center: an empty for each, parented to the bone. Copy Location
+constraints, each with the share of its part in the mass of those so far, put one more empty at their weighted mean.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from bpy.types import Bone, Context, Object, PoseBone
+from mathutils import Matrix, Vector
+
+from ...core.mesh.surface import join_surfaces
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import EditRefusedError
+from ..bodies.rig import BonePart, Rig
+from .findings import RIGID_BODY_MASS_TOO_SMALL
+from .made_collections import MadeCollection
+from .rigid_world import MIN_MASS, add_joint, add_rigid_bodies, require_rigid_world
+
+CENTER_OF = "center_of_mass_of"  # ID property of what is made: the armature object
+RIG_OF = "physics_rig_of"
+
+
+def add_center(context: Context, rig: Rig) -> None:
+    """Add an empty that follows the character's center of mass."""
+    armature = rig.armature
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    made = MadeCollection(context, armature, CENTER_OF, "Center of Mass")
+    center = bpy.data.objects.new("{:s} Center of Mass".format(armature.name), None)
+    center.empty_display_type, center.show_in_front = "SPHERE", True
+    center.empty_display_size = 0.1 * float(rig.measurement.mass_properties.radii_of_gyration.max()) / unit
+    made.link(center)
+    mass = 0.0
+    for part in rig.parts:
+        if part.mass.total <= 0.0:
+            continue
+        mass += part.mass.total
+        constraint = center.constraints.new("COPY_LOCATION")
+        constraint.name = part.name
+        constraint.target = _follower(context, made, armature, part, unit)
+        constraint.influence = part.mass.total / mass
+    context.view_layer.update()
+
+
+def _follower(context: Context, made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
+    """Add an empty that is parented to a bone, at the center of its part."""
+    bone = armature.data.bones[part.name]
+    empty = bpy.data.objects.new("{:s} {:s} Center".format(armature.name, part.name), None)
+    empty.empty_display_size = 0.1 * bone.length
+    made.link(empty)
+    rest = np.array(armature.matrix_world @ bone.matrix_local, np.float64)
+    local = np.linalg.solve(rest, np.append(part.mass.center / unit, 1.0))[:3]
+    empty.parent, empty.parent_type, empty.parent_bone = armature, "BONE", bone.name
+    empty.matrix_parent_inverse = Matrix.Identity(4)
+    empty.location = Vector(local) - Vector((0.0, bone.length, 0.0))  # children of a bone start at its tail
+    empty.hide_set(True)
+    return empty
+
+
+def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
+    """Create rigid bodies and joints of a character's parts; return their numbers."""
+    parts = [part for part in rig.parts if part.measurement is not None]
+    for part in parts:
+        if part.mass.total < MIN_MASS:
+            raise EditRefusedError(
+                RIGID_BODY_MASS_TOO_SMALL, subject=part.name, mass=float(part.mass.total), limit=MIN_MASS
+            )
+    require_rigid_world(context.scene, joints=True)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    made = MadeCollection(context, rig.armature, RIG_OF, "Physics Rig")
+    bodies = {part.name: _body(made, rig.armature, part, unit) for part in parts}
+    add_rigid_bodies(context, list(bodies.values()))
+    for part in parts:
+        physics = bodies[part.name].rigid_body
+        physics.mass, physics.collision_shape = part.mass.total, "CONVEX_HULL"
+    joints = 0
+    for name, body in bodies.items():
+        above = _parent_with_part(rig.armature.data.bones[name], bodies)
+        if above is not None:
+            _joint(context, made, rig.armature.pose.bones[name], bodies[above], body)
+            joints += 1
+    context.view_layer.update()
+    return len(bodies), joints
+
+
+def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
+    """Add the object of a part: its closed pieces, in a frame at its center along its principal axes."""
+    assert part.measurement is not None
+    body = part.measurement.mass_properties
+    frame = np.eye(4)
+    frame[:3, :3], frame[:3, 3] = body.principal.axes, body.center / unit
+    surface = join_surfaces([piece.transform(matrix[:3, :3], matrix[:3, 3]) for piece, matrix in part.surfaces])
+    mesh = bpy.data.meshes.new("{:s} {:s}".format(armature.name, part.name))
+    points = (surface.points / unit - frame[:3, 3]) @ frame[:3, :3]
+    mesh.from_pydata(points, [], surface.triangles)
+    mesh.validate()
+    obj = bpy.data.objects.new(mesh.name, mesh)
+    made.link(obj)
+    obj.rotation_mode = "QUATERNION"
+    obj.matrix_world = Matrix(frame)
+    settings = obj.body_moments
+    settings.mass_from, settings.mass = "MASS", part.mass.total
+    return obj
+
+
+def _parent_with_part(bone: Bone, bodies: dict[str, Object]) -> str | None:
+    """Return the nearest bone above that has a body."""
+    return next((parent.name for parent in bone.parent_recursive if parent.name in bodies), None)
+
+
+def _joint(context: Context, made: MadeCollection, bone: PoseBone, above: Object, below: Object) -> None:
+    """Add a joint at a bone's head, along its axes, with the limits of its inverse kinematics."""
+    armature = bone.id_data
+    joint = bpy.data.objects.new("{:s} {:s} Joint".format(armature.name, bone.name), None)
+    joint.empty_display_size = 0.25 * bone.bone.length * float(np.mean(armature.matrix_world.to_scale()))
+    made.link(joint)
+    location, turn, _scale = (armature.matrix_world @ bone.bone.matrix_local).decompose()
+    joint.rotation_mode = "QUATERNION"
+    joint.location, joint.rotation_quaternion = location, turn
+    constraint = add_joint(context, joint, "GENERIC")
+    constraint.object1, constraint.object2, constraint.disable_collisions = above, below, True
+    for axis in "xyz":
+        setattr(constraint, "use_limit_lin_" + axis, True)
+        setattr(constraint, "limit_lin_{:s}_lower".format(axis), 0.0)
+        setattr(constraint, "limit_lin_{:s}_upper".format(axis), 0.0)
+        locked, limited = getattr(bone, "lock_ik_" + axis), getattr(bone, "use_ik_limit_" + axis)
+        setattr(constraint, "use_limit_ang_" + axis, locked or limited)
+        low, high = (getattr(bone, "ik_{:s}_{:s}".format(end, axis)) for end in ("min", "max"))
+        setattr(constraint, "limit_ang_{:s}_lower".format(axis), 0.0 if locked else low)
+        setattr(constraint, "limit_ang_{:s}_upper".format(axis), 0.0 if locked else high)

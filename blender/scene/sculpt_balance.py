@@ -1,0 +1,245 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sculpt Balance: chosen vertices of a mesh are moved least so that its center of mass comes over a point.
+
+The change is made on the mesh itself and measured again, the way the object is always measured; if it cuts faces that
+are not flat anew, it is solved again for the new cut. A change that misses the point is undone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import NamedTuple
+
+import bmesh
+import bpy
+import numpy as np
+from bpy.types import Context, Object
+from numpy.typing import NDArray
+
+from ...core.measurement.measurement import Measurement
+from ...core.mesh.surface import Surface
+from ...core.moments.moments import Measure
+from ...core.numerics.float32 import shortest_decimal
+from ...core.statics.balancing import BalanceResult, balance
+from ...core.verdict.finding import EditRefusedError
+from ...core.verdict.method import Method, Verdict
+from ..bodies.measure_object import measure_object
+from ..read.findings import SCALE_ZERO_AXIS
+from ..read.objects import read_object
+from ..read.reading import Part
+from ..read.tracking import tracking_paused
+from .findings import (
+    BALANCE_MODIFIED,
+    BALANCE_MODIFIED_UNKNOWN,
+    BALANCE_NO_GROUP,
+    BALANCE_NO_VERTICES,
+    BALANCE_SHAPE_KEYS,
+    BALANCE_TRIANGULATION_VARIES,
+    BALANCE_UNCLEAN,
+    BALANCE_VARYING_DENSITY,
+    BALANCE_WALL,
+    LINKED_OBJECT,
+)
+from .transforms import FLOAT32
+
+MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
+REACHED_RTOL = 1e-6  # rounding of a center in float32, relative to the body's size
+ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported as 0
+
+
+class Balanced(NamedTuple):
+    """The number of moved vertices, the longest move in m, and (3,) the center of mass before and after, in m."""
+
+    count: int
+    distance: float
+    start: list[float]
+    end: list[float]
+
+
+def _horizontal_directions(scene: bpy.types.Scene) -> NDArray[np.float64]:
+    """Return the two directions (2, 3) across gravity, or across Z without gravity."""
+    down = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
+    axis: NDArray[np.float64] = down if down.any() else np.eye(3)[2]
+    return np.linalg.svd(axis[None])[2][1:]
+
+
+class _EditedMesh:
+    """The mesh of an object in Edit Mode; a BMesh gives and takes its vertices one by one only."""
+
+    def __init__(self, obj: Object):
+        self.obj, self.is_changed = obj, False
+        vertices = self._vertices()
+        self.start = np.array([vertex.co[:] for vertex in vertices], np.float32).reshape(-1, 3)
+        selected = np.fromiter((vertex.select for vertex in vertices), bool, len(vertices))
+        self.movable = np.flatnonzero(selected)
+        self.weights = np.ones(len(self.movable))
+        if not len(self.movable):
+            raise EditRefusedError(BALANCE_NO_VERTICES)
+
+    def _vertices(self) -> bmesh.types.BMVertSeq:
+        return bmesh.from_edit_mesh(self.obj.data).verts
+
+    def set_points(self, points: NDArray[np.float32]) -> None:
+        """Move the vertices to (n, 3) points."""
+        self.is_changed = True
+        vertices = self._vertices()
+        vertices.ensure_lookup_table()
+        for index in self.movable.tolist():
+            vertices[index].co = points[index].tolist()
+        mesh = bmesh.from_edit_mesh(self.obj.data)
+        mesh.normal_update()
+        bmesh.update_edit_mesh(self.obj.data)
+
+
+class _GroupedMesh:
+    """The mesh of an object in Object Mode, and a vertex group of it."""
+
+    def __init__(self, obj: Object, name: str):
+        group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
+        if group is None:
+            raise EditRefusedError(BALANCE_NO_GROUP)
+        self.mesh, self.is_changed = obj.data, False
+        weights = np.zeros(len(self.mesh.vertices))
+        for vertex in self.mesh.vertices:  # Blender gives weights one by one only
+            for entry in vertex.groups:
+                if entry.group == group.index:
+                    weights[vertex.index] = entry.weight
+        self.movable = np.flatnonzero(weights > 0.0)
+        self.weights = weights[self.movable]
+        if not len(self.movable):
+            raise EditRefusedError(BALANCE_NO_VERTICES)
+        self.start = np.empty(3 * len(weights), np.float32)
+        self.mesh.attributes["position"].data.foreach_get("vector", self.start)
+        self.start = self.start.reshape(-1, 3)
+
+    def set_points(self, points: NDArray[np.float32]) -> None:
+        """Move the vertices to (n, 3) points."""
+        self.is_changed = True
+        self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
+        self.mesh.vertices[0].co = self.mesh.vertices[0].co  # tells Blender, which keeps normals and a box
+
+
+def balance_mesh(
+    context: Context, obj: Object, group: str, target: Sequence[float], across: str, limit: float
+) -> Balanced:
+    """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place.
+
+    group: the vertex group in Object Mode, "" for the active one. target: (3,) in Blender units. across: "ALL" for all
+    directions, else those across gravity. limit: of a move in Blender units, 0 for the size of the mesh.
+    """
+    mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, group)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    directions = np.eye(3) if across == "ALL" else _horizontal_directions(context.scene)
+    with tracking_paused():  # a trial that is undone is not an edit
+        balanced = _balance(context, obj, mesh, np.array(target, np.float64) * unit, directions, limit * unit, unit)
+    obj.data.update_tag()  # for others that show the mesh it is one
+    return balanced
+
+
+def _balance(
+    context: Context,
+    obj: Object,
+    mesh: _EditedMesh | _GroupedMesh,
+    target: NDArray,
+    across: NDArray,
+    limit: float,
+    unit: float,
+) -> Balanced:
+    """Carry out the change, or undo all of it; lengths in m."""
+    _require_balanceable(obj)
+    part = _read_surface(context, obj, mesh)
+    before = _measure(context, obj)
+    linear, offset = part.matrices[0, :3, :3] * unit, part.matrices[0, :3, 3] * unit
+    start = part.surface.transform(linear, offset)
+    size = float(np.linalg.norm(np.ptp(start.points, axis=0)))
+    tolerance = REACHED_RTOL * size + 4.0 * FLOAT32 * np.abs(start.points).max()
+    with _restored_on_error(context, mesh):
+        surface = start
+        for _ in range(MAX_ATTEMPTS):
+            balanced = balance(
+                surface,
+                mesh.movable,
+                target,
+                across=across,
+                weights=mesh.weights,
+                limit=limit or size,
+                shell=before.kind == "shell",
+            )
+            points = _mesh_coordinates(mesh, balanced, start, linear)
+            mesh.set_points(points)
+            after = _measure(context, obj)
+            off = np.abs(across @ (target - after.mass_properties.center)).max()
+            if off <= tolerance:
+                break
+            surface = replace(_read_surface(context, obj, None).surface.transform(linear, offset), points=start.points)
+        else:
+            raise EditRefusedError(BALANCE_TRIANGULATION_VARIES)
+    moves = (points[mesh.movable].astype(np.float64) - mesh.start[mesh.movable]) @ linear.T
+    number, largest = int(np.count_nonzero(moves.any(axis=1))), float(np.linalg.norm(moves, axis=1).max())
+    centers = [
+        np.where(np.abs(center) < ROUNDING * size, 0.0, center).tolist()
+        for center in (before.mass_properties.center, after.mass_properties.center)
+    ]
+    return Balanced(number, largest, centers[0], centers[1])
+
+
+@contextmanager
+def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> Iterator[None]:
+    """Put the vertices back if the block fails."""
+    try:
+        yield
+    except BaseException:
+        if mesh.is_changed:
+            mesh.set_points(mesh.start)
+            context.view_layer.update()
+        raise
+
+
+def _require_balanceable(obj: Object) -> None:
+    """Raise EditRefusedError if the mesh cannot be changed, or its change is not the object's."""
+    if not obj.data.is_editable:
+        raise EditRefusedError(LINKED_OBJECT)
+    if obj.data.shape_keys is not None:
+        raise EditRefusedError(BALANCE_SHAPE_KEYS)
+    if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
+        raise EditRefusedError(BALANCE_WALL)
+
+
+def _measure(context: Context, obj: Object) -> Measurement:
+    """Measure the object in the usual way; EditRefusedError if its center cannot be differentiated by its vertices."""
+    measurement = measure_object(obj, context.evaluated_depsgraph_get())
+    if measurement.mass_moments[0].measure == Measure.MASS:
+        raise EditRefusedError(BALANCE_VARYING_DENSITY)
+    if measurement.kind == "solid" and (measurement.method != Method(Verdict.EXACT) or measurement.health.welded):
+        raise EditRefusedError(BALANCE_UNCLEAN)
+    return measurement
+
+
+def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
+    """Return the surface as it is measured; EditRefusedError if its vertices differ from the mesh."""
+    reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
+    part = reading.parts[0]
+    if reading.all_singular:
+        raise EditRefusedError(SCALE_ZERO_AXIS)
+    if reading.instance_count > 1:
+        raise EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
+    if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
+        shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
+        raise (
+            EditRefusedError(BALANCE_MODIFIED, modifiers=shown) if shown else EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
+        )
+    return part
+
+
+def _mesh_coordinates(
+    mesh: _EditedMesh | _GroupedMesh, balanced: BalanceResult, start: Surface, linear: NDArray
+) -> NDArray[np.float32]:
+    """Return (n, 3) the mesh's own coordinates; vertices that are not movable stay to the bit."""
+    points = mesh.start.copy()
+    moves = balanced.points[mesh.movable] - start.points[mesh.movable]
+    local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves.T).T
+    points[mesh.movable] = local.astype(np.float32)
+    return points

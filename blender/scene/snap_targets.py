@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects as snapping operators need them: the place of the body, in Blender units, and the frames to be given to it.
+
+Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured again they turn, by
+about rounding over the gap between the moments. Whether axes are principal is therefore decided by the tensor, which
+must be diagonal in them to rounding, not from the angle between two measured frames.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Context, Object
+from numpy.typing import NDArray
+
+from ...core.inertia.mass_properties import MassProperties
+from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
+from ...core.inertia.third_moment_frames import EQUAL_AXES
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import EditRefusedError, Finding
+from ...core.verdict.method import Verdict
+from ..bodies.measure_object import Measured, measure_body
+from ..bodies.stacks.many import measured_in_turn
+from ..bodies.stacks.stack import Stacked
+from ..settings.options import MeasureOptions
+from . import reframe
+from .findings import OPEN_OBJECT
+from .transforms import world
+
+POSE = MeasureOptions(pose=True)
+MAX_DIRECTION_NOISE = 1e-3  # rounding in float32 of directions fixed by moments of higher order
+DIAGONAL_RTOL = 4e-7  # products of inertia by rounding in float32, relative to the trace
+UNIT_SCALE = 1e-6  # by how much the products of an object's axes may differ from 1 and 0
+
+
+@dataclass(frozen=True)
+class SnapTarget:
+    """An object as measured now, world axes, lengths in Blender units.
+
+    center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in kg·m²; gyration (3,)
+    radii; size: the largest of them; finding: about free choices. shape_axes: the axes of equal moments fixed by the
+    shape itself; is_unique: the shape fixes all.
+    """
+
+    obj: Object
+    center: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    inertia: NDArray[np.float64]
+    gyration: NDArray[np.float64]
+    mass: float
+    finding: Finding | None
+    shape_axes: tuple[int, ...] = ()
+    is_unique: bool = False
+
+    @classmethod
+    def of_body(cls, obj: Object, body: MassProperties, principal: PrincipalFrame, unit: float) -> SnapTarget:
+        """Return the target of a measured body; `unit` is the scene's scale."""
+        return cls(
+            obj=obj,
+            center=body.center / unit,
+            axes=principal.axes,
+            inertia=body.inertia,
+            gyration=body.radii_of_gyration / unit,
+            mass=body.mass,
+            finding=principal.finding,
+            shape_axes=tuple(i for i in EQUAL_AXES[principal.symmetry] if i not in principal.undetermined_axes),
+            is_unique=principal.is_unique,
+        )
+
+    @property
+    def size(self) -> float:
+        return float(self.gyration.max())
+
+    def is_principal(self, frame: NDArray) -> bool:
+        """Return whether the columns of `frame` are this body's principal axes, as far as its coordinates can show.
+
+        The axes must be in this order and with these signs.
+        """
+        tensor = frame.T @ self.inertia @ frame
+        limit = DIAGONAL_RTOL * np.trace(tensor)
+        diagonal = np.diag(tensor)
+        off = np.abs(tensor - np.diag(diagonal)).max()
+        along = (frame * self.axes).sum(axis=0)
+        return bool(
+            off <= limit
+            and (np.diff(diagonal) >= -limit).all()
+            and self._matches_shape_axes(frame)
+            and (self.shape_axes or (along > -0.5).all())
+        )
+
+    def _matches_shape_axes(self, frame: NDArray) -> bool:
+        """Return whether axes of equal moments lie as the shape requires: a cube's sides along any of its own axes."""
+        cosines = (frame.T @ self.axes)[:, self.shape_axes]
+        expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
+        return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
+
+
+def targets_in_turn(
+    context: Context, objects: Sequence[Object], strict: bool = False
+) -> Callable[[Object], SnapTarget]:
+    """Return a function that gives the `snap_target` of one object at a time, measured in batches.
+
+    The scene must not change meanwhile.
+    """
+    measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
+    return lambda obj: target_of(context, obj, measured(obj), strict)
+
+
+def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
+    """Measure an object for snapping.
+
+    Raises EditRefusedError if its numbers depend on a reference point. strict: use the axes of Zhang and Chen's rule,
+    or refuse the object if it has none.
+    """
+    return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict)
+
+
+def target_of(context: Context, obj: Object, measured: Measured | Stacked, strict: bool) -> SnapTarget:
+    """Return the `snap_target` of a measured object."""
+    if measured.method.verdict == Verdict.OPEN:
+        raise EditRefusedError(OPEN_OBJECT)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    body = measured.mass_properties
+    principal = body.principal
+    if strict:
+        # By itself, its third moments are found exactly where they are doubtful.
+        depsgraph = context.evaluated_depsgraph_get()
+        own = measure_body(obj, depsgraph, POSE) if isinstance(measured, Stacked) else measured
+        measurement = own.measurement
+        body_of = None if measurement.kind == "shell" else own.body
+        refine = None if body_of is None or body_of.mass is not None else body_of.third_order
+        principal = zhang_chen_frame(measurement.mass_moments[0], refine)
+    return SnapTarget.of_body(obj, body, principal, unit)
+
+
+def matrix_at_center(obj: Object, body: SnapTarget) -> NDArray | None:
+    """Return the object's matrix with its origin at the body's center, or None if it is there already."""
+    target = world(obj)
+    if np.abs(target[:3, 3] - body.center).max() <= reframe.location_tolerance(obj, body.size):
+        return None
+    target[:3, 3] = body.center
+    return target
+
+
+def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
+    """Return the object's matrix with its axes along the body's, or None if they are already."""
+    now = world(obj)
+    linear = now[:3, :3]
+    is_rotation = np.abs(linear.T @ linear - np.eye(3)).max() <= UNIT_SCALE and np.linalg.det(linear) > 0.0
+    if is_rotation and matrix_at_center(obj, body) is None and body.is_principal(linear):
+        return None
+    target = np.eye(4)
+    target[:3, :3], target[:3, 3] = body.axes, body.center
+    return target
+
+
+def align_to_world(context: Context, obj: Object, order: str, at_origin: bool, strict: bool) -> bool:
+    """Turn an object until its principal axes 1, 2, 3 lie along the world's axes; return whether it had to be moved.
+
+    order: the letters of the world's axes. An odd order would mirror the body, so axis 3 is reversed in it. at_origin:
+    the center of mass goes to the world's origin.
+    """
+    frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
+    frame[:, 2] *= np.linalg.det(frame)
+    reframe.check_movable(obj)
+    body = snap_target(context, obj, strict)
+    goal = np.zeros(3) if at_origin else body.center
+    aligned = body.is_principal(frame)
+    if aligned and np.abs(body.center - goal).max() <= reframe.location_tolerance(obj, body.size):
+        return False
+    turn = np.eye(3) if aligned else frame @ body.axes.T
+    target = world(obj)
+    target[:3, :3] = turn @ target[:3, :3]
+    target[:3, 3] = goal + turn @ (target[:3, 3] - body.center)
+    reframe.move(context, reframe.Plan(obj, target, body.size, move_only=aligned))
+    return True

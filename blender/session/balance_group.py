@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The center of mass of several objects over the frames, with what supports them."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterable, Iterator
+
+import bpy
+import numpy as np
+from bpy.types import Collection, Context, Depsgraph, Object, Scene
+from numpy.typing import NDArray
+
+from ...core.numerics.float32 import shortest_decimal
+from ...core.statics.support import Support, support_of_contacts
+from ...core.verdict import internal_error
+from ...core.verdict.finding import EditRefusedError, Finding
+from ..bodies.assembly.assembly import measure_assembly
+from ..read.assembly import Member, MemberKind, members_of, settings_of
+from ..read.rig import is_skin_of
+from ..read.visibility import measurable
+from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_COLLECTION
+from .live.motion import Motion
+from .stored import balance_groups, stability
+
+REACH = 0.01  # contact with the ground within this distance, relative to the contact objects' extent
+
+
+class BalanceGroup:
+    """Objects that are followed over a range of frames.
+
+    objects: by name. feet: objects that may touch the ground. centers: (3,) in Blender units, one for each frame so
+    far. supports: of the contact objects, None if they are in the air. failure: why following ended early.
+    """
+
+    def __init__(self, context: Context, collection: str, contacts: str, ground: float, reach: float):
+        self._context, self._ground, self._reach = context, ground, reach
+        self._assembly: Collection | None = None  # the collection, if its mass is given
+        self.objects = self._members(collection)
+        self.feet = [obj for obj in _collection(contacts).all_objects if measurable(obj)] if contacts else []
+        if contacts and not self.feet:
+            raise EditRefusedError(BALANCE_GROUP_WITHOUT_CONTACTS, collection=contacts)
+        self.centers: list[NDArray] = []
+        self.supports: list[Support | None] = []
+        self.failure: Finding | None = None
+
+    def _members(self, collection: str) -> list[Object]:
+        """Return the followed objects, by name."""
+        context = self._context
+        if collection:
+            depsgraph = context.evaluated_depsgraph_get()
+            root = members_of(_collection(collection), depsgraph)
+            objects: Iterable[Object] = counted(root)
+            self._assembly = root.data if has_given_mass(root) else None
+        else:
+            objects = context.view_layer.objects.selected
+            if context.mode == "POSE":
+                objects = [context.object]
+        layer = set(context.view_layer.objects)
+        members: dict[Object, None] = {}
+        for obj in objects:
+            several = deformed_by(obj, layer) if obj.type == "ARMATURE" else [obj]
+            members.update(dict.fromkeys(one for one in several if one in layer and measurable(one)))
+        if not members:
+            raise EditRefusedError(BALANCE_GROUP_EMPTY_GROUP)
+        return sorted(members, key=lambda obj: obj.name_full)
+
+    def follow(self, scene: Scene, frames: range) -> Generator[int, None, None]:
+        """Each frame in turn; the scene is at the frame of before when it ends, however it ends."""
+        before, subframe = scene.frame_current, scene.frame_subframe
+        motion = Motion(len(frames))
+        self._frames = frames
+        try:
+            for done, frame in enumerate(frames, 1):
+                scene.frame_set(frame)
+                try:
+                    self._add_frame(motion, self._context.evaluated_depsgraph_get())
+                except Exception as error:
+                    self.failure = internal_error.finding_of(error)
+                    return
+                yield done
+        finally:
+            scene.frame_set(before, subframe=subframe)
+
+    def _add_frame(self, motion: Motion, depsgraph: Depsgraph) -> None:
+        center = self._center(motion, depsgraph)
+        self.centers.append(center)
+        self.supports.append(self._support(motion, depsgraph, center) if self.feet else None)
+
+    def _center(self, motion: Motion, depsgraph: Depsgraph) -> NDArray[np.float64]:
+        """Return the common center at this frame, in Blender's units."""
+        if self._assembly is not None:
+            body = measure_assembly(self._assembly, depsgraph).measurement.mass_properties
+            return body.center / shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        masses, centers = zip(*[motion.mass_and_center(obj, depsgraph) for obj in self.objects])
+        return centers[0] + np.einsum("i,ij->j", np.array(masses) / np.sum(masses), np.array(centers) - centers[0])
+
+    def _support(self, motion: Motion, depsgraph: Depsgraph, center: NDArray) -> Support | None:
+        """Return the support of the contact objects at this frame, or None if they are all in the air."""
+        down = stability.down(depsgraph.scene)
+        points = np.concatenate([motion.hull_points(obj, depsgraph) for obj in self.feet])
+        reach = self._reach or REACH * float(np.ptp(points, axis=0).max())
+        touching = points[-points @ down <= self._ground + reach]
+        return support_of_contacts(touching, center, down) if len(touching) else None
+
+    def store(self, context: Context) -> Object:
+        """Put the path on the group's empty, a new one if there is none, and return it."""
+        inside = None
+        if self.feet:
+            inside = np.array([support is not None and support.stands for support in self.supports])
+        path = balance_groups.Path(np.array(self._frames, np.float64), np.array(self.centers), inside)
+        empty = balance_groups.find(context.scene, self.objects)
+        if empty is None:
+            empty = bpy.data.objects.new("Balance", None)
+            empty.empty_display_type, empty.show_in_front = "SPHERE", True
+            empty.empty_display_size = 0.05 * float(np.ptp(path.centers, axis=0).max())
+            empty[balance_groups.GROUP] = balance_groups.group_text(self.objects)
+            context.scene.collection.objects.link(empty)
+        balance_groups.store(empty, path, self.supports)
+        context.view_layer.update()
+        return empty
+
+
+def _collection(name: str) -> Collection:
+    collection = bpy.data.collections.get(name)
+    if collection is None:
+        raise EditRefusedError(NO_SUCH_COLLECTION, collection=name)
+    return collection
+
+
+def counted(member: Member) -> Iterator[Object]:
+    """Yield the objects of an assembly that count; of an instance, the instancer."""
+    if member.is_measured or member.kind == MemberKind.INSTANCE:
+        yield member.data
+    if member.kind != MemberKind.INSTANCE:
+        for below in member.members:
+            yield from counted(below)
+
+
+def has_given_mass(root: Member) -> bool:
+    """Return whether the mass of an assembly, or of one in it, is given: then it is not the sum of its objects'."""
+    kinds = (MemberKind.COLLECTION, MemberKind.EMPTY)
+    return any(member.kind in kinds and settings_of(member.data).mass_from == "MASS" for member in root.walk())
+
+
+def deformed_by(armature: Object, objects: Iterable[Object]) -> list[Object]:
+    """Return the objects that an armature deforms, and the ones that are parented to its bones."""
+    return [obj for obj in objects if is_skin_of(obj, armature) or obj.parent == armature and obj.parent_type == "BONE"]

@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rigid bodies as Blender's physics engine takes them to be, for one object or a thousand.
+
+Bullet takes an object's origin as its center of mass and its axes as principal axes; Blender's own Calculate Mass
+weighs the collision shape. So mass, origin and axes belong together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+import bpy
+from bpy.types import Context, Object
+
+from ...core.inertia.mass_properties import combine
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import EditRefusedError, Finding, MeasureError
+from ...core.verdict.method import Verdict
+from ..bodies.measure_object import Measured as MeasuredBody
+from ..bodies.stacks.many import measured_in_turn
+from ..bodies.stacks.stack import Stacked
+from ..read.tracking import tracking_paused
+from ..scene import reframe
+from ..scene.changes import require_storable_data
+from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
+from ..scene.rigid_world import MIN_MASS, add_joint, add_rigid_bodies, remove_joint, require_rigid_world
+from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
+from ..write import properties, reports
+from ..write.findings import REFUSED
+from .snapping import store_measured
+from .stored import assembly
+from .tracking import staleness
+
+PROBE_DENSITY = 1e6  # with which Calculate Mass is asked: rigid bodies weigh no less than a gram
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """An object that becomes a rigid body, with the objects below it that are parts of the same one."""
+
+    obj: Object
+    members: tuple[Object, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """A measured body. density: mean density, kg/m³. parts: its objects with their measurements."""
+
+    body: Body
+    target: SnapTarget
+    density: float
+    parts: tuple[tuple[Object, MeasuredBody | Stacked], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class RigidBodies:
+    """New rigid bodies by their objects, their masses by Calculate Mass in kg, and the reasons for the other bodies."""
+
+    measured: dict[Object, Measured]
+    calculated: dict[Object, float]
+    failures: list[Finding]
+
+
+def make_rigid_bodies(
+    context: Context, objects: Sequence[Object], type: str, shape: str, frame: str, compounds: bool
+) -> RigidBodies:
+    """Make objects rigid bodies with their mass, center of mass and principal axes.
+
+    type, shape, frame: as the operator names them. compounds: an object and its children among the objects are one.
+    """
+    bodies = _bodies(objects) if compounds else [Body(obj) for obj in objects]
+    measured: dict[Object, Measured] = {}
+    failures: list[Finding] = []
+    ask = _measure_in_turn(context, bodies)
+    with reports.progress(len(bodies)) as step:
+        for done, body in enumerate(bodies, 1):
+            try:
+                measured[body.obj] = _measured(context, body, ask)
+            except Exception as error:
+                failures.append(reports.failure(body.obj.name_full, error))
+            step(done)
+    # Blender reports a rigid body as a change of the shape, and again when results are stored on it
+    with assembly.kept_up_to_date(context), tracking_paused():
+        failures += _place(context, measured, frame)
+        new = _add(context, measured, type, shape)
+        calculated = _calculated_masses(context, measured)
+        for obj in new:
+            obj.rigid_body.mesh_source = "FINAL"  # the mesh that was weighed; Calculate Mass takes the default
+        for obj, one in measured.items():
+            obj.rigid_body.mass = one.target.mass
+        store_measured(
+            context, [part for one in measured.values() for part in one.parts if properties.is_stored(part[0])]
+        )
+    return RigidBodies(measured, calculated, failures)
+
+
+def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[Finding]:
+    """Give each body the requested frame; leave out bodies that cannot have it, and return the reasons."""
+    failures: list[Finding] = []
+    if frame == "KEEP":
+        return failures
+    move_only = frame == "ORIGIN"
+    frame_of = matrix_at_center if move_only else matrix_along_axes
+    for _ in range(1 if move_only else 2):  # without its scale what is not flat is cut into other triangles
+        plans, joints = [], {}
+        for obj, one in list(measured.items()):
+            target = frame_of(obj, one.target)
+            if target is None:
+                continue
+            try:
+                reframe.check(obj)
+                joints[obj] = _joint_in_place(context, obj)
+            except Exception as error:
+                failures.append(reports.failure(obj.name_full, error))
+                del measured[obj]
+                continue
+            plans.append(reframe.Plan(obj, target, one.target.size, move_only=move_only))
+        with reports.progress(len(plans)) as step:
+            changed, refused = reframe.reframe(context, plans, step)
+        for plan in changed:
+            if joints[plan.obj] is not None:
+                remove_joint(context, plan.obj)
+        for obj, refusal in refused:
+            failures.append(reports.failure(obj.name_full, refusal))
+            del measured[obj]
+            if joints[obj] is not None:
+                bpy.data.objects.remove(joints[obj])
+        ask = _measure_in_turn(context, [measured[plan.obj].body for plan in changed])
+        for plan in changed:
+            measured[plan.obj] = _measured(context, measured[plan.obj].body, ask)
+        if not move_only:
+            staleness.mark_axes_changed(plan.obj for plan in changed)
+    return failures
+
+
+def _add(context: Context, measured: dict[Object, Measured], type: str, shape: str) -> list[Object]:
+    """Add rigid bodies and set collision shapes. Return the objects that had no rigid body before."""
+    parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
+    new = [obj for obj in parts if obj.rigid_body is None]
+    add_rigid_bodies(context, new, type)
+    fresh = set(new)
+    for one in measured.values():
+        inner = {part.parent for part in one.body.members}
+        for part in (one.body.obj, *one.body.members):
+            if part in fresh:
+                part.rigid_body.collision_shape = "CONVEX_HULL"
+            if part in inner:
+                part.rigid_body.collision_shape = "COMPOUND"
+            elif shape != "KEEP":
+                part.rigid_body.collision_shape = shape
+    return new
+
+
+def _bodies(objects: Sequence[Object]) -> list[Body]:
+    """Return a body for each selected object without a selected parent, with its selected children."""
+    chosen = set(objects)
+    members: dict[Object, list[Object]] = {obj: [] for obj in objects if obj.parent not in chosen}
+    for obj in objects:
+        top = obj
+        while top.parent in chosen:
+            top = top.parent
+        if top != obj:
+            members[top].append(obj)
+    return [Body(obj, tuple(below)) for obj, below in members.items()]
+
+
+def _measure_in_turn(context: Context, bodies: Iterable[Body]) -> Callable[[Object], MeasuredBody | Stacked]:
+    """Return a function that measures all their objects in turn."""
+    parts = [part for body in bodies for part in (body.obj, *body.members)]
+    return measured_in_turn(parts, context.evaluated_depsgraph_get(), POSE)
+
+
+def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]) -> Measured:
+    """Measure a body as it is now. EditRefusedError if it cannot be a rigid body."""
+    require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
+    parts = [(body.obj, _measured_part(body.obj, ask))]
+    for part in body.members:
+        try:
+            parts.append((part, _measured_part(part, ask)))
+        except MeasureError as error:
+            raise EditRefusedError(REFUSED, object=part.name_full, cause=error.finding.as_record()) from error
+    measurements = [measured.measurement for _, measured in parts]
+    whole = measurements[0].mass_properties
+    if body.members:
+        moments = [measurement.mass_moments for measurement in measurements]
+        whole = combine(moments, preferred_axes=measurements[0].rotation)
+    if whole.mass < MIN_MASS:
+        raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(whole.mass), limit=MIN_MASS)
+    unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    target = SnapTarget.of_body(body.obj, whole, whole.principal, unit)
+    volume = sum(measurement.volume for measurement in measurements)
+    return Measured(body, target, whole.mass / volume, tuple(parts))
+
+
+def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
+    """Measure an object of a body as it is now. EditRefusedError if it cannot be part of a rigid body."""
+    require_storable_data(part)
+    if part.type != "MESH":
+        raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
+    measured = ask(part)
+    if measured.measurement.method.verdict == Verdict.OPEN:
+        raise EditRefusedError(OPEN_OBJECT)
+    return measured
+
+
+def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
+    """Return the mass by Blender's Calculate Mass of each body with the same density."""
+    objects = list(measured)
+    if not objects:
+        return {}
+    with context.temp_override(object=objects[0], selected_objects=objects):
+        bpy.ops.rigidbody.mass_calculate(material="Custom", density=PROBE_DENSITY)
+    return {obj: obj.rigid_body.mass * one.density / PROBE_DENSITY for obj, one in measured.items()}
+
+
+def _joint_in_place(context: Context, obj: Object) -> Object | None:
+    """Return an empty that takes over the object's joint at its place, or None if the object is no joint."""
+    joint = obj.rigid_body_constraint
+    if joint is None:
+        return None
+    empty = bpy.data.objects.new("{:s} Joint".format(obj.name), None)
+    for collection in obj.users_collection:
+        collection.objects.link(empty)
+    location, turn, _scale = obj.matrix_world.decompose()
+    empty.rotation_mode = "QUATERNION"
+    empty.location, empty.rotation_quaternion = location, turn
+    copy = add_joint(context, empty, joint.type)
+    for prop in joint.bl_rna.properties:
+        if not prop.is_readonly:
+            setattr(copy, prop.identifier, getattr(joint, prop.identifier))
+    empty.parent, empty.matrix_parent_inverse = obj, obj.matrix_world.inverted()
+    return empty

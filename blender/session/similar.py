@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Comparison of the shapes of objects with that of another one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
+
+from bpy.types import Depsgraph, Object
+
+from ...core.shape.library import UNDECIDED_HANDEDNESS, Entry, classify, rank, read_library
+from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
+from ...core.shape.signatures import Likeness, Signature, similarity
+from ...core.verdict.finding import Finding
+from ..bodies.flat.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
+from ..bodies.shape.shape import register_surfaces, surface_shape_of
+from ..bodies.shape.stack_signature import signed_in_turn
+
+DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of order 20
+
+
+class Match(NamedTuple):
+    """A compared shape. verdict: its relation. distance: of the signatures. scale: relative to the wanted object."""
+
+    name: str
+    file: str
+    verdict: str
+    distance: float
+    scale: float
+    obj: Object | None
+
+
+class SimilarSearch:
+    """A search for objects that are similar in shape to a measured one. The scene must not change meanwhile.
+
+    wanted: the signature of the measured object, once `measure` has ended.
+    """
+
+    wanted: Signature
+
+    def __init__(self, obj: Object, depsgraph: Depsgraph):
+        self._obj, self._depsgraph = obj, depsgraph
+        self._objects: dict[Entry, Object] = {}
+        self._mirror_images: dict[Entry, bool | None] = {}  # only if the signatures leave it open
+
+    def measure(self) -> Iterator[float]:
+        """Measure the object that is searched for, in steps. Raises MeasureError if it has no signature."""
+        self._shape = comparable_shape_of(self._obj, self._depsgraph)
+        yield 0.0
+        self.wanted = self._shape.signature(DESCRIPTOR_ORDER)
+
+    def comparison(self, objects: Sequence[Object]) -> Callable[[Object], Generator[float, None, None]]:
+        """Return a function that compares one of the objects at a time, in steps."""
+        wanted_shape, skin, depsgraph = self._shape, None, self._depsgraph
+        flat = isinstance(wanted_shape, FlatShape)
+        if flat:
+            of_body = partial(surface_shape_of, depsgraph=depsgraph)
+        else:
+            of_body = signed_in_turn(objects, depsgraph, DESCRIPTOR_ORDER)
+
+        def compare(obj: Object) -> Generator[float, None, None]:
+            nonlocal skin
+            shape = body_or_flat(obj, depsgraph, of_body, flat)
+            yield 0.3
+            signature = shape if isinstance(shape, Signature) else shape.signature(DESCRIPTOR_ORDER)
+            entry = Entry(obj.name_full, "", signature)
+            likeness = similarity(self.wanted, entry.signature)
+            if classify(likeness) in UNDECIDED_HANDEDNESS:
+                yield 0.6
+                if skin is None:
+                    skin = distance_from(wanted_shape)
+                    for _ in skin.build():
+                        yield 0.6
+                if isinstance(shape, Signature):
+                    shape = surface_shape_of(obj, depsgraph)
+                skin_compared = distance_from(shape)
+                yield from (0.6 + 0.3 * share for share in skin_compared.build())
+                match = register_surfaces(shape, wanted_shape, skin_compared, skin, 1.0 / likeness.scale)
+                self._mirror_images[entry] = _is_mirror_image(match, wanted_shape.size)
+            self._objects[entry] = obj
+
+        return compare
+
+    def find_nearest(self, scaled: bool, mirrored: bool) -> list[Match]:
+        """Return the compared objects, the most similar first. scaled, mirrored: rank such copies like copies."""
+        matches = []
+        for entry, likeness in rank(self.wanted, self._objects, scaled, mirrored):
+            is_mirror_image = self._mirror_images.get(entry, likeness.is_mirror_image)
+            likeness = replace(likeness, is_mirror_image=is_mirror_image)
+            matches.append(_match(entry, likeness, scaled, mirrored, self._objects[entry]))
+        return matches
+
+    def find_in_library(self, path: Path, scaled: bool, mirrored: bool) -> tuple[list[Match], list[Finding]]:
+        """Return the bodies of a library, the most similar first, and findings about records that are left out.
+
+        Measures the object first. Raises MeasureError and OSError.
+        """
+        entries, missing = read_library(path)
+        for _ in self.measure():
+            pass
+        ranked = rank(self.wanted, entries, scaled, mirrored)
+        return [_match(entry, likeness, scaled, mirrored) for entry, likeness in ranked], missing
+
+
+def _match(entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: Object | None = None) -> Match:
+    verdict, distance = classify(likeness).value, likeness.distance(scaled, mirrored)
+    return Match(entry.name, entry.file, verdict, distance, likeness.scale, obj)
+
+
+def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:
+    """Return whether the match is a mirror image by the surfaces, or None if they do not decide it."""
+    return False if match.max_distance <= MAX_FIT_RTOL * size else True if match.is_mirror_image else None

@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects that are given other frames, with their stored results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+
+from bpy.types import Context, Object
+from numpy.typing import NDArray
+
+from ...core.verdict import internal_error
+from ...core.verdict.finding import Finding
+from ..bodies.measure_object import Measured
+from ..bodies.stacks.many import measure_many, measured_in_turn
+from ..bodies.stacks.stack import Stacked
+from ..read.tracking import tracking_paused
+from ..scene import reframe
+from ..scene.snap_targets import POSE, SnapTarget, target_of
+from ..settings.options import MeasureOptions
+from ..write import properties, reports
+from .stored import assembly, results
+from .tracking import staleness
+
+CENTER = MeasureOptions(axes=False)
+
+
+def store_measured(
+    context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]
+) -> dict[Object, Finding | Exception]:
+    """Store measurements of the present scene; return the reasons for objects that cannot hold theirs."""
+    measured = list(measured)
+    outcomes = list(results.store_many(measured, context.scene))
+    shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
+    staleness.mark_up_to_date(context, [obj for obj, refusal in outcomes if refusal is None], shapes)
+    return {obj: refusal for obj, refusal in outcomes if refusal is not None}
+
+
+def remeasure(
+    context: Context, objects: Sequence[Object], known: Mapping[Object, Measured | Stacked] | None = None
+) -> None:
+    """Measure and store again the objects with stored results, after an operator has moved them.
+
+    known: measurements of objects that have not moved since.
+    """
+    known = known or {}
+    stored = [obj for obj in objects if properties.is_stored(obj)]
+    if not stored:
+        return
+    measured = [(obj, known[obj]) for obj in stored if obj in known]
+    unknown = [obj for obj in stored if obj not in known]
+    for together in measure_many(unknown, context.evaluated_depsgraph_get(), POSE):
+        for obj, outcome in together:
+            if isinstance(outcome, Exception):  # stored results stay, and the panel shows that they are out of date
+                internal_error.finding_of(outcome)
+            else:
+                measured.append((obj, outcome))
+    for refusal in store_measured(context, measured).values():
+        internal_error.finding_of(refusal)
+
+
+def reframe_objects(
+    context: Context,
+    objects: Sequence[Object],
+    target_matrix: Callable[[Object, SnapTarget], NDArray | None],
+    move_only: bool,
+    strict: bool = False,
+) -> tuple[list[reframe.Plan], list[Finding]]:
+    """Give each object the matrix that `target_matrix` returns, while nothing visible moves.
+
+    Return the changes, and the reasons for refusals. `target_matrix` returns None if the object is in place already.
+    """
+
+    def plans_of(
+        chosen: Sequence[Object], right: dict[Object, Measured | Stacked]
+    ) -> tuple[list[reframe.Plan], list[Finding]]:
+        """Plan the moves. right: gets the measurements of objects to be stored that are in place already."""
+        plans: list[reframe.Plan] = []
+        failures: list[Finding] = []
+        measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)
+        with reports.progress(len(chosen)) as step:
+            for done, obj in enumerate(chosen, 1):
+                try:
+                    reframe.check(obj)
+                    outcome = measured(obj)
+                    body = target_of(context, obj, outcome, strict)
+                    target = target_matrix(obj, body)
+                except Exception as error:
+                    failures.append(reports.failure(obj.name_full, error))
+                else:
+                    if target is not None:
+                        plans.append(reframe.Plan(obj, target, body.size, move_only=move_only))
+                    elif properties.is_stored(obj):
+                        right[obj] = outcome
+                step(done)
+        return plans, failures
+
+    plans, failures = plans_of(objects, {})
+    known: dict[Object, Measured | Stacked] = {}
+    with assembly.kept_up_to_date(context):
+        with tracking_paused(), reports.progress(len(plans)) as step:
+            changed, refused = reframe.reframe(context, plans, step)
+            failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
+            if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
+                reframe.reframe(context, plans_of([plan.obj for plan in changed], known)[0])
+        remeasure(context, [plan.obj for plan in changed], known)
+    if not move_only:
+        staleness.mark_axes_changed(plan.obj for plan in changed)
+    return changed, failures
