@@ -81,11 +81,6 @@ GLTF_BUFFER_MISSING = error(
 GLTF_BUFFER_SHORT = error(
     "gltf_buffer_short", "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
 )
-SURFACES_ROUNDED = note(
-    "surfaces_rounded",
-    "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
-    "size.",
-)
 OBJECT_NOT_IN_FILE = error("object_not_in_file", "No object of this name in the file.")
 OBJECT_NOT_IN_SCENE = error("object_not_in_scene", "No object of this name in the scene.")
 MISSING_LINKS = error(

@@ -54,6 +54,11 @@ ACTIVE_IS_CHILD = error(
     "active_is_child", "The active object is a child of this one and would move along. Clear the parent."
 )
 SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
+SURFACES_ROUNDED = note(
+    "surfaces_rounded",
+    "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
+    "size.",
+)
 PARENT_SCALE_ZERO = error("parent_scale_zero", "The parent has a zero scale. Set it.")
 PARENT_OR_DELTA_SCALE_ZERO = error(
     "parent_or_delta_scale_zero", "The parent's scale or the delta scale is zero. Clear it."
