@@ -163,7 +163,6 @@ class ApplyPanel:
     """Use the center of mass and the principal axes in the scene"""
 
     bl_label = "Apply to Object"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
