@@ -53,6 +53,11 @@ ACTIVE_IS_CHILD = error(
     "active_is_child", "The active object is a child of this one and would move along. Clear the parent."
 )
 SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
+SURFACES_ROUNDED = note(
+    "surfaces_rounded",
+    "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
+    "size.",
+)
 PARENT_SHEARS = error("parent_shears", "The parent shears the object. Clear the parent, or apply its scale.")
 CHANNEL_LOCKED = error(
     "channel_locked",
