@@ -8,7 +8,6 @@ The refusals of the last action, and the question whether a unit is a millimeter
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 from bpy.types import Context, UILayout
 
@@ -151,7 +150,7 @@ def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -
     ):
         return
     box = layout.box()
-    units = replace(Units.from_settings(scene.unit_settings), mass="TONNES", digits=QUESTION_DIGITS)
+    units = Units.from_settings(scene.unit_settings)._replace(mass="TONNES", digits=QUESTION_DIGITS)
     texts = {"length": units.text("length", length), "mass": units.text("mass", shown.mass)}
     question = "{length} long and {mass}: is a unit of this scene a millimeter?"
     rows.remark(box, context, question, icon="QUESTION", boxed=True, **texts)

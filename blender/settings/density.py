@@ -5,8 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 
@@ -32,8 +31,7 @@ if TYPE_CHECKING:
 _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS}
 
 
-@dataclass(frozen=True, eq=False)
-class DensityField:
+class DensityField(NamedTuple):
     """A density that varies over a body.
 
     kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the world's

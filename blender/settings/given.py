@@ -5,7 +5,7 @@
 Objects and assemblies have these settings alike; they count if the mass is given.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from bpy.props import BoolProperty, FloatVectorProperty
 from bpy.types import Object, PropertyGroup
@@ -59,8 +59,7 @@ class GivenPartProperties:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class GivenPart:
+class GivenPart(NamedTuple):
     """Given values of a part beside its mass, SI, in its own frame; a value is None if it follows from the geometry.
 
     center: (3,) center of mass, m. inertia: (3, 3) rows of the tensor about the center, kg·m².

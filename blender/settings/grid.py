@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
@@ -15,8 +15,7 @@ from .findings import (
 )
 
 
-@dataclass(frozen=True)
-class GridOptions:
+class GridOptions(NamedTuple):
     """Options of a grid.
 
     grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: smallest value inside

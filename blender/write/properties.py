@@ -10,10 +10,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from math import hypot, isfinite, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import bpy
 
@@ -89,8 +88,7 @@ IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 Vector = tuple[float, ...]
 
 
-@dataclass(frozen=True)
-class StoredProperties:
+class StoredProperties(NamedTuple):
     """Stored results of an object as plain numbers, SI, in the object frame, or in the world after `in_world`.
 
     center: (3,). inertia: (6,) in the order of ENTRIES. moments, axes: the (3,) principal moments, and the axes as
@@ -123,7 +121,7 @@ class StoredProperties:
         """(3,) radii of gyration about the principal axes."""
         return tuple(sqrt(max(moment, 0.0) / self.mass) if self.mass > 0.0 else 0.0 for moment in self.moments)
 
-    @cached_property
+    @property
     def body(self) -> MassProperties:
         """The same numbers for computing."""
         xx, yy, zz, xy, xz, yz = self.inertia
@@ -151,8 +149,7 @@ class StoredProperties:
         xx, yy, zz, xy, xz, yz = self.inertia
         rows = tuple(zip(*columns))
         half = [[_dot(row, column) for column in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))] for row in rows]
-        return replace(
-            self,
+        return self._replace(
             center=tuple(_dot(row, self.center) + unit * along for row, along in zip(rows, location)),
             inertia=tuple(_dot(half[i], rows[j]) for _, i, j in TENSOR),
             axes=tuple(tuple(_dot(row, axis) for row in rows) for axis in self.axes),

@@ -8,10 +8,9 @@ SI units, world axes. It holds a `core.flat.section.Section` with its descriptio
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 from math import degrees
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 
@@ -44,8 +43,7 @@ SIDE_DESCRIPTIONS = ("what", "named", "findings", "fingerprint")
 ABOUT = ("x", "y", "1", "2")
 
 
-@dataclass(frozen=True, eq=False)
-class StoredSection:
+class StoredSection(NamedTuple):
     """unit: meters per Blender unit when it was measured."""
 
     section: Section

@@ -11,8 +11,8 @@ units; an adaptive unit is chosen for each column of numbers, which share it and
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from math import isfinite
+from typing import NamedTuple
 
 from ...core.density.materials import DENSITY_UNITS, FOOT, POUND, density_unit
 from ...core.numerics.float32 import shortest_decimal
@@ -81,8 +81,7 @@ ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrice
 INDENT, REPORT_WIDTH = "  ", 22
 
 
-@dataclass(frozen=True)
-class Units:
+class Units(NamedTuple):
     """A scene's unit settings.
 
     With system "NONE", lengths, areas and volumes are in the scene's own units, without a name; quantities with mass

@@ -8,7 +8,7 @@ part and give its mass instead.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 PNNL = 'PNNL-15870 Rev. 1 (2011), Compendium of Material Composition Data for Radiation Transport Modeling, "{:s}"'
 NIST = 'NIST, Tables of X-Ray Mass Attenuation Coefficients (NISTIR 5632), table 2, "{:s}"'
@@ -18,8 +18,7 @@ FILAMENT, RESIN = "3D Printing Filament", "3D Printing Resin and Powder"
 CRC = 'CRC Handbook of Chemistry and Physics, 97th ed. (2016), section 15, Density of Various Solids, "{:s}"'
 
 
-@dataclass(frozen=True)
-class Material:
+class Material(NamedTuple):
     """A material with a unique name, a category from `CATEGORIES`, a density in kg/m³, and its source."""
 
     name: str

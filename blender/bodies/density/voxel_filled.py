@@ -86,7 +86,7 @@ def voxel_filled_body(
         raise ReadError(MASS_OVERFLOW)
     if not mass.total > mass.rounding_error[0]:
         raise ReadError(DENSITY_GRID_ELSEWHERE, subject=name, **names)
-    meaning = replace(options, spline_order=1).meaning()
+    meaning = options._replace(spline_order=1).meaning()
     findings = [
         finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()).of_sources([reading.name]),
         *empty_background_note(options, reading.background),

@@ -94,7 +94,7 @@ class ThresholdGridBody(Body):
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
         """Return the moments of the body, and of the surface on which the values are the threshold."""
-        above = self.grid.set_above(replace(self.options, filled=False), order)
+        above = self.grid.set_above(self.options._replace(filled=False), order)
         return above.volume, above.area if area else None
 
 
