@@ -16,8 +16,6 @@ from ..verdict.finding import Finding, finding
 from .findings import ROBOT_LINKS_LEFT_OUT, ROBOT_WITHOUT_LINKS
 from .model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 
-DEFAULT_NAME = "robot"
-
 
 class Candidate(NamedTuple):
     """A measured body as a link, None if it has no mass.
@@ -33,7 +31,7 @@ class Candidate(NamedTuple):
 
 def robot_name(file: str | None) -> str:
     """Return the name of a file's robot."""
-    return PurePath(file).stem if file else DEFAULT_NAME
+    return PurePath(file).stem if file else "robot"
 
 
 def make_candidate(
