@@ -29,7 +29,7 @@ from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ...core.verdict.sentences import sentence, severity
 from ..files.output import is_stream
-from ..findings import ROBOT_MESHES_NOT_WRITTEN
+from ..findings import RESULT_NOT_WRITTEN
 from .objects import failure
 
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
@@ -60,7 +60,7 @@ def complete(
         try:
             robot, told = with_geometry(made.robot, options.format, surface_of, options.output, read, options.force)
         except OSError as error:
-            failed = [finding(ROBOT_MESHES_NOT_WRITTEN, error=system_reason(error))]
+            failed = [finding(RESULT_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error))]
     text, findings = robot_text(robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only)
     findings += failed
     for one in findings:

@@ -25,10 +25,7 @@ ROUNDING = 1e-15
 
 
 def aliasing(half: int, width: int) -> NDArray[np.float64]:
-    """Return (half + 1,) error bounds of the sums for |k| from 0 to half along an axis, as shares of Σ |c|.
-
-    The fine grid takes k for k + m side, for any m, as far as the kernel's transform lets those through.
-    """
+    """Return (half + 1,) error bounds of the sums for |k| ≤ half along an axis, as shares of Σ |c|, by aliases of k."""
     side, k = _grid_side(half, width), np.arange(half + 1)
     aliased = sum(
         np.abs(_kernel_transform(k / side + m, width)) for m in range(-ALIASED_ORDERS, ALIASED_ORDERS + 1) if m

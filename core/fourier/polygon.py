@@ -130,7 +130,7 @@ class RegionTransform:
 
 def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
     """Return ((2h+1)(h+1), 2) wave vectors of a grid with y ≥ 0; the values at the others are conjugates."""
-    steps = np.arange(-grid.half, grid.half + 1) * grid.step
+    steps: NDArray[np.float64] = np.arange(-grid.half, grid.half + 1, dtype=np.float64) * grid.step
     return np.stack(np.meshgrid(steps, steps[grid.half :], indexing="ij"), axis=-1).reshape(-1, 2)
 
 

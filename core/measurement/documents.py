@@ -10,7 +10,6 @@ measured. Nothing here needs numpy or Blender: a process that only gathers resul
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 import re
@@ -134,10 +133,7 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield CSV with these columns, a row for each mapping; missing entries stay empty.
-
-    Text is escaped as in `to_csv`.
-    """
+    """Yield CSV with these columns, a row for each mapping, escaped as in `to_csv`; missing entries stay empty."""
     yield _line(header)
     for row in rows:
         yield _line(_cell(row.get(name, "")) for name in header)
@@ -231,6 +227,8 @@ def _line(cells: Iterable[Any]) -> str:
 
     Before Python 3.13 the csv module quotes only line breaks that it ends a row with.
     """
+    import csv  # Registration reads the constants of this module alone.
+
     text = io.StringIO()
     csv.writer(text, lineterminator="\r\n").writerow(cells)
     return text.getvalue().removesuffix("\r\n") + "\n"

@@ -10,6 +10,7 @@ So Blender's flags *Bézier* and *Endpoint* describe the same surface.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from typing import cast
 
 import numpy as np
@@ -34,14 +35,12 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
     """
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
     old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)
-    found = []
-    for s_matrix in pieces[0]:
-        for t_matrix in pieces[1]:
-            s_space, t_space = patch.spaces
-            spaces = _bezier_space(len(s_matrix), s_space.order), _bezier_space(len(t_matrix), t_space.order)
-            net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, old_net))
-            weights = None if patch.weights is None else net[..., 3]
-            found.append(Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights))
+    found, (s_space, t_space) = [], patch.spaces
+    for s_matrix, t_matrix in product(*pieces):
+        spaces = _bezier_space(len(s_matrix), s_space.order), _bezier_space(len(t_matrix), t_space.order)
+        net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, old_net))
+        weights = None if patch.weights is None else net[..., 3]
+        found.append(Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights))
     return found
 
 

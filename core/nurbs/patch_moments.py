@@ -129,10 +129,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """Return (c,) the areas between neighboring points at which the patch turns over: rules may miss such kinks.
-
-    normal: (3, m, c, n), weights: (m, 1) and (n, 1), with the ends of both directions.
-    """
+    """Return (c,) areas between points with normals (3, m, c, n) where patches turn over: rules may miss such kinks."""
     total = np.zeros(normal.shape[2])
     for (points,), other_weights in zip(rule, weights[::-1]):
         nodes, _ = gauss_legendre_with_ends(points)

@@ -363,6 +363,6 @@ def _cap_loop(
     flat = bool(np.abs(arms @ axes[2]).max() <= tolerance)
     # A way there and back has no net area; of a loop in space only its cone's area shows that.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
-    slim = area <= tolerance * weigh.sum()
+    slim = bool(area <= tolerance * weigh.sum())
     crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)
     return BoundaryLoop(tuple(caps), component, flat, slim, area, crossing)

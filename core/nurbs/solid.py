@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -305,19 +306,18 @@ def _compare_parts(
 
 def _component_findings(comparison: ComponentComparison | None, size: float) -> list[Finding]:
     """Return findings about parts in others' material, and parts that go through others."""
-    findings: list[Finding] = []
     if comparison is None:
-        return findings
+        return []
     counts = {
         CAVITIES_SUBTRACTED: comparison.cavities & ~comparison.breaking,
         CAVITIES_BREAK_THROUGH: comparison.breaking,
         COMPONENTS_NESTED: comparison.nested,
         COMPONENTS_OVERLAP: comparison.intersecting,
     }
-    for code, which in counts.items():
-        more = {"share": float(comparison.breakthrough / size)} if code == CAVITIES_BREAK_THROUGH else {}
-        if which.any():
-            findings.append(finding(code, count=int(which.sum()), **more))
+    values: dict[str, Any] = {CAVITIES_BREAK_THROUGH: {"share": float(comparison.breakthrough / size)}}
+    findings = [
+        finding(code, count=int(which.sum()), **values.get(code, {})) for code, which in counts.items() if which.any()
+    ]
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=int(comparison.undecided_pairs)))
     return findings
@@ -392,8 +392,8 @@ def _closing_findings(
     caps = [loop for loop in loops if not loop.zero_area]
     if caps:
         capped, flat = sum(loop.area for loop in caps), sum(loop.is_planar for loop in caps)
-        values = {"flat": flat, "curved": len(caps) - flat, "share": float(capped / area)}
-        findings.append(finding(PATCH_HOLES_CAPPED, slight=capped * size < NEGLIGIBLE * volume, **values))
+        slight, share = capped * size < NEGLIGIBLE * volume, float(capped / area)
+        findings.append(finding(PATCH_HOLES_CAPPED, slight=slight, flat=flat, curved=len(caps) - flat, share=share))
     crossing = sum(loop.self_intersecting for loop in loops)
     if crossing:
         findings.append(finding(PATCH_BOUNDARY_CROSSES_ITSELF, count=crossing))

@@ -85,7 +85,7 @@ class TrackedSolid:
         reach = max(
             float(np.sqrt(((patch.points - self.measure.volume.about) ** 2).sum(axis=2).max())) for patch in patches
         )
-        return area * reach ** (monomials(3).sum(axis=1) + 1.0)
+        return np.asarray(area * reach ** (monomials(3).sum(axis=1) + 1.0), np.float64)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
         """Measure the patches as they are now; return True if tables were enough, else all is measured anew."""

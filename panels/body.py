@@ -9,20 +9,19 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ...blender.session.displayed import Displayed, Trust, displayed, failure
-from ...blender.session.live.following import Lag, current_numbers, is_live
-from ...blender.session.tracking import armatures
-from ...blender.write import properties
-from ...blender.write.translations import localized
-from ...blender.write.units import Units
-from ...core.verdict.method import Source
-from ...core.verdict.sentences import METHODS, method_key
-from ...core.wall.findings import WALL_MEASURED
-from .. import rows
-from ..density import material_row
-from ..overlay.draw import header_switch
-from ..places import in_both_places
-from . import remedies
+from ..blender.session.displayed import Displayed, Trust, displayed, failure
+from ..blender.session.live.following import Lag, current_numbers, is_live
+from ..blender.session.tracking import armatures
+from ..blender.write import properties
+from ..blender.write.translations import localized
+from ..blender.write.units import Units
+from ..core.verdict.method import Source
+from ..core.verdict.sentences import METHODS, method_key
+from ..core.wall.findings import WALL_MEASURED
+from . import remedies, rows
+from .density import material_row
+from .overlay.draw import header_switch
+from .places import in_both_places
 
 CENTER_HEADINGS = {"WORLD": "Center of Mass (World)", "OBJECT": "Center of Mass (Object)"}  # by the frame
 RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # for rigs
@@ -164,7 +163,6 @@ class ApplyPanel:
     """Use the center of mass and the principal axes in the scene"""
 
     bl_label = "Apply to Object"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
