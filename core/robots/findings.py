@@ -4,10 +4,6 @@
 
 from ..verdict.finding import error, note, warning
 
-RESULT_FOREIGN_FILE = error("result_foreign_file", "{path} is not a result of body_moments and would be lost")
-USAGE_OVERWRITES_INPUT = error(
-    "usage_overwrites_input", "argument --{option}: {path} is a file that is read. Use another name"
-)
 ROBOT_LINKS_LEFT_OUT = warning(
     "robot_links_left_out",
     "{count} object without mass is no link: {links}.",
