@@ -239,4 +239,4 @@ def test_whole_numbers_two_samples_and_one(tmp_path):
     assert read_positions(saved(tmp_path, np.array([1.0, 4.0]), "two.npy"), "x", 2).tolist() == [1.0, 4.0]
     with pytest.raises(FileError) as caught:
         read_positions(saved(tmp_path, np.array([1.0]), "one.npy"), "x", 1)
-    assert caught.value.finding.code == "positions_of_one_sample"
+    assert caught.value.finding.code == "positions_count"
