@@ -5,13 +5,12 @@
 With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d, both linear on the
 triangle, with Jacobian J = Σ λ_k N(s)·d_k, with N(s) = (e + s f) × (e' + s f') the normal of the triangle moved by s,
 e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1 in
-the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over the
-triangle, coefficient by coefficient. Neighboring prisms share the ruled surface over their edge, so that their sum is
-the wall, with no gap.
+the barycentric coordinates λ, which six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate exactly.
+Neighboring prisms share the ruled surface over their edge, so that their sum is the wall, with no gap.
 
-J is linear in λ, hence positive on a prism exactly if its three quadratics N(s)·d_k in s are: their first roots are
-the thickness at which the offset folds over. That is a local test: walls that run into each other far along the surface
-are looked for separately, one thickness at a time, and a volume that two share counts twice.
+J is linear in λ, hence positive on a prism exactly if its three quadratics N(s)·d_k in s are: their first roots are the
+thickness at which the offset folds over. Walls that run into each other far along the surface are looked for
+separately, one thickness at a time; a volume that two share counts twice.
 """
 
 from __future__ import annotations
