@@ -40,22 +40,8 @@ UNDERFLOW = 2.0**-1000  # relative to a body of size 1: far above the loss of pr
 class SimplexMoments:
     """Moments in n dimensions to some order; `moments[p, q, …]` is one of them.
 
-    Attributes
-    ----------
-    raw : (K,) array
-        ∫ x^α about `about`, in the order of `multi_indices`.
-    about : (n,) array
-    order : int
-    rounding_error : (K,) array
-        Bounds of |raw - exact| for the coordinates and the point as given.
-
-    Examples
-    --------
-    >>> from body_moments.core.polyhedron import enclosed_moments
-    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    >>> moments = enclosed_moments(square, [[0, 1], [1, 2], [2, 3], [3, 0]], 2, about=(0, 0))
-    >>> round(moments[1, 1], 12), moments.bound((1, 1)) < 1e-14
-    (0.25, True)
+    raw: (K,) ∫ x^α about `about`, (n,), in the order of `multi_indices`. rounding_error: (K,) bounds of |raw - exact|
+    for the coordinates and the point as given.
     """
 
     raw: NDArray[np.float64]
@@ -150,11 +136,6 @@ def facet_moments(
     Returns
     -------
     SimplexMoments
-
-    Raises
-    ------
-    ValueError, MeasureError
-        As `enclosed_moments`.
 
     Examples
     --------
