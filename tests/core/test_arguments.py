@@ -35,7 +35,6 @@ from body_moments.core.flat import (
 from body_moments.core.fourier import polygon_transform, surface_transform
 from body_moments.core.inertia import Reference, combine
 from body_moments.core.mesh import convex_hull
-from body_moments.core.moments import normalize
 from body_moments.core.numerics import SplineSpace, clamped_space, quaternion
 from body_moments.core.nurbs import (
     Curve,
@@ -138,7 +137,6 @@ CALLS = {
     "measure_patches": (lambda patches: measure_patches([patches]), {"patches": PATCH}),
     "measure_section": (measure_section, {"plane": PLANE, "points": FLAT_POINTS, "edges": EDGES}),
     "measure_solid": (measure_solid, {"surface": SURFACE}),
-    "normalize": (normalize, {"moments": VOLUME}),
     "offset_solid": (offset_solid, {"surface": SURFACE}),
     "polygon_transform": (lambda loops, q: polygon_transform([loops], q), {"loops": SQUARE, "q": Q[:, :2]}),
     "polyhedron_moments": (polyhedron_moments, {"body": SURFACE, "about": ORIGIN}),
