@@ -10,22 +10,15 @@ from pathlib import Path
 from typing import Any
 
 from ..core.files.whole_file import whole_file
-from ..core.measurement.plain_text import print_message, visible
+from ..core.measurement.plain_text import counted, print_message
 from ..core.robots.audit import Audit, Auditor
 from ..core.robots.read.descriptions import read_description
 from ..core.robots.read.paths import Roots
 from ..core.robots.repair import repaired_copy
 from ..core.robots.write import audit_report
 from ..core.verdict import internal_error
-from ..core.verdict.finding import FileError, MeasureError, finding, system_reason
-from .findings import (
-    AUDIT_COPIES_ALIKE,
-    AUDIT_COPY_EXISTS,
-    AUDIT_DONE,
-    AUDIT_NOT_WRITTEN,
-    USAGE_REPAIR_FOLDER,
-    USAGE_REPAIR_SAME,
-)
+from ..core.verdict.finding import FileError, MeasureError, system_reason
+from .findings import RESULT_NOT_WRITTEN
 from .options import targets
 from .parser import Parser
 
@@ -60,22 +53,22 @@ def parse(argv: list[str]) -> argparse.Namespace:
     options = parser.parse_intermixed_args(argv)
     if options.repair is not None:
         if not options.repair.is_dir():
-            parser.error(finding(USAGE_REPAIR_FOLDER, path=str(options.repair)))
+            parser.error("--repair: {} is no folder".format(options.repair))
         here = os.path.realpath(options.repair)
         if any(os.path.realpath(path.parent) == here for path in options.files):
-            parser.error(finding(USAGE_REPAIR_SAME, path=str(options.repair)))
-    targets.check_places(options, parser.error)
-    targets.files_to_replace(options, options.files, parser.error)
+            parser.error("--repair: {} is the folder of a file that is read. Choose another one".format(options.repair))
+        if len({path.name for path in options.files}) < len(options.files):
+            parser.error("--repair: two files have one name. Audit them one at a time, or choose other folders")
+    targets.check_targets(options, options.files, parser.error)
     return options
 
 
-def answer(options: argparse.Namespace) -> tuple[str, int, int]:
-    """Return the report, the number of files with warnings, errors or a failure, and that of our own faults."""
+def answer(options: argparse.Namespace) -> tuple[list[str], int]:
+    """Return the report, and the exit code: 1 after warnings, errors or a failure, 70 after one of our own faults."""
     documents, faults, internal = [], 0, 0
-    copies: set[str] = set()
     for path in options.files:
         try:
-            documents.append(_document(path, options, copies))
+            documents.append(_document(path, options))
         except MeasureError as error:
             documents.append(audit_report.failed_document(str(path), error.finding))
         except Exception as error:
@@ -85,32 +78,30 @@ def answer(options: argparse.Namespace) -> tuple[str, int, int]:
         for reason in documents[-1]["errors"]:
             print_message(path, reason["message"])
         faults += documents[-1]["status"] != "ok"
-    return audit_report.FORMATS[options.format](documents), faults, internal
+    return [audit_report.FORMATS[options.format](documents)], 70 if internal else 1 if faults else 0
 
 
-def _document(path: Path, options: argparse.Namespace, copies: set[str]) -> dict[str, Any]:
+def _document(path: Path, options: argparse.Namespace) -> dict[str, Any]:
     roots = Roots.for_file(path, options.root, options.allow_outside)
     audit = Auditor(roots).audit(read_description(path, roots))
-    repaired = _write_copy(path, audit, options, copies)
+    repaired = _write_copy(path, audit, options)
     document = audit_report.document(str(path), audit, repaired)
-    print_message(path, visible(str(finding(AUDIT_DONE, **audit_report.count_findings(document)))))
+    counts = audit_report.count_findings(document)
+    print_message(path, ", ".join(counted(count, name.removesuffix("s")) for name, count in counts.items()))
     return document
 
 
-def _write_copy(path: Path, audit: Audit, options: argparse.Namespace, copies: set[str]) -> str | None:
+def _write_copy(path: Path, audit: Audit, options: argparse.Namespace) -> str | None:
     repairs, folder = audit.repairs(), options.repair
     if folder is None or not repairs:
         return None
-    if path.name in copies:
-        raise FileError(AUDIT_COPIES_ALIKE, name=path.name)
-    copies.add(path.name)
     target = folder / path.name
     try:
         copy = repaired_copy(audit.description, repairs)
         if target.is_file() and not options.force and target.read_bytes() not in (b"", copy):
-            raise FileError(AUDIT_COPY_EXISTS, path=str(target))
+            raise FileExistsError("it is another file. Choose another folder, or --force")
         with whole_file(target) as file:
             file.write(copy)
     except OSError as error:
-        raise FileError(AUDIT_NOT_WRITTEN, error=system_reason(error)) from error
+        raise FileError(RESULT_NOT_WRITTEN, file=str(target), error=system_reason(error)) from error
     return str(target)

@@ -10,6 +10,10 @@ from typing import NoReturn
 from ..core.measurement.plain_text import visible
 
 
+class UsageError(Exception):
+    """A request that cannot be carried out, with its reason: it ends a command with exit code 2."""
+
+
 class HelpRequested(Exception):
     """Raised for --help, with its text."""
 

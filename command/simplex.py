@@ -20,20 +20,11 @@ from ..core.polyhedron import SimplexMoments, enclosed_moments, facet_moments, f
 from ..core.polyhedron.n_dimensions import multi_indices
 from ..core.polyhedron.simplices import closes, outer_facets
 from ..core.scans.numpy_files import read_arrays
-from ..core.streams.findings import FILE_UNREADABLE
-from ..core.verdict.finding import FileError, QueryError, finding, system_reason
-from .findings import (
-    SIMPLEX_ARRAYS,
-    SIMPLEX_OPEN,
-    SIMPLEX_POINT,
-    SIMPLEX_POINTS,
-    SIMPLEX_ROWS,
-    SIMPLEX_SIGNS,
-    SIMPLEX_TOO_MANY,
-)
+from ..core.verdict.finding import MeasureError, finding, system_reason
+from .findings import SIMPLEX_OPEN
 from .options import option_types as types
 from .options.arguments import join_negative_values
-from .parser import Parser
+from .parser import Parser, UsageError
 
 MAX_DIMENSION = 12
 MAX_MOMENTS = 1 << 20
@@ -66,15 +57,26 @@ def parse(argv: list[str]) -> argparse.Namespace:
     return parser.parse_intermixed_args(join_negative_values(argv))
 
 
-def answer(options: argparse.Namespace) -> str:
-    """Return the record. Raises MeasureError and OSError."""
+def answer(options: argparse.Namespace) -> tuple[list[str], int]:
+    """Return the text of the record, and the exit code; the reason for a failure is on the standard error."""
+    try:
+        return [json.dumps(_measure(options), indent=1, allow_nan=False) + "\n"], 0
+    except (UsageError, MeasureError) as error:
+        print_message(options.file, error)
+    except OSError as error:
+        print_message(options.file, "cannot be read: {}".format(system_reason(error)))
+    return [], 1
+
+
+def _measure(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the record. Raises UsageError, MeasureError and OSError."""
     points, simplices, signs = _read(options.file)
     dimension = points.shape[1]
     if comb(dimension + options.order, dimension) > MAX_MOMENTS:
-        raise QueryError(SIMPLEX_TOO_MANY, dimension=dimension, order=options.order, limit=MAX_MOMENTS)
+        raise UsageError("These are more than {} moments. Choose a lower --order".format(MAX_MOMENTS))
     about = np.zeros(dimension) if options.about is None else np.array(options.about)
     if len(about) != dimension:
-        raise QueryError(SIMPLEX_POINT, count=len(about), dimension=dimension)
+        raise UsageError("--about has {} coordinates, and the points {}".format(len(about), dimension))
     facets = simplices
     if simplices.shape[1] == dimension + 1:
         facets, turned = facets_of(points, simplices)
@@ -97,7 +99,7 @@ def answer(options: argparse.Namespace) -> str:
     if options.boundary:
         outer = facets if facets is simplices else outer_facets(points, facets, signs)
         record["boundary"] = _as_record(facet_moments(points, outer, options.order, about))
-    return json.dumps(record, indent=1, allow_nan=False) + "\n"
+    return record
 
 
 def _point(text: str) -> list[float]:
@@ -115,19 +117,14 @@ def _as_record(moments: SimplexMoments) -> dict[str, dict[str, float]]:
 def _read(path: Path) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray | None]:
     arrays = read_arrays(path, ("points", "simplices", "signs"), scan_limits())
     if not {"points", "simplices"} <= arrays.keys():
-        raise FileError(SIMPLEX_ARRAYS)
+        raise UsageError("The file is no .npz archive with the arrays “points” and “simplices”")
     points, simplices, signs = arrays["points"], arrays["simplices"], arrays.get("signs")
     dimension = points.shape[1] if points.ndim == 2 else 0
     if points.dtype.kind not in "iuf" or not 1 <= dimension <= MAX_DIMENSION or not np.isfinite(points).all():
-        raise FileError(SIMPLEX_POINTS, limit=MAX_DIMENSION)
+        raise UsageError("“points” must be rows of 1 to {} finite coordinates".format(MAX_DIMENSION))
     is_table = simplices.ndim == 2 and simplices.dtype.kind in "iu" and simplices.shape[1] in (dimension, dimension + 1)
     if not is_table or not len(simplices) or simplices.min() < 0 or simplices.max() >= len(points):
-        raise FileError(SIMPLEX_ROWS, dimension=dimension)
+        raise UsageError("“simplices” must be rows of {} or one more numbers of points, from 0 on".format(dimension))
     if signs is not None and (signs.shape != (len(simplices),) or not np.isin(signs, (-1, 1)).all()):
-        raise FileError(SIMPLEX_SIGNS)
+        raise UsageError("“signs” must be 1 or -1 for each of the simplices")
     return points.astype(np.float64), simplices.astype(np.int64), signs
-
-
-def reason_of(error: OSError) -> object:
-    """Why the file cannot be read."""
-    return finding(FILE_UNREADABLE, error=system_reason(error))

@@ -12,15 +12,21 @@ from typing import Any
 def lazy_names(package: str, **modules: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
     """Return `__getattr__`, `__dir__` and `__all__` of a package, given the module of each public name.
 
-    A package without names of its own module offers the modules themselves. Importing the package loads none of them.
+    The package offers its modules and packages, too. Importing the package loads none of them.
     """
     names = sorted(modules)
 
     def load(name: str) -> Any:
-        if name not in modules:
+        path = "{}.{}".format(package, modules.get(name, name))
+        try:
+            module = None if name.startswith("_") else import_module(path)
+        except ModuleNotFoundError as error:
+            if error.name != path:
+                raise
+            module = None
+        if module is None:
             raise AttributeError("module {!r} has no attribute {!r}".format(package, name))
-        module = import_module("." + modules[name], package)
-        value = getattr(module, name, module)
+        value = getattr(module, name, module) if name in modules else module
         setattr(sys.modules[package], name, value)
         return value
 

@@ -19,7 +19,6 @@ import importlib.util
 import os
 import sys
 import traceback
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -42,16 +41,14 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     """
     from ..command import interruption
     from ..command.files import output
-    from ..command.findings import INTERRUPTED as INTERRUPTED_RUN
     from ..core.measurement.plain_text import print_message
-    from ..core.verdict.finding import finding
 
     channel = output.claim_stdout() if channel is None else channel
     try:
         with interruption.interruptible():
             return _answer(argv, channel, file_needed)
     except KeyboardInterrupt:
-        print_message(finding(INTERRUPTED_RUN))
+        print_message("interrupted; the result was not written")
         return INTERRUPTED
     except Exception:
         traceback.print_exc()
@@ -61,12 +58,20 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
 def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
     """Run the requested command, and return the exit code."""
     from ..command.files import output
-    from ..command.parser import HelpRequested
+    from ..command.parser import HelpRequested, UsageError
+    from ..core.measurement.plain_text import print_message
+    from ..core.verdict.finding import MeasureError
 
+    word = "".join(argv[:1])
     try:
-        return _COMMANDS.get("".join(argv[:1]), _measure)(argv, channel, file_needed)
+        if word == "child":
+            return _serve(channel)
+        return _print(word, argv, channel) if word in _PRINTING else _measure(argv, channel, file_needed)
     except HelpRequested as asked:
-        return ALL_MEASURED if output.written(asked.args, None, channel) else SOME_FAILED
+        return ALL_MEASURED if output.write_result(asked.args, None, channel) else SOME_FAILED
+    except (UsageError, MeasureError) as error:
+        print_message(error)
+        return WRONG_USAGE
     except SystemExit as ended:
         return WRONG_USAGE if ended.code else ALL_MEASURED
 
@@ -92,19 +97,19 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     checks.check(options)
     run = Run(options, memory=processes.memory_share())
     run.measure()
-    check = own_results.guard("output", options.output in options.forced)
-    is_written = output.written(FORMATS[options.format](run.documents), options.output, channel, check)
+    text = FORMATS[options.format](run.documents)
+    is_written = output.write_result(text, options.output, channel, own_results.guard(options.force))
     if run.internal_errors:
         return INTERNAL_ERROR
     failed = run.errors and not options.errors_exit_0
     return SOME_FAILED if failed or not is_written else ALL_MEASURED
 
 
-def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:
+def _serve(channel: int) -> int:
     """Be a child of the supervisor. Ends the process."""
     from ..command.supervisor.lifeline import Lifeline
 
-    line = Lifeline(channel, int(argv[1]) if argv[1:] else None)  # first: importing bpy may take seconds
+    line = Lifeline(channel)  # first: importing bpy may take seconds
     try:
         _load_settings()
 
@@ -117,65 +122,22 @@ def _serve(argv: list[str], channel: int, _file_needed: bool) -> int:
     os._exit(ALL_MEASURED)
 
 
-def _similar(argv: list[str], channel: int, _file_needed: bool) -> int:
-    """Compare measurements, and print the nearest."""
-    from ..command.files import output
-    from ..command.results import similar
-    from ..core.measurement.plain_text import print_message
-    from ..core.verdict.finding import MeasureError
-
-    options = similar.parse(argv)
-    try:
-        text, failures = similar.answer(options)
-    except MeasureError as error:
-        print_message(error)
-        return WRONG_USAGE
-    is_written = output.written([text], None, channel)
-    return SOME_FAILED if failures or not is_written else ALL_MEASURED
-
-
-def _audit(argv: list[str], channel: int, _file_needed: bool) -> int:
-    """Check robot descriptions."""
-    from ..command import audit
+def _print(word: str, argv: list[str], channel: int) -> int:
+    """Run a command that neither opens files in Blender nor starts processes, and write its text."""
+    from .. import command
     from ..command.files import output, own_results
 
-    options = audit.parse(argv)
-    text, faults, internal = audit.answer(options)
-    check = own_results.guard("output", options.output in options.forced)
-    is_written = output.written([text], options.output, channel, check)
-    if internal:
-        return INTERNAL_ERROR
-    return SOME_FAILED if faults or not is_written else ALL_MEASURED
+    module = getattr(command, _PRINTING[word])
+    options = module.parse(argv)
+    text, code = module.answer(options)
+    check = own_results.guard(getattr(options, "force", False))
+    is_written = output.write_result(text, getattr(options, "output", None), channel, check)
+    return code if is_written or code == INTERNAL_ERROR else SOME_FAILED
 
 
-def _simplex(argv: list[str], channel: int, _file_needed: bool) -> int:
-    """Measure simplices in n dimensions."""
-    from ..command import simplex
-    from ..command.files import output
-    from ..core.measurement.plain_text import print_message
-    from ..core.verdict.finding import MeasureError
-
-    options = simplex.parse(argv)
-    try:
-        text = simplex.answer(options)
-    except (MeasureError, OSError) as error:
-        print_message(options.file, simplex.reason_of(error) if isinstance(error, OSError) else error)
-        return SOME_FAILED
-    return ALL_MEASURED if output.written([text], None, channel) else SOME_FAILED
-
-
-def _gather(argv: list[str], channel: int, _file_needed: bool) -> int:
-    """Prepare and gather the results of many files."""
-    from ..command.results import gather
-
-    return gather.run(argv, channel)
-
-
-_GATHER = ("manifest", "merge", "to-csv", "summary", "compare", "report")
-_COMMANDS: dict[str, Callable[[list[str], int, bool], int]] = {
-    **{"similar": _similar, "audit": _audit, "simplex": _simplex, "child": _serve},
-    **dict.fromkeys(_GATHER, _gather),
-}
+# The modules of `command`, each with `parse` and `answer`, which returns the text in pieces and the exit code.
+_PRINTING = {word: word for word in ("similar", "audit", "simplex")}
+_PRINTING |= dict.fromkeys(("manifest", "merge", "to-csv", "summary", "compare", "report"), "gather")
 
 
 def _load_settings() -> None:

@@ -2,21 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings of the operators: refusals and warnings that stay in the panel. Other texts stand where they are shown."""
 
-from ..core.verdict.finding import error, note, warning
+from ..core.verdict.finding import error, warning
 
 NO_ACTIVE_ASSEMBLY = error(
     "no_active_assembly", "There is no assembly. Click a collection in the Outliner, or select an empty with children."
 )
 
-ROBOT_EXPORTED = note("robot_exported", "{count} link exported to {file}.", "{count} links exported to {file}.")
 ROBOT_SHEARED = warning(
     "robot_sheared", "Bodies must not be sheared. Apply the scale of the parents of {links} (Object > Apply > Scale)."
 )
 ROBOT_NAMES_ALIKE = error("robot_names_alike", "Blender gives {names} one name in USD. Rename one of them.")
 ROBOT_GEOMETRY_NOT_WRITTEN = error("robot_geometry_not_written", "Blender's exporter failed: {error}.")
-ROBOT_NOT_WRITTEN = error("robot_not_written", "The file cannot be written: {error}.")
-ROBOT_COPIED = note("robot_copied", "Inertial of {count} link copied.", "Inertials of {count} links copied.")
-AUDIT_TEXT = note("audit_text", "See the text “{text}” in the Text Editor")
 PRIMITIVE_HAS_PARENT = error("primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it.")
 FILE_EXISTS = error("file_exists", "The file “{file}” exists. Turn on Overwrite.")
 FILE_NOT_WRITTEN = error("file_not_written", "The file cannot be written: {error}.")

@@ -7,8 +7,7 @@ They draw stored or cached values and compute nothing.
 
 # The modules that are registered, in this order. A sub-panel comes after its panel; `places.ORDER` sorts them.
 MODULES = (
-    *("manual", "menus", "material_menus", "measure.body", "measure.inertia", "density", "statics"),
-    *("measure.selection", "assembly", "rig", "measure.advanced"),
-    *("measure.section", "shape"),  # sub-panels of `measure.advanced`
-    *("overlay.popover", "overlay.draw"),
+    *("menus", "material_menus", "body", "inertia", "density", "statics", "selection", "assembly", "rig", "advanced"),
+    *("section", "shape"),  # sub-panels of `advanced`
+    "overlay.draw",
 )

@@ -16,9 +16,8 @@ from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.verdict.sentences import severity
-from . import rows
+from . import remedies, rows
 from .density import given_rows
-from .measure import remedies
 from .places import in_both_places
 
 MEMBER_ICONS = {
@@ -91,7 +90,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     findings = properties.findings(root)
     rows.stale_row(layout, context, stale_reason(root, context.scene))
     remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
-    rows.value(layout, units, "Mass", "mass", stored.mass)
+    rows.quantities(layout, units, [("Mass", "mass", stored.mass)])
     _tree(layout, context, settings)
     _numbers(layout, units, stored, isinstance(root, Collection))
     remedies.notes(layout, context, "body_moments_assembly_notes", findings)
@@ -138,7 +137,6 @@ class AssemblyPanel:
     """A collection, or an empty with its children, as one body"""
 
     bl_label = "Assembly"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         root = context.object if is_assembly(context.object) else context.collection
@@ -165,10 +163,4 @@ class COLLECTION_PT_body_moments(Panel):
         draw_assembly(self.layout, context, context.collection)
 
 
-VIEW3D_PT_body_moments_assembly, OBJECT_PT_body_moments_assembly = in_both_places(AssemblyPanel, "assembly")
-CLASSES = (
-    BODY_MOMENTS_UL_assembly,
-    VIEW3D_PT_body_moments_assembly,
-    OBJECT_PT_body_moments_assembly,
-    COLLECTION_PT_body_moments,
-)
+CLASSES = (BODY_MOMENTS_UL_assembly, *in_both_places(AssemblyPanel, "assembly"), COLLECTION_PT_body_moments)

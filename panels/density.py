@@ -28,7 +28,6 @@ class DensityPanel:
     """What the object is made of"""
 
     bl_label = "Density"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -208,7 +207,6 @@ class GivenPanel:
     """A mass that is known, with or without its center and inertia"""
 
     bl_label = "Given Mass"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

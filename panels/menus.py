@@ -1,13 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus, under users' names and in their usual places.
+"""Entries in Blender's own menus, under users' names and in their usual places, and in its *Help*.
 
-Blender's search finds entries of menus.
+Blender's search finds entries of menus. The manual that the extension brings opens from *Help*, and from *Online
+Manual* of buttons and settings. It is HTML beside the add-on's code, which the build makes of docs/; in a checkout
+there is none, and so no entries.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
 
 import bpy
 from bpy.types import Context, Menu
@@ -20,6 +25,32 @@ CURSOR = ("view3d.body_moments_cursor_to_center", "Cursor to Center of Mass", "P
 EMPTY = ("object.body_moments_add_empty", "Principal Frame of Selected", "EMPTY_ARROWS")
 PIE_GAP = 8.0  # rows between the pie's lowest entry and ours
 RIGID_BODY = ("object.body_moments_set_rigid_body_mass", "Set Exact Mass", "RIGID_BODY")
+
+_PACKAGE = __package__.rpartition(".")[0]
+_OBJECT, _SCENE = "bpy.types.bodymomentsobjectsettings.", "bpy.types.bodymomentsscenesettings."
+_OPERATOR = "bpy.ops.object.body_moments_"
+
+# The first pattern that fits a button or a setting, in lower case, and its page.
+PAGES = (
+    *((_OBJECT + name + "*", "walls.html") for name in ("wall", "thickness")),
+    *(
+        (_OBJECT + name + "*", "volumes-and-scans.html")
+        for name in ("grid", "values_from", "value_", "transfer", "spline")
+    ),
+    *((_OBJECT + name + "*", "densities.html") for name in ("density", "material", "mass")),
+    ("bpy.types.bodymomentsmaterialsettings*", "densities.html"),
+    (_SCENE + "moments*", "moments.html"),
+    *((_OPERATOR + name + "*", "moments.html") for name in ("compute_moments", "copy_moments")),
+    *((_OPERATOR + name + "*", "sections.html") for name in ("measure_section", "copy_section")),
+    *((_OPERATOR + name + "*", "shape.html") for name in ("find", "match", "select_found")),
+    *((_OPERATOR + name + "*", "densities.html") for name in ("set_material", "preset")),
+    ("bpy.ops.material.body_moments*", "densities.html"),
+    (_OPERATOR + "fourier*", "fourier.html"),
+    (_OPERATOR + "import_scan*", "volumes-and-scans.html"),
+    *((_OPERATOR + name + "*", "reading-the-numbers.html") for name in ("measure", "clear", "copy", "select_faults")),
+    ("bpy.ops.*.body_moments_*", "actions.html"),
+    ("bpy.types.bodymoments*", "reading-the-numbers.html"),
+)
 
 
 class VIEW3D_MT_body_moments(Menu):
@@ -111,6 +142,35 @@ def _rigid_body_panel(panel: Menu, context: Context) -> None:
         panel.layout.operator(RIGID_BODY[0], text=RIGID_BODY[1], icon=RIGID_BODY[2])
 
 
+def folder() -> Path:
+    """Return the folder of the manual, which need not exist."""
+    return Path(sys.modules[_PACKAGE].__path__[0]) / "manual"
+
+
+def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
+    return folder().as_uri() + "/", PAGES
+
+
+def _help_entry(self: Menu, _context: Context) -> None:
+    page = folder() / "index.html"
+    self.layout.separator()
+    self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = page.as_uri()
+
+
+def register_manual() -> None:
+    """Offer the manual, if there is one."""
+    if folder().is_dir():
+        bpy.utils.register_manual_map(_map)
+        bpy.types.TOPBAR_MT_help.append(_help_entry)
+
+
+def unregister_manual() -> None:
+    """Offer it no more."""
+    with suppress(ValueError):  # there was no manual
+        bpy.utils.unregister_manual_map(_map)
+        bpy.types.TOPBAR_MT_help.remove(_help_entry)
+
+
 ADDED = (
     ("VIEW3D_MT_object", _object_menu),
     ("VIEW3D_MT_object_context_menu", _entries(MEASURE, ORIGIN)),
@@ -130,10 +190,12 @@ def register() -> None:
         bpy.utils.register_class(cls)
     for name, draw in ADDED:
         getattr(bpy.types, name).append(draw)
+    register_manual()
 
 
 def unregister() -> None:
     """Remove them."""
+    unregister_manual()
     for name, draw in reversed(ADDED):
         getattr(bpy.types, name).remove(draw)
     for cls in reversed(CLASSES):

@@ -29,7 +29,7 @@ ROOT = "body_moments"
 def in_both_places(contents: type, name: str = "", parent: str | None = None) -> tuple[type[Panel], type[Panel]]:
     """Make a panel of the sidebar and one of the object's properties, closed at first, that show these contents.
 
-    `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll`, `bl_options` and `draw_header_preset`.
+    `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll` and `draw_header_preset`.
     `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and `OBJECT_PT_body_moments_NAME`; "" for the main
     panel. `parent` names the parent panel, by default the main one.
     """
@@ -54,7 +54,7 @@ def _panel(prefix: str, contents: type, name: str, parent: str | None, **place: 
     idname = _idname(prefix, name)
     attributes = {"__doc__": contents.__doc__, "__module__": contents.__module__, "bl_idname": idname, **place}
     if name:
-        attributes["bl_parent_id"] = _idname(prefix, parent)
+        attributes |= {"bl_parent_id": _idname(prefix, parent), "bl_options": {"DEFAULT_CLOSED"}}
     if name in ORDER:
         attributes["bl_order"] = ORDER.index(name)
     return type(idname, (contents, Panel), attributes)

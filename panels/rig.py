@@ -19,7 +19,6 @@ class BonesPanel:
     """The parts of a character's bones"""
 
     bl_label = "Bones"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -101,5 +100,4 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
     rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
 
 
-VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones = in_both_places(BonesPanel, "bones")
-CLASSES = (VIEW3D_PT_body_moments_bones, OBJECT_PT_body_moments_bones, BONE_PT_body_moments)
+CLASSES = (*in_both_places(BonesPanel, "bones"), BONE_PT_body_moments)

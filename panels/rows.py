@@ -77,11 +77,6 @@ def group(
     return column
 
 
-def value(layout: UILayout, units: Units, label: str, quantity: str, si: float) -> None:
-    """One value with its unit, and a button that copies it to the last digit."""
-    quantities(layout, units, [(label, quantity, si)])
-
-
 def quantities(layout: UILayout, units: Units, entries: Sequence[tuple[str, str, float]]) -> None:
     """Draw a row for each (label, quantity, SI value), each in the unit that suits it."""
     table(
@@ -151,15 +146,8 @@ def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
     split.label(text=label)
     cells = split.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
     for text in cosines:
-        cell = cells.row(align=True)
-        cell.alignment = "RIGHT"
-        cell.label(text=text, translate=False)
+        right(cells, text)
     _copy(row, repr([float(component) for component in vector]), "")
-
-
-def text(layout: UILayout, label: str, shown: str, exact: str, unit: str) -> None:
-    """Label, text to the right, copy button; as a `table` of one row."""
-    table(layout, [(label, shown, exact, unit)])
 
 
 def table(layout: UILayout, cells: Sequence[Cell]) -> None:
@@ -177,19 +165,19 @@ def table(layout: UILayout, cells: Sequence[Cell]) -> None:
             row = layout.row(align=True)
             cell = row.split(factor=share, align=True)
             cell.label(text=label, translate=False)
-            _right(cell, shown)
+            right(cell, shown)
             _copy(row, exact, unit)
         elif rests:
             _title(layout, label)
             row = layout.row(align=True)
-            _right(row, shown)
+            right(row, shown)
             _copy(row, exact, unit)
         else:
             number, _, name = shown.rpartition(" ")
             row = layout.row(align=True)
             _title(row, "{:s} {:s}".format(label, name))
             _copy(row, exact, unit)
-            _right(layout, number)
+            right(layout, number)
 
 
 def _form(labels: Sequence[str], shown: Sequence[str]) -> tuple[float, bool]:
@@ -214,7 +202,8 @@ def _title(layout: UILayout, text: str) -> None:
         sentence(layout, bpy.context, text)
 
 
-def _right(layout: UILayout, text: str) -> None:
+def right(layout: UILayout, text: str) -> None:
+    """Draw a text at the right end of a row."""
     cell = layout.row(align=True)
     cell.alignment = "RIGHT"
     cell.label(text=text, translate=False)
@@ -224,6 +213,13 @@ def _copy(row: UILayout, exact: str, unit: str) -> None:
     button = row.operator("object.body_moments_copy_value", text="", icon="COPYDOWN", emboss=False)
     button.value = exact
     button.unit = unit
+
+
+def fold(layout: UILayout, idname: str, label: str, closed: bool = True) -> UILayout | None:
+    """Draw a part that can be folded, and return its layout; None if it is closed. closed: at first."""
+    header, body = layout.panel(idname, default_closed=closed)
+    header.label(text=label)
+    return body
 
 
 def filled(layout: UILayout, template: str, *values: object, icon: str = "NONE") -> None:

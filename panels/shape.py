@@ -32,7 +32,6 @@ class ShapePanel:
     """Symmetry and similar shapes"""
 
     bl_label = "Shape"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -63,8 +62,7 @@ def _symmetry(layout: UILayout, context: Context, obj: Object) -> None:
     rows.remark(column, context, text, icon="BLANK1", share=stored.tolerance)
     if not stored.elements:
         return
-    header, body = layout.panel("body_moments_symmetry", default_closed=True)
-    header.label(text="Axes and Mirror Planes")
+    body = rows.fold(layout, "body_moments_symmetry", "Axes and Mirror Planes")
     if body is None:
         return
     column = body.column(align=True)
@@ -102,13 +100,9 @@ def _similar(layout: UILayout, context: Context) -> None:
         else:
             button = row.operator("object.body_moments_select_found", text=shape.name, icon=icon, translate=False)
             button.name = shape.name
-        cell = row.row(align=True)
-        cell.alignment = "RIGHT"
         words = localized(SIMILARITY.get(shape.verdict, shape.verdict))
         size = " ×{:.4g}".format(shape.scale) if shape.verdict.startswith("scaled") else ""
-        cell.label(text="{:s}{:s}, {:.2g}".format(words, size, shape.distance), translate=False)
+        rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = VIEW3D_PT_body_moments_shape, OBJECT_PT_body_moments_shape = in_both_places(
-    ShapePanel, "shape", parent="advanced"
-)
+CLASSES = in_both_places(ShapePanel, "shape", parent="advanced")

@@ -28,7 +28,6 @@ class StabilityPanel:
     """Whether the object stands on the ground below it, and the poses in which it rests"""
 
     bl_label = "Stability"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
@@ -97,9 +96,7 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
         row = column.row(align=True)
         number = "" if narrow else "{:d}: ".format(place + 1)
         row.label(text="{:s}{:.1f}%".format(number, 100.0 * share), translate=False)
-        cell = row.row(align=True)
-        cell.alignment = "RIGHT"
-        cell.label(text="{:.1f}°".format(degrees(angle)), translate=False)
+        rows.right(row, "{:.1f}°".format(degrees(angle)))
         row.operator("object.body_moments_rest_on_ground", text="", icon="TRIA_DOWN_BAR").pose = place + 1
     more = len(poses.tipping_angles) - MAX_POSES
     if more > 0:
@@ -107,6 +104,4 @@ def _poses(layout: UILayout, context: Context, obj: Object) -> None:
     rows.button(layout, context, "object.body_moments_rest_on_ground", "TRIA_DOWN_BAR", short="Rest").pose = 1
 
 
-CLASSES = VIEW3D_PT_body_moments_stability, OBJECT_PT_body_moments_stability = in_both_places(
-    StabilityPanel, "stability"
-)
+CLASSES = in_both_places(StabilityPanel, "stability")

@@ -9,6 +9,7 @@ from ...core.lazy import lazy_names
 if TYPE_CHECKING:
     from . import assembly as assembly
     from . import rig as rig
+    from . import robots as robots
     from . import shapes as shapes
     from . import total_caveats as total_caveats
 
@@ -17,6 +18,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     assembly="assembly",
     reference="reference",
     rig="rig",
+    robots="robots",
     shapes="shapes",
     total_caveats="total_caveats",
     vdb="grids.vdb",

@@ -4,51 +4,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping
+from math import inf
 
 import bpy
 import numpy as np
 
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
-from ...core.numerics.rotations import polar_rotation, quaternion
-from ...core.robots.model import Pose
+from ...core.numerics.rotations import polar_rotation
+from ...core.robots.links import Candidate, make_candidate
+from ...core.robots.model import FreeAxis, Pose
 from ...core.verdict.finding import MeasureError
 from .objects import read_object
 from .reading import float64_matrix
 
 
-def link_entry(
-    measurement: Measurement,
-    parents: Sequence[str] = (),
-    scale: Sequence[float] = (1.0, 1.0, 1.0),
-    free: Sequence[Mapping[str, Any]] = (),
-) -> dict[str, Any]:
-    """Return the entry `link` of a record; its position, m, and rotation (w, x, y, z) are in the world.
-
-    The link's frame is the object's. `parents` are the names of records, the nearest first; `scale` is that of the
-    object's own geometry. `free` has "kind", "axis" (the link's own), "lower" and "upper" of each degree of freedom in
-    the parent, None for no limit; the entry has "free" only if the link may move.
-    """
-    return {
-        "position": measurement.location.tolist(),
-        "rotation": quaternion(measurement.rotation).tolist(),
-        "scale": list(scale),
-        "parents": list(parents),
-        **({"free": [dict(axis) for axis in free]} if free else {}),
-    }
-
-
-def object_entry(
-    obj: bpy.types.Object, measurement: Measurement, labels: Mapping[bpy.types.Object, str]
-) -> dict[str, Any]:
-    """Return the entry `link` of an object's record; `labels` are of all that may be links."""
+def object_candidate(
+    label: str, obj: bpy.types.Object | None, measurement: Measurement, labels: Mapping[bpy.types.Object, str]
+) -> Candidate:
+    """Return a measured object as a link, below the nearest parent that has a label; `obj` is None for instances."""
+    if obj is None:
+        return make_candidate(label, measurement)
     parents, above = [], obj.parent
     while above is not None:
         parents += [labels[above]] if above in labels else []
         above = above.parent
-    return link_entry(measurement, parents, list(obj.matrix_world.to_scale()))
+    return make_candidate(label, measurement, parents, obj.matrix_world.to_scale())
 
 
 def link_surface(
@@ -77,8 +59,8 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
     return [obj.name_full for obj, skew in zip(located, sheared) if skew]
 
 
-def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
-    """Return how a bone may turn in its parent, about its own axes, as `link_entry` takes it.
+def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
+    """Return how a bone may turn in its parent, about its own axes.
 
     The axis about which Blender's XYZ angles turn last comes first; a locked axis, or one without room, is left out.
     The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics.
@@ -99,9 +81,9 @@ def bone_freedom(bone: bpy.types.PoseBone) -> list[dict[str, Any]]:
         no_room = lower is not None and upper is not None and not lower < upper
         if no_room or bone.lock_rotation[index] or getattr(bone, "lock_ik_" + axis):
             continue
-        direction = [float(other == index) for other in range(3)]
-        free.append({"kind": "rotate", "axis": direction, "lower": lower, "upper": upper})
-    return free
+        limited = -inf if lower is None else lower, inf if upper is None else upper
+        free.append(FreeAxis("rotate", np.eye(3)[index], *limited))
+    return tuple(free)
 
 
 def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[str]:

@@ -30,12 +30,16 @@ SAMPLES_PER_SLAB = 1 << 22  # samples at a time
 
 
 class PlacedScan(NamedTuple):
-    """A scan with its voxels' even places, (4, 4) in m, the uneven positions along each axis, and findings."""
+    """A scan with its voxels' even places, (4, 4) in m, the uneven positions along each axis, and findings.
+
+    target: the .vdb file beside it.
+    """
 
     scan: Scan
     matrix: NDArray[np.float64]
     positions: Positions
     findings: Sequence[Finding]
+    target: Path
 
 
 def read_placed(
@@ -54,15 +58,16 @@ def read_placed(
     for axis, row in enumerate(positions):
         if row is not None:  # Blender's voxels are even: the first and the last are where they belong
             matrix[:3, axis] *= row[-1] / (len(row) - 1)
-    return PlacedScan(scan, matrix, positions, findings)
+    target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
+    return PlacedScan(scan, matrix, positions, findings, target)
 
 
-def write_volume(module: ModuleType, target: Path, placed: PlacedScan, unit: float) -> float:
+def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
     """Write the scan as a grid, in units of so many meters, whole or not at all, and return its least value.
 
     The background differs from every sample's value, so that none is lost, but is zero if no sample is negative.
     """
-    scan, matrix = placed.scan, placed.matrix.copy()
+    scan, target, matrix = placed.scan, placed.target, placed.matrix.copy()
     matrix[:3] /= unit
     least, exact = np.inf, True
     for _, slab in _slabs(scan):
@@ -92,12 +97,13 @@ def _slabs(scan: Scan) -> Iterator[tuple[int, NDArray[np.float64]]]:
         yield start, samples[start : start + planes].astype(np.float64) * scan.slope + scan.intercept
 
 
-def add_volume(context: Context, path: Path, positions: Positions) -> Object:
-    """Add a Volume object with the file, selected and active. positions: those of uneven samples along each axis."""
+def add_volume(context: Context, placed: PlacedScan) -> Object:
+    """Add a Volume object with the file of a scan, selected and active."""
+    path = placed.target
     volume = bpy.data.volumes.new(path.stem)
     volume.filepath = str(path)
     obj = bpy.data.objects.new(path.stem, volume)
-    obj.body_moments.grid, obj.body_moments.sample_positions = GRID_NAME, positions_text(positions)
+    obj.body_moments.grid, obj.body_moments.sample_positions = GRID_NAME, positions_text(placed.positions)
     context.collection.objects.link(obj)
     for previous in context.selected_objects:
         previous.select_set(False)

@@ -11,14 +11,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
 
 import bpy
 import numpy as np
-from bpy.types import Curve, Object, Scene
+from bpy.types import Context, Curve, Object, Scene
 from numpy.typing import NDArray
 
+from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceBody
+from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.patch import Patch
+from ...core.scans.limits import Limits
+from ...core.verdict.finding import Finding
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
 MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
@@ -157,3 +163,31 @@ def import_bodies(
         collection.objects.link(obj)
         made.append((obj, moved))
     return made
+
+
+class ImportedSurfaces(NamedTuple):
+    """Objects of a file of surfaces, with the number and the highest order of their patches.
+
+    moved: the largest rounding of a point, relative to its object. findings: about what was left out or decided.
+    """
+
+    objects: list[Object]
+    patches: int
+    order: int
+    moved: float
+    findings: list[Finding]
+
+
+def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -> ImportedSurfaces:
+    """Make an object of each body in a file. unit: meters per unit of a file that states none.
+
+    Raises FileError and OSError.
+    """
+    file = read_surfaces(path, limits)
+    scale = shortest_decimal(context.scene.unit_settings.scale_length)
+    factor = (shortest_decimal(unit) if file.unit is None else file.unit) / scale
+    made = import_bodies(file.bodies, context.collection, factor)
+    patches = [patch for body in file.bodies for patch in body.patches]
+    order = max(space.order for patch in patches for space in patch.spaces)
+    moved = max(share for _, share in made)
+    return ImportedSurfaces([obj for obj, _ in made], len(patches), order, moved, [*file.refused, *file.notes])

@@ -27,7 +27,7 @@ from ..write.properties import StoredProperties
 from . import live, stored
 from .live import following
 from .live.following import Lag, LiveResult
-from .tracking import handlers, posed, updates
+from .tracking import armatures, handlers, updates
 from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
@@ -102,7 +102,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
     scene: sets the unit scale.
     """
-    is_posed = obj.type == "ARMATURE" and posed.stands_for_meshes(obj)
+    is_posed = obj.type == "ARMATURE" and armatures.stands_for_meshes(obj)
     if is_posed and (total := stored.sums.of_meshes(obj, scene)) is not None:
         return total
     current = following.followed.get(obj)
@@ -212,7 +212,7 @@ def total(context: Context) -> Total:
 
 
 def _sum(context: Context) -> Total:
-    chosen = posed.subjects(context.view_layer.objects.selected)
+    chosen = armatures.subjects(context.view_layer.objects.selected)
     selected, parts, missing = set(chosen), {}, []
     for obj in chosen:
         if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(stored.sums.members(obj, selected)):

@@ -15,14 +15,14 @@ from numpy.typing import NDArray
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.robots.findings import ROBOT_WITHOUT_LINKS
-from ...core.robots.from_records import brief_record, robot_of_records
+from ...core.robots.links import assemble_robot, make_candidate
 from ...core.robots.model import Robot
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
 from ..read.rig import pose_bone_of
-from ..read.robots import bone_freedom, bone_parents, link_entry, link_surface, object_entry
+from ..read.robots import bone_freedom, bone_parents, link_surface, object_candidate
 from ..read.visibility import measurable
 from ..settings.options import AS_SET, MeasureOptions
 from ..write import reports
@@ -90,10 +90,8 @@ def object_links(
     if not measured:
         raise EditRefusedError(failures[0] if failures else finding(ROBOT_WITHOUT_LINKS))
     labels = {obj: obj.name_full for obj in measured}
-    records = []
-    for obj, measurement in measured.items():
-        records.append(brief_record(labels[obj], measurement, object_entry(obj, measurement, labels)))
-    robot, findings = robot_of_records(name, records)
+    made = [object_candidate(labels[obj], obj, measurement, labels) for obj, measurement in measured.items()]
+    robot, findings = assemble_robot(name, made)
     members = {label: [obj] for obj, label in labels.items()}
     unit = AS_SET.meters_per_unit(context.scene)
     return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], unit, members)
@@ -107,7 +105,7 @@ def collection_links(
     Links are assemblies, along the world's axes, with all that they hold. objects: of the displayed meshes.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    records, failures, members = [], [], {}
+    made, failures, members = [], [], {}
     collections = list(root.children) or [root]
     for collection in collections:
         label = collection.name_full
@@ -118,10 +116,10 @@ def collection_links(
             continue
         held = {*collection.all_objects}
         members[label] = [obj for obj in objects if obj in held and measurable(obj)]
-        records.append(brief_record(label, measurement, link_entry(measurement)))
-    if not records:
+        made.append(make_candidate(label, measurement))
+    if not made:
         raise EditRefusedError(failures[0])
-    robot, findings = robot_of_records(name, records)
+    robot, findings = assemble_robot(name, made)
     unit = options.meters_per_unit(context.scene)
     return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
 
@@ -131,7 +129,7 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
 
     Raises MeasureError if there is no character.
     """
-    records, findings, pieces = [], [], {}
+    made, findings, pieces = [], [], {}
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:
         rig = measure_rig(context, armature)
@@ -146,12 +144,12 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
             if part.measurement is None:
                 continue
             bone, label = pose_bone_of(armature, part.name), labels[part.name]
-            entry = link_entry(part.measurement, bone_parents(bone, labels), free=bone_freedom(bone))
-            records.append(brief_record(label, part.measurement, entry))
+            parents = bone_parents(bone, labels)
+            made.append(make_candidate(label, part.measurement, parents, free=bone_freedom(bone)))
             pieces[label] = part.surfaces
-    if not records:
+    if not made:
         raise EditRefusedError(ROBOT_WITHOUT_BONES)
-    robot, left = robot_of_records(name, records)
+    robot, left = assemble_robot(name, made)
     return SceneLinks(robot, [*findings, *left], AS_SET.meters_per_unit(context.scene), pieces=pieces)
 
 

@@ -7,17 +7,31 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
+from typing import NamedTuple
 
 from bpy.types import Depsgraph, Object
 
-from ...core.shape.library import UNDECIDED_HANDEDNESS, Entry, classify, rank
+from ...core.shape.library import UNDECIDED_HANDEDNESS, Entry, classify, rank, read_library
 from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.shape.signatures import Likeness, Signature, similarity
+from ...core.verdict.finding import Finding
 from ..bodies.flat.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
 from ..bodies.shape.shape import register_surfaces, surface_shape_of
 from ..bodies.shape.stack_signature import signed_in_turn
 
 DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of order 20
+
+
+class Match(NamedTuple):
+    """A compared shape. verdict: its relation. distance: of the signatures. scale: relative to the wanted object."""
+
+    name: str
+    file: str
+    verdict: str
+    distance: float
+    scale: float
+    obj: Object | None
 
 
 class SimilarSearch:
@@ -71,16 +85,30 @@ class SimilarSearch:
 
         return compare
 
-    def ranked(self, scaled: bool, mirrored: bool) -> list[tuple[Object, Entry, Likeness]]:
+    def find_nearest(self, scaled: bool, mirrored: bool) -> list[Match]:
         """Return the compared objects, the most similar first. scaled, mirrored: rank such copies like copies."""
-        return [
-            (
-                self._objects[entry],
-                entry,
-                replace(likeness, is_mirror_image=self._mirror_images.get(entry, likeness.is_mirror_image)),
-            )
-            for entry, likeness in rank(self.wanted, self._objects, scaled, mirrored)
-        ]
+        matches = []
+        for entry, likeness in rank(self.wanted, self._objects, scaled, mirrored):
+            is_mirror_image = self._mirror_images.get(entry, likeness.is_mirror_image)
+            likeness = replace(likeness, is_mirror_image=is_mirror_image)
+            matches.append(_match(entry, likeness, scaled, mirrored, self._objects[entry]))
+        return matches
+
+    def find_in_library(self, path: Path, scaled: bool, mirrored: bool) -> tuple[list[Match], list[Finding]]:
+        """Return the bodies of a library, the most similar first, and findings about records that are left out.
+
+        Measures the object first. Raises MeasureError and OSError.
+        """
+        entries, missing = read_library(path)
+        for _ in self.measure():
+            pass
+        ranked = rank(self.wanted, entries, scaled, mirrored)
+        return [_match(entry, likeness, scaled, mirrored) for entry, likeness in ranked], missing
+
+
+def _match(entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: Object | None = None) -> Match:
+    verdict, distance = classify(likeness).value, likeness.distance(scaled, mirrored)
+    return Match(entry.name, entry.file, verdict, distance, likeness.scale, obj)
 
 
 def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:

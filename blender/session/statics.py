@@ -29,7 +29,7 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
     certain center or no surface.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    if properties.numbers(obj) is None or staleness.stale_reason(obj, context.scene):
+    if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)
         if result.measurement.method.verdict == Verdict.OPEN:
             raise EditRefusedError(OPEN_OBJECT)

@@ -10,16 +10,26 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from bpy.types import Context, PropertyGroup
+
 from ..settings import hooks
-from . import live
+from . import live, stored
 from .live.following import followed
-from .stored import density, outcome
-from .tracking import handlers, rigs, staleness, updates
+from .stored import outcome
+from .tracking import armatures, handlers, staleness, updates
 
 
 def _follow_live(events: handlers.Updates) -> None:
     if len(followed):
         live.live.note_updates(events)
+
+
+def _follow_density(settings: PropertyGroup, context: Context) -> None:
+    stored.density.on_density(settings, context)
+
+
+def _follow_default_density(settings: PropertyGroup, context: Context) -> None:
+    stored.density.on_default_density(settings, context)
 
 
 def _count_change(*_args: object) -> None:
@@ -28,20 +38,20 @@ def _count_change(*_args: object) -> None:
 
 SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_update, updates.note_updates),
-    (handlers.on_update, rigs.note_updates),
+    (handlers.on_update, armatures.note_updates),
     (handlers.on_update, _follow_live),
     (handlers.before_undo, staleness.note_all_edits),
     (handlers.on_undo, updates.note_undo),
-    (handlers.on_undo, rigs.watch_all),  # undo makes Python's references to objects invalid
+    (handlers.on_undo, armatures.watch_all),  # undo makes Python's references to objects invalid
     (handlers.on_load, updates.forget_file),
     (handlers.on_load, staleness.forget_file),
     (handlers.on_load, outcome.forget),
-    (handlers.on_load, rigs.watch_all),
+    (handlers.on_load, armatures.watch_all),
     (handlers.on_save, staleness.write_notes),
     (hooks.on_change, updates.note_setting),
     (hooks.on_part_change, _count_change),
-    (hooks.on_density_change, density.on_density),
-    (hooks.on_default_density_change, density.on_default_density),
+    (hooks.on_density_change, _follow_density),
+    (hooks.on_default_density_change, _follow_default_density),
 )
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
-from bpy.types import AddonPreferences, Context, PropertyGroup, Scene
+from bpy.types import AddonPreferences, Context, Scene
 
 from ...core.density.materials import BY_NAME, MATERIALS
 from ...core.numerics.float32 import shortest_decimal
@@ -150,18 +150,13 @@ def copy_defaults(scene: Scene) -> None:
 
 def default_density(scene: Scene) -> float | None:
     """Return the density in kg/m³ of the scene's objects that have none of their own, None if the scene has none."""
-    return _density(scene.body_moments)
+    settings = scene.body_moments
+    if settings.default_material == "CUSTOM":
+        return shortest_decimal(settings.default_density)
+    return None if settings.default_material == "NONE" else BY_NAME[settings.default_material].density
 
 
 def default_material(scene: Scene) -> str:
     """Return the name of the material of the scene's objects that have no density of their own, "" if there is none."""
     name = scene.body_moments.default_material
     return name if name in BY_NAME else ""
-
-
-def _density(settings: PropertyGroup) -> float | None:
-    if settings.default_material == "NONE":
-        return None
-    if settings.default_material == "CUSTOM":
-        return shortest_decimal(settings.default_density)
-    return BY_NAME[settings.default_material].density

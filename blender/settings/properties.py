@@ -21,19 +21,9 @@ TRANSLATION_CONTEXT = "Body Moments"  # for words that mean something else in Bl
 
 COPIED_PROPERTIES = (
     *("kind", "wall", "thickness", "mass_from", "density", "linear_density", "material", "mass", "overlap"),
-    *("density_from", "density_polynomial", "density_frame", "density_attribute"),
-    *(
-        "density_volume",
-        "grid",
-        "grid_as",
-        "threshold",
-        "threshold_fill",
-        "values_from",
-        "value_density",
-        "transfer_table",
-        "spline_order",
-    ),
-    *GIVEN_PROPERTIES,
+    *("density_from", "density_polynomial", "density_frame", "density_attribute", "density_volume"),
+    *("grid", "grid_as", "threshold", "threshold_fill", "values_from", "value_density", "transfer_table"),
+    *("spline_order", *GIVEN_PROPERTIES),
 )
 
 

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ...core import flat
+from ... import core
 from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.sentences import sentence, severity
 from .properties import findings_in, findings_text, warning_lines
-from .units import rounded_up
+from .units import clean, report_line, report_number, report_vector, rounded_up
 
 if TYPE_CHECKING:
     from ...core.flat.section import Section
@@ -42,8 +42,6 @@ LENGTHS = {
 }
 SIDE_DESCRIPTIONS = ("what", "named", "findings", "fingerprint")
 ABOUT = ("x", "y", "1", "2")
-DIGITS = 7
-ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest of several values: what float32 leaves of a zero
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +124,7 @@ def clear(obj: bpy.types.Object) -> bool:
 def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
     values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
     axes = values["axes"]
-    section = flat.Section.from_numbers(
+    section = core.flat.Section.from_numbers(
         (values["origin"], (axes[0::3], axes[1::3], axes[2::3]), values["off"][0], named),
         values["area"][0],
         values["perimeter"][0],
@@ -154,67 +152,51 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     yield ""
     yield name
     if outdated:
-        yield _line("Out of date", outdated)
-    yield _line(
+        yield report_line("Out of date", outdated)
+    yield report_line(
         "Measured",
         "{}; outer outlines {}, holes {}".format(stored_section.description, section.outlines, section.holes),
     )
-    yield _line("Area", "{} m²".format(_number(section.area)))
-    yield _line("Perimeter", "{} m".format(_number(section.perimeter)))
-    yield _line("Centroid", "{} m".format(_vector(section.center, section.area**0.5)))
-    yield _line(
+    yield report_line("Area", "{} m²".format(report_number(section.area)))
+    yield report_line("Perimeter", "{} m".format(report_number(section.perimeter)))
+    yield report_line("Centroid", "{} m".format(report_vector(section.center, section.area**0.5)))
+    yield report_line(
         "Plane",
         "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
-            _vector(normal, 1.0), _vector(x, 1.0), _vector(y, 1.0), plane.x_axis_name
+            report_vector(normal, 1.0), report_vector(x, 1.0), report_vector(y, 1.0), plane.x_axis_name
         ),
     )
-    yield _line(
+    yield report_line(
         "Centroid in plane",
-        "{} m, from the foot of the object's origin".format(_vector(section.centroid, section.area**0.5)),
+        "{} m, from the foot of the object's origin".format(report_vector(section.centroid, section.area**0.5)),
     )
-    yield _line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
-    for label, value in zip(("Ix", "Iy", "Ixy"), _clean(section.second, section.polar)):
-        yield _line("  " + label, _number(value))
-    yield _line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(_number(section.polar)))
+    yield report_line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
+    for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second, section.polar)):
+        yield report_line("  " + label, report_number(value))
+    yield report_line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar)))
     first, second = section.principal
-    yield _line(
+    yield report_line(
         "Principal",
         "I1 {}, I2 {} m⁴; {}".format(
-            _number(first),
-            _number(second),
+            report_number(first),
+            report_number(second),
             "every axis through the centroid is principal"
             if section.axes_undetermined
-            else "axis 1 at {}° from x towards y".format(_number(degrees(section.angle))),
+            else "axis 1 at {}° from x towards y".format(report_number(degrees(section.angle))),
         ),
     )
-    yield _line("Radii of gyration", _labeled_values("i", section.radii) + " m")
-    yield _line("Section moduli", _labeled_values("W", section.moduli) + " m³ (elastic, outermost corner)")
+    yield report_line("Radii of gyration", _labeled_values("i", section.radii) + " m")
+    yield report_line("Section moduli", _labeled_values("W", section.moduli) + " m³ (elastic, outermost corner)")
     for label, bound in (("Rounding, at most", section.rounding_error), ("float32 coordinates", section.input_error)):
-        yield _line(
+        yield report_line(
             label,
             "area {:.1e} m², perimeter {:.1e} m, centroid {:.1e} m, second moments {:.1e} m⁴".format(
                 *(rounded_up(bound[name]) for name in BOUND_KEYS)
             ),
         )
     for finding in stored_section.findings:
-        yield _line("Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding))
-
-
-def _line(label: str, value: str) -> str:
-    return "  {:<22}{}".format(label, value).rstrip()
-
-
-def _number(value: float) -> str:
-    return "{:.{}g}".format(value, DIGITS)
-
-
-def _clean(values, size: float) -> list[float]:
-    return [0.0 if abs(value) <= ZERO_DISPLAY_RTOL * size else float(value) for value in values]
-
-
-def _vector(values, size: float) -> str:
-    return "({})".format(", ".join(_number(value) for value in _clean(values, size)))
+        yield report_line("Note" if severity(finding) == Severity.NOTE else "Warning", sentence(finding))
 
 
 def _labeled_values(letter: str, values) -> str:
-    return ", ".join("{}{} {}".format(letter, about, _number(value)) for about, value in zip(ABOUT, values))
+    return ", ".join("{}{} {}".format(letter, about, report_number(value)) for about, value in zip(ABOUT, values))

@@ -10,9 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 from contextlib import suppress
+from math import sqrt
 from typing import Any
-
-import numpy as np
 
 from ...core.inertia.mass_properties import MassProperties, combine
 from ...core.measurement.documents import TENSOR, document, plain
@@ -25,13 +24,9 @@ from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS
-from .units import rounded_up
+from .units import INDENT, clean, report_line, report_number, report_vector, rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
-DIGITS = 7  # float32 coordinates carry as many
-ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
-INDENT = "  "
-WIDTH = 22
 
 
 def report_text(
@@ -98,39 +93,39 @@ def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
     if "method" in entry:
         walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
-        yield _line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
+        yield report_line("Verdict", ": ".join(filter(None, (entry["method"], explanation))))
         counts = list(_counts(entry.get("health", {})))
         if counts:
-            yield _line("Found", ", ".join(counts))
-        yield _line("Kind", "{}, {}".format(entry["kind"], entry["type"].lower()))
-    yield _line("Mass", _number(entry["mass"]), "kg")
+            yield report_line("Found", ", ".join(counts))
+        yield report_line("Kind", "{}, {}".format(entry["kind"], entry["type"].lower()))
+    yield report_line("Mass", report_number(entry["mass"]), "kg")
     if "length" in entry:
-        yield _line("Length", _number(entry["length"]), "m")
-        yield _line("Linear density", _number(entry["linear_density"]), "kg/m")
+        yield report_line("Length", report_number(entry["length"]), "m")
+        yield report_line("Linear density", report_number(entry["linear_density"]), "kg/m")
     elif "density" in entry:
-        yield _line("Density", _number(entry["density"]), "kg/m³")
+        yield report_line("Density", report_number(entry["density"]), "kg/m³")
     if "density_from" in entry:
-        yield _line("Density from", entry["density_from"])
-    yield _line("Volume", _number(entry["volume"]), "m³")
-    yield _line("Surface area", _number(entry["area"]), "m²")
+        yield report_line("Density from", entry["density_from"])
+    yield report_line("Volume", report_number(entry["volume"]), "m³")
+    yield report_line("Surface area", report_number(entry["area"]), "m²")
     if "display_mesh" in entry:
-        yield _line(
+        yield report_line(
             "Its display mesh",
             "{} m³, {:+.3g} %".format(
-                _number(entry["display_mesh"]["volume"]),
+                report_number(entry["display_mesh"]["volume"]),
                 100.0 * entry["display_mesh"]["difference"] / entry["volume"] if entry["volume"] else 0.0,
             ),
         )
     if entry["center_of_mass"] is None or entry["inertia"] is None:
         return
     size = entry.get("length") or abs(entry["volume"] or 0.0) ** (1.0 / 3.0)
-    yield _line("Center of mass", _vector(entry["center_of_mass"], size), "m, {} frame".format(frame))
+    yield report_line("Center of mass", report_vector(entry["center_of_mass"], size), "m, {} frame".format(frame))
     yield from _principal(entry)
     yield from _tensor(entry["inertia"], frame)
     yield from _bounds(entry.get("error_bound", {}))
     for label, name in (("Warning", "warnings"), ("Note", "notes")):
         for message in entry.get(name, []):
-            yield _line(label, message)
+            yield report_line(label, message)
 
 
 def _counts(health: dict[str, Any]) -> Iterable[str]:
@@ -144,24 +139,24 @@ def _counts(health: dict[str, Any]) -> Iterable[str]:
 def _principal(entry: dict[str, Any]) -> Iterable[str]:
     moments, axes = entry["principal_moments"], entry.get("principal_axes")
     symmetry = ", {}".format(entry["symmetry"]) if entry.get("symmetry") else ""
-    yield _line("Principal moments", "about the center of mass, kg·m²{}".format(symmetry))
+    yield report_line("Principal moments", "about the center of mass, kg·m²{}".format(symmetry))
     for i, moment in enumerate(moments):
-        along = "  along {}".format(_vector([row[i] for row in axes])) if axes else ""
-        yield _line("  I{}".format(i + 1), _number(moment) + along)
+        along = "  along {}".format(report_vector([row[i] for row in axes])) if axes else ""
+        yield report_line("  I{}".format(i + 1), report_number(moment) + along)
     if entry["mass"]:
-        radii = np.sqrt(np.array(moments, float) / entry["mass"])
-        yield _line("Radii of gyration", _vector(radii.tolist()), "m")
+        radii = [None if moment is None else sqrt(max(moment, 0.0) / entry["mass"]) for moment in moments]
+        yield report_line("Radii of gyration", report_vector(radii), "m")
 
 
 def _tensor(inertia: list[list[float]], frame: str) -> Iterable[str]:
-    yield _line(
+    yield report_line(
         "Inertia tensor",
         "about the center of mass, {} axes, kg·m² (entries: Ixy = −∫ρxy dV)".format(frame),
     )
-    values = _clean([inertia[i][j] for _, i, j in TENSOR])
+    values = clean([inertia[i][j] for _, i, j in TENSOR])
     for row in (slice(0, 3), slice(3, 6)):
-        cells = ["I{} {:<16}".format(name, _number(value)) for (name, *_), value in zip(TENSOR[row], values[row])]
-        yield _line("", "".join(cells).rstrip())
+        cells = ["I{} {:<16}".format(name, report_number(value)) for (name, *_), value in zip(TENSOR[row], values[row])]
+        yield report_line("", "".join(cells).rstrip())
 
 
 def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
@@ -175,25 +170,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
             if values.get(name) is not None
         ]
         if any(values.get(name) for name in BOUNDS):
-            yield _line(label, ", ".join(parts))
-
-
-def _line(label: str, value: str, unit: str = "") -> str:
-    return "{}{:<{}}{} {}".format(INDENT, label, WIDTH, value, unit).rstrip()
-
-
-def _number(value: float | None) -> str:
-    return "unknown" if value is None else "{:.{}g}".format(value, DIGITS)
-
-
-def _vector(values: Sequence[float | None], size: float = 0.0) -> str:
-    return "({})".format(", ".join(_number(value) for value in _clean(values, size)))
-
-
-def _clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """Return the values with 0.0 for rounding beside the largest of them, or beside the body's size."""
-    largest = max([size, *(abs(value) for value in values if value is not None)])
-    return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]
+            yield report_line(label, ", ".join(parts))
 
 
 def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:

@@ -47,6 +47,7 @@ MASSES = {
         "OUNCES": (POUND / 16.0, "oz"),
     },
 }
+BASES = {"METRIC": ("METERS", "KILOGRAMS"), "IMPERIAL": ("FEET", "POUNDS")}
 # Choices of an adaptive unit. Hundredweights and stones are for people who ask for them.
 ADAPTIVE_LENGTHS = {
     "METRIC": ("KILOMETERS", "METERS", "CENTIMETERS", "MILLIMETERS", "MICROMETERS"),
@@ -74,6 +75,10 @@ DIGITS = 6
 GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # separators of groups of three digits
 MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
+# of reports in SI units
+REPORT_DIGITS = 7  # float32 coordinates carry as many
+ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
+INDENT, REPORT_WIDTH = "  ", 22
 
 
 @dataclass(frozen=True)
@@ -138,26 +143,22 @@ class Units:
         table = LENGTHS[self.system]
         if self.length != "ADAPTIVE":
             return table[self.length]
-        return _fitting_unit([table[key] for key in ADAPTIVE_LENGTHS[self.system]], value, _base(table))
+        return _fitting_unit([table[key] for key in ADAPTIVE_LENGTHS[self.system]], value, table[BASES[self.system][0]])
 
     def _mass(self, value: float) -> tuple[float, str]:
         table = MASSES[self.system]
         if self.mass != "ADAPTIVE":
             return table[self.mass]
-        base = table["KILOGRAMS" if self.system == "METRIC" else "POUNDS"]
+        base = table[BASES[self.system][1]]
         return _fitting_unit([table[key] for key in ADAPTIVE_MASSES[self.system]], value, base)
 
     def _inertia(self, value: float) -> tuple[float, str]:
         masses, lengths = MASSES[self.system], LENGTHS[self.system]
         if self.mass != "ADAPTIVE" or self.length != "ADAPTIVE":
-            mass = masses.get(self.mass) or masses["KILOGRAMS" if "KILOGRAMS" in masses else "POUNDS"]
-            length = lengths.get(self.length, _base(lengths))
+            base_length, base_mass = BASES[self.system]
+            mass, length = masses.get(self.mass, masses[base_mass]), lengths.get(self.length, lengths[base_length])
             return mass[0] * length[0] ** 2, "{:s}·{:s}²".format(mass[1], length[1])
         return _fitting_unit(ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0])
-
-
-def _base(table: dict[str, tuple[float, str]]) -> tuple[float, str]:
-    return table["METERS"] if "METERS" in table else table["FEET"]
 
 
 def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
@@ -213,3 +214,24 @@ def _plain_number(value: float, decimals: int, separator: str) -> str:
         whole = "{:,d}".format(int(whole)).replace(",", separator)
     negative = value < 0.0 and text.strip("0.")
     return ("−" if negative else "") + whole + point + fraction
+
+
+def report_line(label: str, value: str, unit: str = "") -> str:
+    """Return a line of a report."""
+    return "{}{:<{}}{} {}".format(INDENT, label, REPORT_WIDTH, value, unit).rstrip()
+
+
+def report_number(value: float | None) -> str:
+    """Return an SI number for a report."""
+    return "unknown" if value is None else "{:.{}g}".format(value, REPORT_DIGITS)
+
+
+def report_vector(values: Sequence[float | None], size: float = 0.0) -> str:
+    """Return SI numbers for a report, as `clean` leaves them."""
+    return "({})".format(", ".join(report_number(value) for value in clean(values, size)))
+
+
+def clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
+    """Return the values with 0.0 for rounding beside the largest of them, or beside the body's size."""
+    largest = max([size, *(abs(value) for value in values if value is not None)])
+    return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]

@@ -22,16 +22,9 @@ from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.scans import formats as scans
 from ...core.verdict.finding import MeasureError, QueryError, finding
-from ..findings import (
-    FOURIER_OF_ARRAY,
-    OBJECT_NOT_IN_FILE,
-    PROGRESS_FACES,
-    PROGRESS_SAMPLES,
-    SHAPE_OF_STREAM,
-    STREAM_OPTIONS,
-)
+from ..findings import FOURIER_OBJECT_COUNT, OBJECT_NOT_IN_FILE, STREAM_OPTIONS
 from ..measure.objects import failure
-from ..options.file import OF_ARRAYS, unit_findings, unused_array_options, unused_options
+from ..options.file import OF_ARRAYS, body_findings, file_findings, unused, words
 from .files import STREAMED, check_file, file_suffix
 
 BYTES_PER_FACE = 500  # approximate memory for importing and measuring a mesh
@@ -61,11 +54,11 @@ class BareFile:
         names = [name] if self.options.object is None else self.options.object
         self.errors = [failure(other, finding(OBJECT_NOT_IN_FILE)) for other in names if other != name]
         if is_scan and self.options.fourier:
-            self.errors.append(failure(None, finding(FOURIER_OF_ARRAY)))
+            self.errors.append(failure(None, finding(FOURIER_OBJECT_COUNT, count=0)))
         if name not in names:
             return
         measure = self._measure_array if is_scan else self._measure_mesh
-        count = progress(self.path, PROGRESS_SAMPLES if is_scan else PROGRESS_FACES)
+        count = progress(self.path, "samples" if is_scan else "faces")
         try:
             measurement = measure(name, measure_options, count)
         except MeasureError as refusal:
@@ -73,8 +66,8 @@ class BareFile:
             self.errors.append(failure(None, refusal.finding))
             return
         requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
-        shapeless = [finding(SHAPE_OF_GRID if is_scan else SHAPE_OF_STREAM)] if requested else []
-        findings = (*measurement.findings, *unused_options(self.options, measurement), *shapeless)
+        shapeless = unused(requested) if not is_scan else [finding(SHAPE_OF_GRID)] if requested else []
+        findings = (*measurement.findings, *body_findings(self.options, measurement), *shapeless)
         measurement = replace(measurement, findings=findings)
         surface = measurement.area_moments if self.options.surface_moments else None
         more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
@@ -96,11 +89,10 @@ class BareFile:
         given = [one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")]
         given += ["overlap"] * (options.overlap == "union") + ["kind"] * (options.kind == "wire")
         if given:
-            raise QueryError(STREAM_OPTIONS, options=["--" + one.replace("_", "-") for one in given])
-        findings = [*unit_findings(self.path, options.unit_scale)]
+            raise QueryError(STREAM_OPTIONS, options=words(given))
+        findings = [*file_findings(self.path, options)]
         if options.density is None and options.mass is None and options.material is None:
             findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
-        findings += unused_array_options(options)
         wanted = replace(measure_options, unit_scale=options.unit_scale)
         return measure_mesh_file(self.path, name, wanted, tuple(findings), progress)
 

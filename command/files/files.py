@@ -19,7 +19,6 @@ import zipfile
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
 
 import addon_utils
@@ -31,20 +30,12 @@ from ...core.scans.scan import damaged
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS, STL_CUT_SHORT
 from ...core.streams.stl_text import BY_COUNT, BY_WORD
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
-from ..findings import (
-    FILE_EMPTY,
-    FILE_IS_FOLDER,
-    FILE_NEWER_VERSION,
-    FILE_VERSION_UNSUPPORTED,
-    IMPORT_FAILED,
-    IMPORTER_MISSING,
-    MISSING_REFERENCES,
-)
+from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED, IMPORT_FAILED
 from .finite import check_numbers
 from .import_3mf import import_3mf
 from .import_surfaces import import_iges, import_obj
 from .opened import Opened
-from .references import unresolved_references
+from .references import import_usd
 
 BLEND = ".blend"
 _OLDEST = (2, 50)  # reading files of older versions can damage their content
@@ -55,8 +46,7 @@ STREAMED = (".stl", ".ply")  # formats that can be measured without an import
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
-# Invisible prims are imported hidden, and a hidden object is reported; left out, it would be
-# missing without a word. Bone shapes are objects of the importer's own making.
+# Bone shapes are objects of the importer's own making.
 _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
     ".obj": import_obj,
@@ -68,10 +58,7 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
         (".glb", ".gltf"),
         lambda path: bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True),
     ),
-    **dict.fromkeys(
-        USD,
-        lambda path: bpy.ops.wm.usd_import(filepath=path, import_visible_only=False),
-    ),
+    **dict.fromkeys(USD, import_usd),
 }
 
 
@@ -101,16 +88,15 @@ def _opened(path: str) -> Opened:
         if kind in (".glb", ".gltf"):
             # An add-on that comes with Blender, and may be switched off.
             addon_utils.enable("io_scene_gltf2")
-        missing = unresolved_references(partial(_IMPORTERS[kind], absolute)) if kind in USD else []
-        found = _IMPORTERS[kind](absolute) if kind not in USD else None
+        found = _IMPORTERS[kind](absolute)
     except AttributeError as error:
-        raise FileError(IMPORTER_MISSING, suffix=kind) from error
+        raise FileError(IMPORT_FAILED, error="it has no importer for {} files".format(kind)) from error
     except RuntimeError as error:
         raise FileError(IMPORT_FAILED, error=reason(error)) from error
-    unresolved = (finding(MISSING_REFERENCES, names=missing),) if missing else ()
+    opened = found if isinstance(found, Opened) else Opened()
     if not bpy.context.scene.objects:
-        raise FileError(unresolved[0] if unresolved else finding(FILE_WITHOUT_OBJECTS, content="objects"))
-    return found if isinstance(found, Opened) else Opened(unresolved)
+        raise FileError(opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects"))
+    return opened
 
 
 def _open_blend(path: str) -> None:
@@ -155,8 +141,6 @@ def newer_version() -> Iterator[Finding]:
 def check_file(path: str) -> None:
     """Raise FileError if a file cannot be opened, or is visibly cut short."""
     kind = file_suffix(path)
-    if os.path.isdir(path):
-        raise FileError(FILE_IS_FOLDER)
     if kind != BLEND and kind not in _IMPORTERS:
         raise FileError(FILE_TYPE, suffixes=" ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES)))
     if not os.path.exists(path):
@@ -172,7 +156,7 @@ def check_file(path: str) -> None:
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
     if not size:
-        raise FileError(FILE_EMPTY)
+        raise FileError(IMPORT_FAILED, error="it is empty")
     if kind == ".stl":
         _check_stl(head, tail, size)
     elif kind == ".usdz":

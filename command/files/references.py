@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Missing references of files, and scripts that did not run.
-
-Blender opens the rest, and reports them on the standard error at most.
-"""
+"""Missing references of files. Blender opens the rest, and reports them on the standard error at most."""
 
 from __future__ import annotations
 
@@ -11,29 +8,33 @@ import os
 import re
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from functools import partial
 
 import bpy
 
 from ...core.verdict.finding import Finding, finding
-from ..findings import DRIVER_BLOCKED, MISSING_LINKS, SCRIPT_BLOCKED
+from ..findings import MISSING_REFERENCES
+from .opened import Opened
 
 # An error of composing a stage, by stage.cpp: "… -- In </A>: Could not open asset @file@ for reference …".
 _REPORT = re.compile(r"_ReportErrors at line \d+ of \S*stage\.cpp -- (.*)")
 _ASSET = re.compile(r"@([^@]+)@(<[^>]*>)?")
 
 
-def unresolved_references(import_file: Callable[[], object]) -> list[str]:
-    """Import a file, and return the names of the layers, references and payloads that were not found.
+def import_usd(path: str) -> Opened:
+    """Import a file, and return the layers, references and payloads that were not found, by USD's reports.
 
     Output to the standard error meanwhile appears there afterwards.
     """
+    # Invisible prims are imported hidden, and hidden objects are reported; left out, they would be missed in silence.
+    import_file = partial(bpy.ops.wm.usd_import, filepath=path, import_visible_only=False)
     sys.stderr.flush()
     try:
         standard_error = os.dup(2)
     except OSError:  # it is closed
         import_file()
-        return []
+        return Opened()
     with tempfile.TemporaryFile() as printed:
         os.dup2(printed.fileno(), 2)
         try:
@@ -46,16 +47,11 @@ def unresolved_references(import_file: Callable[[], object]) -> list[str]:
             text = printed.read()
             with open(2, "wb", closefd=False) as again:
                 again.write(text)
-    return names_in(text.decode("utf-8", "replace"))
-
-
-def names_in(printed: str) -> list[str]:
-    """Return the subjects of USD's reports, each once: a file, with the path of a prim that is missing in it."""
-    names = {}
-    for report in _REPORT.findall(printed):
+    names = set()  # each a file, with the path of a prim that is missing in it
+    for report in _REPORT.findall(text.decode("utf-8", "replace")):
         asset = _ASSET.search(report)
-        names["".join(part or "" for part in asset.groups()) if asset else report] = None
-    return sorted(names)
+        names.add("".join(part or "" for part in asset.groups()) if asset else report)
+    return Opened((finding(MISSING_REFERENCES, names=sorted(names)),) if names else ())
 
 
 def missing_links() -> Iterator[Finding]:
@@ -65,7 +61,7 @@ def missing_links() -> Iterator[Finding]:
     missing = {item.name_full for group in (*groups, data.node_groups) for item in group if item.is_missing}
     missing |= {path for path in _cache_paths() if not os.path.exists(path)}
     if missing:
-        yield finding(MISSING_LINKS, names=sorted(missing))
+        yield finding(MISSING_REFERENCES, names=sorted(missing))
 
 
 def _cache_paths() -> Iterator[str]:
@@ -78,23 +74,3 @@ def _cache_paths() -> Iterator[str]:
                 yield bpy.path.abspath(modifier.filepath, library=obj.library)
             elif modifier.type == "MESH_SEQUENCE_CACHE" and modifier.cache_file and not modifier.cache_file.is_sequence:
                 yield bpy.path.abspath(modifier.cache_file.filepath, library=modifier.cache_file.library)
-
-
-def blocked_scripts() -> Iterator[Finding]:
-    """Yield a finding if scripts of the open file did not run: drivers leave the saved value, or 0."""
-    if not bpy.app.autoexec_fail:
-        return
-    blocked = sorted({driver.expression for driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"})
-    if blocked:
-        yield finding(DRIVER_BLOCKED, drivers=blocked)
-    else:
-        yield finding(SCRIPT_BLOCKED, script=bpy.app.autoexec_fail_message)
-
-
-def _drivers() -> Iterator[bpy.types.Driver]:
-    """Yield the drivers of all data-blocks, except of embedded data such as nodes of materials."""
-    for prop in bpy.data.bl_rna.properties:
-        if prop.type == "COLLECTION":
-            for item in getattr(bpy.data, prop.identifier):
-                for curve in getattr(getattr(item, "animation_data", None), "drivers", ()):
-                    yield curve.driver

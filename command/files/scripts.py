@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scripts of a file that Blender opened before this program was called. Files that are opened here never run theirs."""
+"""Scripts of files: those that did not run, and those of a file that Blender opened before this program was called."""
 
 from __future__ import annotations
 
@@ -10,37 +10,49 @@ from collections.abc import Iterator, Sequence
 import bpy
 
 from ...core.verdict.finding import Finding, finding
-from ..findings import SCRIPTS_ALLOWED
+from ..findings import DRIVER_BLOCKED, SCRIPT_BLOCKED, SCRIPTS_ALLOWED
 
 _ALLOW = {"-y": True, "--enable-autoexec": True, "-Y": False, "--disable-autoexec": False}
 
 
+def blocked_scripts() -> Iterator[Finding]:
+    """Yield a finding if scripts of the open file did not run: drivers leave the saved value, or 0."""
+    if not bpy.app.autoexec_fail:
+        return
+    drivers = [driver for _, driver in _drivers() if not driver.is_valid and driver.type == "SCRIPTED"]
+    if drivers:
+        yield finding(DRIVER_BLOCKED, drivers=sorted({driver.expression for driver in drivers}))
+    else:
+        yield finding(SCRIPT_BLOCKED, script=bpy.app.autoexec_fail_message)
+
+
 def scripts_of_open_file() -> Iterator[Finding]:
     """Yield a finding if Blender was allowed to run scripts and the open file has some."""
-    if bpy.data.filepath and _allowed(sys.argv):
-        names = [*dict.fromkeys((*_texts(), *_drivers()))]
-        if names:
-            yield finding(SCRIPTS_ALLOWED, names=names)
+    if bpy.data.filepath and _are_allowed(sys.argv):
+        texts = [text.name for text in bpy.data.texts if text.use_module and text.name.endswith(".py")]
+        # Blender evaluates simple arithmetic without Python.
+        scripted = [
+            name
+            for name, driver in _drivers(embedded=True)
+            if driver.type == "SCRIPTED" and not driver.is_simple_expression
+        ]
+        if texts or scripted:
+            yield finding(SCRIPTS_ALLOWED, names=[*dict.fromkeys((*texts, *scripted))])
 
 
-def _allowed(words: Sequence[str]) -> bool:
+def _are_allowed(words: Sequence[str]) -> bool:
     """Return whether Blender's last command-line switch for scripts, or else its preferences, let files run scripts."""
     own = words[: words.index("--")] if "--" in words else words
-    said = [_ALLOW[word] for word in own if word in _ALLOW]
-    return said[-1] if said else bpy.context.preferences.filepaths.use_scripts_auto_execute
+    switches = [_ALLOW[word] for word in own if word in _ALLOW]
+    return switches[-1] if switches else bpy.context.preferences.filepaths.use_scripts_auto_execute
 
 
-def _texts() -> list[str]:
-    return [text.name for text in bpy.data.texts if text.use_module and text.name.endswith(".py")]
-
-
-def _drivers() -> Iterator[str]:
-    """Yield the names of data with drivers beyond simple arithmetic, which Blender evaluates without Python."""
-    groups = [getattr(bpy.data, one.identifier) for one in bpy.data.bl_rna.properties if one.type == "COLLECTION"]
-    for item in (item for group in groups for item in group):
-        for animated in (item, getattr(item, "node_tree", None)):
-            found = getattr(animated, "animation_data", None)
-            drivers = (curve.driver for curve in found.drivers) if found else ()
-            if any(driver.type == "SCRIPTED" and not driver.is_simple_expression for driver in drivers):
-                yield item.name_full
-                break
+def _drivers(embedded: bool = False) -> Iterator[tuple[str, bpy.types.Driver]]:
+    """Yield the drivers of all data-blocks with their owners' names, also of embedded node trees if requested."""
+    for prop in bpy.data.bl_rna.properties:
+        if prop.type != "COLLECTION":
+            continue
+        for item in getattr(bpy.data, prop.identifier):
+            for owner in (item, getattr(item, "node_tree", None) if embedded else None):
+                for curve in getattr(getattr(owner, "animation_data", None), "drivers", ()):
+                    yield item.name_full, curve.driver

@@ -16,7 +16,7 @@ from ...core.files.whole_file import partial_file, replace
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
 from ..files.files import reason
-from ..findings import ASSETS_NOT_MEASURED, FILE_NOT_SAVED
+from ..findings import ASSETS_NOT_MEASURED, RESULT_NOT_WRITTEN
 from ..supervisor.listing import COPY_SUFFIX
 
 _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
@@ -68,8 +68,8 @@ def save_copy(path: str) -> None:
     target = Path(os.path.realpath(path))
     target = target.with_name(target.stem + COPY_SUFFIX)
     try:
-        with partial_file(target, True) as partial:
+        with partial_file(target) as partial:
             bpy.ops.wm.save_as_mainfile(filepath=str(partial), copy=True, relative_remap=False, check_existing=False)
             replace(partial, target)
     except (RuntimeError, OSError) as error:
-        raise FileError(FILE_NOT_SAVED, error=reason(error)) from error
+        raise FileError(RESULT_NOT_WRITTEN, file=target.name, error=reason(error)) from error

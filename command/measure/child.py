@@ -12,8 +12,7 @@ from typing import Any
 
 import bpy
 
-from ...core.verdict.finding import Finding
-from ..files.inputs import files_read, references
+from ..files.inputs import references
 from ..interruption import Progress
 from ..options.arguments import from_record
 from ..options.checks import prepare
@@ -23,11 +22,9 @@ from .run import Run
 
 
 def serve(line: Lifeline) -> None:
-    """Work until the supervisor closes the pipe."""
+    """Work until the supervisor closes the pipe, which ends the process."""
     messages = line.messages()
-    setup = next(messages, None)
-    if setup is None:
-        return
+    setup = next(messages)
     options = from_record(setup["options"])
     said = io.StringIO()
     try:
@@ -36,24 +33,21 @@ def serve(line: Lifeline) -> None:
     except SystemExit:
         line.answer({"usage": said.getvalue()})
         return
-    run = Run(options, setup["threads"], setup["memory"], lambda file, code: _Told(file, code, line))
+    run = Run(options, setup["threads"], setup["memory"], lambda file, what: _Told(file, what, line))
     line.answer({"ready": {"blender": ".".join(map(str, bpy.app.version))}})
     for message in messages:
         with suppress(OSError):
             os.ftruncate(2, 0)  # output about the file before
             os.lseek(2, 0, os.SEEK_SET)  # needed if it is not opened for appending, as on Windows
         with line.limited(setup["seconds"]):
-            if "reads" in message:
-                line.answer({"reads": [os.fspath(path) for path in files_read([message["reads"]])]})
-            else:
-                _measure(run, message["measure"], line)
+            _measure(run, message["measure"], line)
 
 
 def _measure(run: Run, path: str, line: Lifeline) -> None:
     faults, before = run.internal_errors, state(path)
     document = run.document(path)
     head: dict[str, Any] = {"faults": run.internal_errors - faults, "state": state(path) if run.has_saved else before}
-    names = map(os.fspath, references(path, run.has_opened))
+    names = sorted(map(os.fspath, references(path, run.has_opened)))
     head["reads"] = {name: state(name) for name in names}
     line.answer(head, json.dumps(document, allow_nan=False).encode() + b"\n")
 
@@ -61,9 +55,9 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
 class _Told(Progress):
     """Progress that the supervisor is sent."""
 
-    def __init__(self, file: str, code: str, line: Lifeline) -> None:
-        super().__init__(file, code)
+    def __init__(self, file: str, what: str, line: Lifeline) -> None:
+        super().__init__(file, what)
         self._line = line
 
-    def report(self, note: Finding) -> None:
-        self._line.answer({"note": str(note)})
+    def report(self, text: str) -> None:
+        self._line.answer({"note": text})

@@ -14,8 +14,8 @@ from ...blender.bodies.flat.flat_shape import flat_shape_of
 from ...core.measurement.flat_record import flat_record
 from ...core.moments.complex_form import flusser_invariants, hu_invariants
 from ...core.moments.normalized import normalize
-from ...core.verdict.finding import Finding, MeasureError, finding
-from ..findings import POSE_OF_FLAT
+from ...core.verdict.finding import Finding, MeasureError
+from ..options.file import unused
 
 LEAST_ORDER = 2  # moments to this order are always computed
 HU_ORDER = 3  # order for Hu's invariants
@@ -51,7 +51,7 @@ def _record(
     order = options.order
     region = flat_region(obj, depsgraph, selected=False, unit=unit)
     moments = region.moments(max(order or 0, LEAST_ORDER))
-    posed = (finding(POSE_OF_FLAT),) if options.pose else ()
+    posed = unused(["pose"] if options.pose else [])
     more: dict[str, Any] = {"pose": None} if options.pose else {}
     more |= {"signature": flat_shape_of(obj, depsgraph, unit).signature().as_record()} if options.signature else {}
     invariants = []

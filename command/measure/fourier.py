@@ -17,19 +17,20 @@ from ...blender.bodies.fourier import ObjectTransform, object_transform
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
-from ...core.scans.findings import FILE_NOT_REGULAR
 from ...core.scans.numpy_files import map_array
-from ...core.streams.findings import FILE_UNREADABLE
-from ...core.verdict.finding import Finding, QueryError, finding, system_reason
+from ...core.verdict.finding import Finding, system_reason
 from ..files.own_results import guard
-from ..findings import WAVE_VECTORS_ARCHIVE, WAVE_VECTORS_TOO_MANY, WAVE_VECTORS_UNREADABLE
 from ..options.option_types import MAX_GRID
+from ..parser import UsageError
 
 MAX_WAVE_VECTORS = MAX_GRID**3
 
 
 def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] | None:
-    """Return the requested wave vectors, or None if no transform was requested. Raises MeasureError."""
+    """Return the requested wave vectors, or None if no transform was requested.
+
+    Raises MeasureError and UsageError.
+    """
     if options.fourier is None:
         return None
     dimension = 2 if options.flat else 3
@@ -50,23 +51,18 @@ def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOpt
     for _ in under_way.steps():
         pass
     transform, findings = under_way.result()
-    check = guard("fourier", options.fourier in options.forced)
-    spectrum.save(options.fourier, transform, options.frame, check, under_way.arrays)
+    spectrum.save(options.fourier, transform, options.frame, guard(options.force), under_way.arrays)
     return findings
 
 
-def _read_wave_vectors(path: Path, dimension: int = 3) -> NDArray[np.float64]:
-    """Read the wave vectors of a .npy file. Raises MeasureError."""
+def _read_wave_vectors(path: Path, dimension: int) -> NDArray[np.float64]:
+    """Read the wave vectors of a .npy file. Raises MeasureError and UsageError."""
     try:
-        if path.exists() and not path.is_file():
-            raise QueryError(WAVE_VECTORS_UNREADABLE, file=str(path), cause=finding(FILE_NOT_REGULAR).as_record())
-        with open(path, "rb") as file:
-            if is_zipfile(file):
-                raise QueryError(WAVE_VECTORS_ARCHIVE, file=str(path))
+        if not path.is_file() or is_zipfile(path):
+            raise UsageError("{} is not a .npy file".format(path))
         array = map_array(path)
     except OSError as error:
-        cause = finding(FILE_UNREADABLE, error=system_reason(error))
-        raise QueryError(WAVE_VECTORS_UNREADABLE, file=str(path), cause=cause.as_record()) from error
+        raise UsageError("{} cannot be read: {}".format(path, system_reason(error))) from error
     if array.size > 3 * MAX_WAVE_VECTORS:
-        raise QueryError(WAVE_VECTORS_TOO_MANY, count=array.size // 3, limit=MAX_WAVE_VECTORS)
+        raise UsageError("more than {} wave vectors. Use several files".format(MAX_WAVE_VECTORS))
     return wave_vectors(array, dimension)

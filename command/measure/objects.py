@@ -14,7 +14,7 @@ from ...blender.read.total_caveats import left_out_reasons
 from ...blender.read.visibility import measurable, measurable_objects
 from ...blender.settings.given import shows_collection
 from ...core.verdict.finding import Finding, finding
-from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, OBJECT_NOT_IN_SCENE, OTHER_SCENES
+from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, OBJECT_NOT_IN_FILE, OTHER_SCENES
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:
@@ -53,7 +53,7 @@ def objects_to_measure(
         matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
         chosen += [pair for pair in matches if pair not in chosen]
         if not matches:
-            errors.append(failure(name, finding(OBJECT_NOT_IN_SCENE)))
+            errors.append(failure(name, finding(OBJECT_NOT_IN_FILE)))
     return chosen, [], errors
 
 

@@ -16,20 +16,20 @@ from typing import Any
 
 import bpy
 
-from ...blender.read.robots import link_entry, object_entry
+from ...blender.read.robots import object_candidate
 from ...blender.session.robots import SceneLinks, bone_links, collection_links
 from ...blender.settings.options import MeasureOptions
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
 from ...core.robots.formats import FORMATS
-from ...core.robots.from_records import robot_name, robot_of_records
+from ...core.robots.links import assemble_robot, robot_name
 from ...core.robots.model import Robot
 from ...core.robots.write.shapes import with_primitives
 from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ...core.verdict.sentences import sentence, severity
 from ..files.output import is_stream
-from ..findings import ROBOT_MESHES_NOT_WRITTEN
+from ..findings import RESULT_NOT_WRITTEN
 from .objects import failure
 
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
@@ -60,7 +60,7 @@ def complete(
         try:
             robot, told = with_geometry(made.robot, options.format, surface_of, options.output, read, options.force)
         except OSError as error:
-            failed = [finding(ROBOT_MESHES_NOT_WRITTEN, error=system_reason(error))]
+            failed = [finding(RESULT_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error))]
     text, findings = robot_text(robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only)
     findings += failed
     for one in findings:
@@ -72,13 +72,10 @@ def complete(
 def _by_object(
     document: dict[str, Any], measured: Sequence[MeasuredObject], measure_options: MeasureOptions
 ) -> SceneLinks:
-    """From the records of objects, which get the entry `link`."""
+    """Return each measured object as a link."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
-    links = {label: link_entry(one) if obj is None else object_entry(obj, one, labels) for label, obj, one in measured}
-    for entry in document["objects"]:
-        if entry["name"] in links:
-            entry["link"] = links[entry["name"]]
-    robot, findings = robot_of_records(robot_name(document["file"]), document["objects"])
+    made = [object_candidate(label, obj, one, labels) for label, obj, one in measured]
+    robot, findings = assemble_robot(robot_name(document["file"]), sorted(made, key=lambda one: one.name))
     unit = measure_options.meters_per_unit(bpy.context.scene)
     return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
 

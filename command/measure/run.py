@@ -12,7 +12,6 @@ from __future__ import annotations
 import os
 from argparse import Namespace
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -38,24 +37,21 @@ from ...core.verdict.finding import FileError, Finding, MeasureError, finding, s
 from ..files.bare_files import BareFile, is_bare
 from ..files.files import BLEND, file_suffix, newer_version, open_file, requested_file
 from ..files.opened import Opened
-from ..files.references import blocked_scripts, missing_links
-from ..files.saving import Place, reserved
-from ..files.scripts import scripts_of_open_file
+from ..files.references import missing_links
+from ..files.saving import Place
+from ..files.scripts import blocked_scripts, scripts_of_open_file
 from ..findings import (
-    FILE_NOT_OPENED,
-    FILE_VANISHED,
     FILE_VERSION_UNSUPPORTED,
-    FOURIER_FAILED,
-    FOURIER_NOT_WRITTEN,
     FOURIER_OBJECT_COUNT,
-    MOMENTS_UNAVAILABLE,
+    IMPORT_FAILED,
+    PART_UNAVAILABLE,
+    RESULT_NOT_WRITTEN,
     RESULTS_NEED_BLEND,
-    SCENE_NEVER_SAVED,
     SOLID_OPERAND_MEASURED,
 )
 from ..interruption import Progress, check_interruption
 from ..options import density as density_options
-from ..options.file import is_unitless, unit_findings, unused_array_options, unused_options
+from ..options.file import body_findings, file_findings, is_unitless
 from . import assets, flat, fourier, robots
 from .combined import Combined, measure_combined
 from .measuring import measure_shape, measured_together
@@ -113,26 +109,23 @@ class Run:
         """Measure one file, or the open scene, and return its document."""
         file = path or bpy.data.filepath or requested_file()
         self.has_opened = self.has_saved = False
-        with self._place(path) as place:
-            found = self._measured(path, file, place)
+        found = self._measured(path, file)
         check_interruption()
         return found
 
-    def _place(self, path: str | None) -> AbstractContextManager[Place | None]:
-        """Return the context in which --write reserves the file for its results."""
-        target = path or bpy.data.filepath
+    def _place(self, path: str | None) -> Place | None:
+        """Return the state of the file that is going to take results. Raises FileError."""
         is_saved = self.options.write or self.options.asset_metadata == "file"
-        if not is_saved or path is not None and file_suffix(path) != BLEND or not os.path.isfile(target):
-            return nullcontext()
-        asked = requested_file() if path is None else None
-        at_start = asked is not None and os.path.realpath(asked) == os.path.realpath(target)
-        return reserved(target, path is None, at_start)
+        is_blend = path is None or file_suffix(path) == BLEND
+        target = path or bpy.data.filepath
+        return Place.of_file(target) if is_saved and is_blend and os.path.isfile(target) else None
 
-    def _measured(self, path: str | None, file: str | None, place: Place | None) -> dict[str, Any]:
+    def _measured(self, path: str | None, file: str | None) -> dict[str, Any]:
         measured: list[tuple[str, bpy.types.Object, Measurement]] = []
         objects, flats, errors, caveats, left_out, combined = [], [], [], [], [], Combined()
         self._status, wanted, is_opened = None, self._measure_options, False
         try:
+            place = self._place(path)
             if path is not None and is_bare(path, self.options, self.memory):
                 bare = BareFile(path, self.options)
                 bare.measure(wanted, self.progress)
@@ -149,8 +142,7 @@ class Run:
                 errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
                 of_file = (
                     *opened.notes,
-                    *unit_findings(path, self.options.unit_scale),
-                    *unused_array_options(self.options),
+                    *file_findings(path, self.options),
                     *blocked_scripts(),
                     *newer_version(),
                 )
@@ -175,7 +167,9 @@ class Run:
                 in_file, told = assets.write(of_objects | combined.measurements(), path, self.options.asset_metadata)
                 is_changed, caveats = is_changed or in_file, [*caveats, *told]
             if is_changed:
-                caveats += _save(place, file)
+                if place is None:
+                    raise FileError(RESULT_NOT_WRITTEN, file=file, error="it is gone")
+                place.save()
                 self.has_saved = True
         except MeasureError as refusal:
             errors.append(failure(None, refusal.finding))
@@ -259,12 +253,12 @@ class Run:
                 raise
             lower = replace(measure_options, order=None)
             measurement, more, of_shape = measure_shape(obj, self.options, lower)
-            errors.append(failure(label, finding(MOMENTS_UNAVAILABLE, cause=refusal.finding.as_record())))
+            errors.append(failure(label, _unavailable("moments of this order", refusal)))
             order = None
         surface = measurement.area_moments if self.options.surface_moments and order is not None else None
         findings = (
             *(*measurement.findings, *of_shape, *findings),
-            *(*self._default_density(obj, measurement), *unused_options(self.options, measurement)),
+            *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
         named = replace(measurement, name=label, findings=findings)
         if self.options.thumbnails:
@@ -286,7 +280,7 @@ class Run:
             self.has_opened = True
             return unresolved
         if file and not bpy.data.filepath:
-            raise FileError(FILE_NOT_OPENED)
+            raise FileError(IMPORT_FAILED, error="it is missing or incomplete")
         return Opened()
 
     def _fourier(
@@ -305,9 +299,10 @@ class Run:
         try:
             record.add_findings(entry, fourier.write(obj, self.options, measure_options))
         except MeasureError as refusal:
-            yield failure(label, finding(FOURIER_FAILED, cause=refusal.finding.as_record()))
+            yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
-            yield failure(label, finding(FOURIER_NOT_WRITTEN, error=system_reason(error)))
+            file = str(self.options.fourier)
+            yield failure(label, finding(RESULT_NOT_WRITTEN, file=file, error=system_reason(error)))
         except Exception as error:
             yield self._internal_error(label, error)
 
@@ -326,10 +321,8 @@ class Run:
 
         The given settings are stored too, or the results would be out of date.
         """
-        if path is not None and file_suffix(path) != BLEND:
+        if not bpy.data.filepath or path is not None and file_suffix(path) != BLEND:
             raise FileError(RESULTS_NEED_BLEND)
-        if not bpy.data.filepath:
-            raise FileError(SCENE_NEVER_SAVED)
         for label, obj, one in measured:
             try:
                 store(obj, one)
@@ -342,11 +335,6 @@ class Run:
         mark_up_to_date(bpy.context, [obj for _, obj, _ in measured])
 
 
-def _save(place: Place | None, file: str | None) -> tuple[Finding, ...]:
-    """Save the file that was opened. Returns warnings, which are on the standard error too."""
-    if place is None:
-        raise FileError(FILE_VANISHED)
-    findings = place.save()
-    for one in findings:
-        print_message(file, one)
-    return findings
+def _unavailable(part: str, refusal: MeasureError) -> Finding:
+    """Return a finding that a part of a record is missing, and why."""
+    return finding(PART_UNAVAILABLE, part=part, cause=refusal.finding.as_record())

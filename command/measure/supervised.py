@@ -22,40 +22,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...core.files.file_lock import Busy, beside, locked
+from ...core.files.whole_file import hidden_path
 from ...core.measurement.documents import failed_document
 from ...core.measurement.plain_text import PROGRAM, print_message
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
-from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
-from .. import interruption
+from ...core.verdict.finding import Finding, finding, system_reason
 from ..files import output, own_results
-from ..findings import (
-    CHILDREN_FAILED,
-    FILE_CRASHED,
-    FILE_TIMED_OUT,
-    FILE_TOOK_MEMORY,
-    INTERRUPTED,
-    INTERRUPTED_RESUMABLE,
-    ROBOT_ONE_FILE,
-    USAGE_BUSY,
-    USAGE_FOURIER_ONE_OBJECT,
-    USAGE_NO_BLENDER,
-    USAGE_OLD_FOREIGN,
-    USAGE_PATH,
-    USAGE_RESULT_NOT_WRITTEN,
-)
+from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
 from ..options import targets
-from ..options.arguments import as_record, fail, of_numbers
+from ..options.arguments import ONE_FILE, ONE_OBJECT, as_record, fail, files_of_options, of_numbers
 from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
+from ..parser import UsageError
 from ..supervisor import listing, processes
-from ..supervisor.journal import Journal, is_journal, state
+from ..supervisor.journal import Journal, locked, state
 from ..supervisor.lifeline import end_with_window
 from ..supervisor.pool import ChildError, Limits, Pool, SetupError, TaskOutcome
 from ..supervisor.progress import Progress
 
 _ROOT = __name__.removesuffix(".command.measure.supervised")
-_OLD = ".old"
 
 
 def measure(options: Namespace, channel: int, opened: str | None) -> int:
@@ -64,36 +49,31 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
     Raises SystemExit if the options are wrong, and KeyboardInterrupt.
     """
     end_with_window()
-    with interruption.stopped_by_signals():
-        targets.check_places(options)
-        paths = files_of(options)
-        command = processes.child_command(_blender(options))
-        if command is None:
-            fail(finding(USAGE_NO_BLENDER))
-        read = [path for path in (*paths, opened, options.q, *_positions(options)) if path]
-        replaced = targets.files_to_replace(options, read)
-        with ExitStack() as ends:
-            places = _Places(options, ends)
-            run = _Supervised(options, paths, command, places)
-            try:
-                if replaced:
-                    targets.check_dependencies(replaced, run.dependencies())
-                return run.measure(channel)
-            except SetupError as error:
-                sys.stderr.write(str(error))
-                raise SystemExit(2) from error
-            except ChildError as error:
-                print_message(finding(CHILDREN_FAILED, reason=str(error)))
-                return 2
-            except OSError as error:  # the journal cannot be written, as on a full disk
-                print_message(finding(USAGE_RESULT_NOT_WRITTEN, error=system_reason(error)))
-                return 1
-            except KeyboardInterrupt:
-                if places.journal_is_kept:
-                    print_message(finding(INTERRUPTED_RESUMABLE, done=run.done, total=len(run.tasks)))
-                else:
-                    print_message(finding(INTERRUPTED))
-                return 3
+    paths = files_of(options)
+    command = processes.child_command(_blender(options))
+    if command is None:
+        fail("No module named 'bpy' is here. Use --blender PATH, or install it")
+    targets.check_targets(options, files_of_options(options, paths, opened))
+    with ExitStack() as ends:
+        places = _Places(options, ends)
+        run = _Supervised(options, paths, command, places)
+        try:
+            return run.measure(channel)
+        except SetupError as error:
+            sys.stderr.write(str(error))
+            return 2
+        except ChildError as error:
+            print_message("no process that measures can be started: {}".format(error))
+            return 2
+        except OSError as error:  # the journal cannot be written, as on a full disk
+            print_message("the result cannot be written: {}".format(system_reason(error)))
+            return 1
+        except KeyboardInterrupt:
+            if not places.journal_is_kept:
+                raise
+            text = "interrupted after {} of {} files; the result was not written. Run the same with --resume to go on"
+            print_message(text.format(run.done, len(run.tasks)))
+            return 3
 
 
 def files_of(options: Namespace) -> list[str]:
@@ -102,17 +82,17 @@ def files_of(options: Namespace) -> list[str]:
         paths = [*listing.expand(options.files)]
         if options.manifest is not None:
             paths += listing.read(options.manifest)
-    except MeasureError as error:
-        fail(error)
+    except UsageError as error:
+        fail(str(error))
+    except OSError as error:
+        fail("{}: {}".format(error.filename, system_reason(error)))
     if options.range is not None:
         paths = paths[slice(*options.range)]
-    is_open_file_meant = not options.files and options.manifest is None
-    if is_open_file_meant or len(paths) == 1:
-        return paths
-    if options.fourier is not None:
-        fail(finding(USAGE_FOURIER_ONE_OBJECT))
-    if options.format in ROBOT_FORMATS:
-        fail(finding(ROBOT_ONE_FILE, count=len(paths)))
+    if len(paths) != 1 and (options.files or options.manifest is not None):
+        if options.fourier is not None:
+            fail(ONE_OBJECT)
+        if options.format in ROBOT_FORMATS:
+            fail(ONE_FILE.format(options.format))
     return paths
 
 
@@ -132,46 +112,39 @@ class _Places:
 
     def __init__(self, options: Namespace, ends: ExitStack) -> None:
         self._replaced: list[Path] = []
-        target = options.output
-        self.journal_is_kept = not output.is_stream(target)
-        if target is None or not self.journal_is_kept:
-            folder = Path(tempfile.mkdtemp(prefix="body_moments_"))
-            ends.callback(shutil.rmtree, folder, ignore_errors=True)
+        self.journal_is_kept = not output.is_stream(options.output)
+        if not self.journal_is_kept:
+            folder = Path(ends.enter_context(tempfile.TemporaryDirectory(prefix="body_moments_")))
             self.work, self.journal = folder / "work", folder / "journal"
             return
-        target = target.resolve()
-        self.work, self.journal = beside(target, "body_moments.work"), target.with_name(target.name + ".journal")
+        target = options.output.resolve()
+        folder, self.journal = hidden_path(target, "body_moments.work"), target.with_name(target.name + ".journal")
+        self.work = folder / "work"
         try:
-            ends.enter_context(locked(self.journal, 0.0))
+            ends.enter_context(locked(folder))
             shutil.rmtree(self.work, ignore_errors=True)  # left behind by a run that was killed
-            _check_ours(self.journal, options.force)
+            kept = [self.journal]
             if not options.resume:
-                forced = [path.resolve() for path in options.forced]
-                self._replaced = [path for path in (target, self.journal) if path not in forced]
-                for path in self._replaced:
-                    _check_ours(path.with_name(path.name + _OLD), options.force)
-        except Busy:
-            fail(finding(USAGE_BUSY, path=str(target)))
+                is_older = target.is_file() and own_results.is_result(target)
+                self._replaced = [self.journal, *([target] if is_older else [])]
+                kept += map(_old, self._replaced)
+            for path in kept:
+                if not (options.force or own_results.is_replaceable(path)):
+                    fail("argument --output: {} is in the way, and no result. Move it, or use --force".format(path))
+        except BlockingIOError:
+            fail("argument --output: another run is writing {}. Use another name, or wait".format(target))
         except OSError as error:  # a name that is too long with what is added to it
-            fail(finding(USAGE_PATH, path=str(error.filename or target), error=system_reason(error)))
+            fail("argument --output: {}: {}".format(error.filename or target, system_reason(error)))
 
     def set_aside(self) -> None:
         """Keep files of an earlier run as .old. Raises OSError."""
         for path in self._replaced:
-            if path.exists() and not own_results.is_empty(path):
-                os.replace(path, path.with_name(path.name + _OLD))
+            if path.exists():
+                os.replace(path, _old(path))
 
 
-def _check_ours(path: Path, force: bool) -> None:
-    """End with a message if a file to be replaced is no journal or result. Raises OSError."""
-    try:
-        os.lstat(path)
-    except FileNotFoundError:
-        return
-    if force:
-        return
-    if not path.is_file() or not (is_journal(path) or own_results.replaceable(path, "output")):
-        fail(finding(USAGE_OLD_FOREIGN, path=str(path)))
+def _old(path: Path) -> Path:
+    return path.with_name(path.name + ".old")
 
 
 class _Supervised:
@@ -193,21 +166,9 @@ class _Supervised:
             return int(self._options.memory_mb * 1e6)
         return processes.memory_share(self._count)
 
-    def dependencies(self) -> Iterator[str]:
-        """Yield the files that are read with the named ones, as far as children find out."""
-        with self._pool("reads") as pool:
-            pool.add(self.tasks)
-            while not pool.is_done:
-                for outcome in pool.step():
-                    yield from outcome.head.get("reads", ())
-
-    def _pool(self, verb: str = "measure") -> Pool:
-        return Pool(self._command, self._count, self._setup, self._limits, self._places.work, verb)
-
     def measure(self, channel: int) -> int:
         """Measure the files missing in the journal, write the result, and return the exit code."""
-        with ExitStack() as ends:
-            pool = ends.enter_context(self._pool())
+        with Pool(self._command, self._count, self._setup, self._limits, self._places.work) as pool:
             if not self._options.resume:
                 pool.add(self.tasks)
             if self.tasks:
@@ -237,14 +198,19 @@ class _Supervised:
         while not pool.is_done:
             for outcome in pool.step():
                 status, reason, text = self._recorded(outcome, blender)
-                key = {"path": outcome.task, **outcome.head.get("state", state(outcome.task)), **common}
-                reads = outcome.head.get("reads")
-                journal.append(key, status, outcome.attempts, outcome.seconds, limits, text, reads)
+                head = {
+                    "key": {"path": outcome.task, **outcome.head.get("state", state(outcome.task)), **common},
+                    "status": status,
+                    "attempts": outcome.attempts,
+                    "seconds": round(outcome.seconds, 6),
+                    "limits": limits,
+                    "reads": outcome.head.get("reads", {}),
+                }
+                journal.append(head, text)
                 self.done += 1
-                progress.add(status)
-                self._report(progress, outcome, reason)
+                progress.count_file(status)
+                self._report(outcome, reason)
             for file, note in pool.notes:
-                progress.clear()
                 print_message(file, note)
             pool.notes.clear()
             progress.show()
@@ -267,7 +233,7 @@ class _Supervised:
         document = failed_document(outcome.task, str(reason), outcome.status, **values)
         return outcome.status, reason, json.dumps(document).encode()
 
-    def _report(self, progress: Progress, outcome: TaskOutcome, reason: Finding | None) -> None:
+    def _report(self, outcome: TaskOutcome, reason: Finding | None) -> None:
         """Print the reason for a failed file, else the messages of its child.
 
         After an internal error, print all output of the child.
@@ -275,21 +241,17 @@ class _Supervised:
         faults = outcome.head.get("faults", 0)
         self._faults += faults
         if reason is not None:
-            progress.clear()
             print_message(outcome.task, reason)
             return
         lines = outcome.said.splitlines(keepends=True)
-        shown = "".join(line for line in lines if faults or line.startswith(PROGRAM + ": "))
-        if shown:
-            progress.clear()
-            sys.stderr.write(shown)
+        sys.stderr.write("".join(line for line in lines if faults or line.startswith(PROGRAM + ": ")))
 
     def _write(self, journal: Journal, channel: int) -> bool:
         """Write the result, and return whether it could be written."""
         options = self._options
         documents = _Documents(journal, self._paths)
-        check = own_results.guard("output", options.output in options.forced)
-        return output.written(FORMATS[options.format](documents), options.output, channel, check)
+        text = FORMATS[options.format](documents)
+        return output.write_result(text, options.output, channel, own_results.guard(options.force))
 
 
 @dataclass
@@ -305,18 +267,12 @@ class _Documents:
 
 def _is_recorded(journal: Journal, path: str, common: dict[str, Any], limits: dict[str, Any]) -> bool:
     entry = journal.entries.get(path)
-    same = entry is not None and entry.serves({"path": path, **state(path), **common}, limits)
-    return same and journal.is_current(path)
-
-
-def _positions(options: Namespace) -> list[str]:
-    """Return the files of positions of samples."""
-    return [path for _, path in options.positions or ()]
+    return entry is not None and entry.serves({"path": path, **state(path), **common}, limits)
 
 
 def _digest(options: Namespace) -> str:
     """Return a digest of everything besides the file that changes the numbers."""
-    positions = [state(path) for path in _positions(options)]
+    positions = [state(path) for _, path in options.positions or ()]
     text = json.dumps([of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 

@@ -13,25 +13,18 @@ from dataclasses import replace
 import bpy
 
 from ...blender.settings.limits import scan_limits
-from ...core.verdict.finding import MeasureError, finding
-from ..files import inputs
-from ..findings import USAGE_VALUE
+from ...core.verdict.finding import MeasureError
 from ..measure import fourier
+from ..parser import UsageError
 from . import density as density_options
 from . import targets
-from .arguments import fail
+from .arguments import fail, files_of_options
 
 
 def check(options: Namespace) -> None:
-    """All of it, for a process that measures and writes by itself."""
-    targets.check_places(options)
+    """Check everything, for a process that measures and writes by itself."""
     prepare(options)
-    # Also the file that is open, whether or not it is measured, and that of the wave vectors.
-    positions = (path for _, path in options.positions or ())
-    read = [path for path in (*options.files, bpy.data.filepath, options.q, *positions) if path]
-    replaced = targets.files_to_replace(options, read)
-    # Opening what is measured takes its time, and only here does it matter what that reads.
-    targets.check_dependencies(replaced, inputs.files_read(options.files) if replaced else ())
+    targets.check_targets(options, files_of_options(options, options.files, bpy.data.filepath))
 
 
 def prepare(options: Namespace) -> None:
@@ -39,10 +32,9 @@ def prepare(options: Namespace) -> None:
     try:
         density_options.check(options)
         options.limits = replace(scan_limits(), allow_outside=options.allow_outside)
-    except MeasureError as error:
-        fail(error)
+    except (MeasureError, UsageError) as error:
+        fail(str(error))
     try:
         options.waves = fourier.wave_vectors_of(options)
-    except MeasureError as error:
-        name = "grid" if options.q is None else "q"
-        fail(finding(USAGE_VALUE, option=name, cause=error.finding.as_record()))
+    except (MeasureError, UsageError) as error:
+        fail("argument --{}: {}".format("grid" if options.q is None else "q", error))

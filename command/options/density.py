@@ -14,14 +14,15 @@ import bpy
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
 from ...core.verdict.finding import QueryError
-from ..findings import DENSITY_VOLUME_UNKNOWN, MATERIAL_UNKNOWN
+from ..findings import DENSITY_VOLUME_UNKNOWN
+from ..parser import UsageError
 from .option_types import split_source
 
 
 def check(options: Namespace) -> None:
-    """Raise MeasureError if there is no such material, or the polynomial cannot be read."""
+    """Raise UsageError if there is no such material, or MeasureError if the polynomial cannot be read."""
     if options.material is not None and options.material not in BY_NAME:
-        raise QueryError(MATERIAL_UNKNOWN, name=options.material, names=sorted(BY_NAME))
+        raise UsageError("There is no material “{}”. Known are {}".format(options.material, ", ".join(sorted(BY_NAME))))
     if options.polynomial is not None:
         parse_polynomial(options.polynomial)
 

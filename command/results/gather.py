@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Commands that prepare and gather the results of many files: `manifest`, `merge`, `to-csv`, `summary` and `report`.
 
-Results are files of `measure` as json or jsonl, and journals. Standard library only. They are read again each time they
-are needed, so that never all of them are in memory.
+Results are files of `measure` as json or jsonl, and journals. Standard library only.
 """
 
 from __future__ import annotations
@@ -12,117 +11,23 @@ import argparse
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...core.measurement.documents import SCHEMA, to_csv, to_json_lines
 from ...core.measurement.page import to_html
-from ...core.measurement.plain_text import counted, print_message, visible
-from ...core.robots.findings import RESULT_FOREIGN_FILE
-from ...core.verdict.finding import MeasureError, QueryError, finding, system_reason
-from ..files import output, own_results
-from ..findings import COMPARE_TWO, RESULTS_MALFORMED, RESULTS_UNREADABLE
+from ...core.measurement.plain_text import counted, visible
+from ...core.verdict.finding import system_reason
 from ..options.option_types import positive
-from ..parser import Parser
+from ..parser import Parser, UsageError
 from ..supervisor import journal, listing
 from . import compare
 
 _LISTED = 10  # files in each part of a summary
+Entry = tuple[dict[str, Any], dict[str, Any]]  # a document, and its `attempts` and `seconds` from a journal
 
 
-@dataclass(frozen=True)
-class Results:
-    """The documents of some files of results, in order; of two about one file the later counts.
-
-    Documents from a journal have `attempts` and `seconds` beside them.
-    """
-
-    paths: tuple[Path, ...]
-
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        return (document for document, _ in self.entries())
-
-    def entries(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        """Yield each document with its `attempts` and `seconds` from a journal. Raises QueryError."""
-        last: dict[Any, int] = {}
-        for number, (document, _) in enumerate(self._all()):
-            last[document.get("file")] = number
-        first = {file: number for number, file in enumerate(dict.fromkeys(last))}
-        waiting: dict[int, tuple[dict[str, Any], dict[str, Any]]] = {}
-        due = 0
-        for number, (document, about) in enumerate(self._all()):
-            file = document.get("file")
-            if last[file] != number:
-                continue
-            waiting[first[file]] = (document, about)
-            while due in waiting:
-                yield waiting.pop(due)
-                due += 1
-
-    def _all(self) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-        for path in self.paths:
-            try:
-                yield from _documents(path)
-            except OSError as error:
-                raise QueryError(RESULTS_UNREADABLE, file=str(path), error=system_reason(error)) from error
-            except (ValueError, KeyError, TypeError, RecursionError) as error:
-                raise QueryError(RESULTS_MALFORMED, file=str(path)) from error
-
-
-def _documents(path: Path) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
-    """Read the documents of one file: an object, an array, or one object a line.
-
-    Raises ValueError, KeyError, TypeError and OSError.
-    """
-    with open(path, encoding="utf-8", errors="surrogateescape") as file:
-        begin = file.read(2)
-        file.seek(0)
-        found: Iterable[Any]
-        if begin[:1] == "[" or begin == "{\n":
-            whole = json.load(file)
-            found = whole if isinstance(whole, list) else [whole]
-        else:
-            found = (json.loads(line) for line in file if line.strip())
-        for entry in found:
-            about: dict[str, Any] = {}
-            if entry["schema"] == journal.SCHEMA:
-                about = {name: entry[name] for name in ("attempts", "seconds")}
-                entry = entry["document"]
-            if entry["schema"] != SCHEMA:
-                raise ValueError(path)
-            yield entry if "status" in entry else {**entry, "status": "error" if entry["errors"] else "ok"}, about
-
-
-def run(argv: list[str], channel: int) -> int:
-    """Do one of the commands, and return the exit code."""
-    options = _parse(argv)
-    try:
-        pieces, failed = _COMMANDS[argv[0]](options)
-        # The pieces are made while they are written.
-        written = output.written(pieces, options.output, channel, _guard(options))
-    except MeasureError as error:
-        print_message(error)
-        return 2
-    return 1 if failed or not written else 0
-
-
-def _guard(options: argparse.Namespace) -> Callable[[Path], None]:
-    def check(path: Path) -> None:
-        ours = own_results.is_empty(path) or own_results.replaceable(path, "output") or _is_made_here(path)
-        if not ours and not options.force:
-            raise FileExistsError(str(finding(RESULT_FOREIGN_FILE, path=str(path))))
-
-    return check
-
-
-def _is_made_here(path: Path) -> bool:
-    with open(path, "rb") as file:
-        head = file.read(200)
-    return listing.SCHEMA.encode() in head or b"<!doctype html><!-- Body Moments" in head
-
-
-def _parse(argv: list[str]) -> argparse.Namespace:
+def parse(argv: list[str]) -> argparse.Namespace:
     """Return the options. Raises SystemExit(2), or HelpRequested."""
     command = argv[0]
     names = "FOLDER" if command == "manifest" else "RESULT"
@@ -147,17 +52,60 @@ def _parse(argv: list[str]) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def _results(options: argparse.Namespace) -> Results:
-    found = Results(tuple(map(Path, options.paths)))
-    for _ in found:  # check that all can be read, before anything is written
-        pass
-    return found
+def answer(options: argparse.Namespace) -> tuple[Iterable[str], int]:
+    """Return the text in pieces, and the exit code. Raises UsageError."""
+    return _COMMANDS[options.command](options)
 
 
-def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
+def _read(paths: Iterable[str]) -> list[Entry]:
+    """Return the documents of some files of results, in order; of two about one file the later counts."""
+    entries: dict[str | None, Entry] = {}
+    for path in paths:
+        try:
+            entries.update((document["file"], (document, about)) for document, about in _read_file(path))
+        except OSError as error:
+            raise UsageError("The results {} cannot be read: {}".format(path, system_reason(error))) from error
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
+            text = "{} is not a result of body_moments. Name what “measure” has written"
+            raise UsageError(text.format(path)) from error
+    return [*entries.values()]
+
+
+def _documents(options: argparse.Namespace) -> list[dict[str, Any]]:
+    return [document for document, _ in _read(options.paths)]
+
+
+def _read_file(path: str) -> Iterator[Entry]:
+    """Read the documents of one file: an object, an array, or one object a line.
+
+    Raises ValueError, KeyError, TypeError and OSError.
+    """
+    with open(path, encoding="utf-8", errors="surrogateescape") as file:
+        begin = file.read(2)
+        file.seek(0)
+        found: Iterable[Any]
+        if begin[:1] == "[" or begin == "{\n":
+            whole = json.load(file)
+            found = whole if isinstance(whole, list) else [whole]
+        else:
+            found = (json.loads(line) for line in file if line.strip())
+        for entry in found:
+            about: dict[str, Any] = {}
+            if entry["schema"] == journal.SCHEMA:
+                about = {name: entry[name] for name in ("attempts", "seconds")}
+                entry = entry["document"]
+            if entry["schema"] != SCHEMA:
+                raise ValueError(path)
+            yield entry if "status" in entry else {**entry, "status": "error" if entry["errors"] else "ok"}, about
+
+
+def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     folder = options.output.parent if options.output else Path()
-    found = list(dict.fromkeys(listing.expand(options.paths)))
-    return listing.write_lines(_as_seen_from(folder, path) for path in found), False
+    try:
+        found = list(dict.fromkeys(listing.expand(options.paths)))
+    except OSError as error:
+        raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
+    return listing.write_lines(_as_seen_from(folder, path) for path in found), 0
 
 
 def _as_seen_from(folder: Path, path: str) -> str:
@@ -167,7 +115,7 @@ def _as_seen_from(folder: Path, path: str) -> str:
     return str(Path(path).absolute())
 
 
-def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
+def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     """Return counts by status and method, the slowest, the widest bounds, findings by code."""
     statuses: Counter[str] = Counter()
     methods: Counter[str] = Counter()
@@ -175,7 +123,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
     slowest: list[tuple[float, str]] = []
     widest: list[tuple[float, str]] = []
     failed: list[str] = []
-    for document, about in _results(options).entries():
+    for document, about in _read(options.paths):
         file = document["file"] or "-"
         statuses[document["status"]] += 1
         if document["status"] != "ok" and len(failed) < _LISTED:
@@ -200,7 +148,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
     if widest:
         lines += ["", "Widest bounds of the volume or area, of its size:"]
         lines += ["{:>10.1e}  {}".format(*one) for one in widest]
-    return (visible(line) + "\n" for line in lines), False
+    return (visible(line) + "\n" for line in lines), 0
 
 
 def _bound(entry: dict[str, Any]) -> float | None:
@@ -211,25 +159,25 @@ def _bound(entry: dict[str, Any]) -> float | None:
     return sum(known) if known else None
 
 
-def _compare(options: argparse.Namespace) -> tuple[Iterable[str], bool]:
+def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     if len(options.paths) != 2:
-        raise QueryError(COMPARE_TWO)
-    first, second = (Results((Path(path),)) for path in options.paths)
+        raise UsageError("“compare” takes two results")
+    first, second = ([document for document, _ in _read([path])] for path in options.paths)
     lines, failed = compare.differences(first, second, options.tolerance, options.align)
-    return (visible(line) + "\n" for line in lines), failed
+    return (visible(line) + "\n" for line in lines), int(failed)
 
 
 def _counted(counts: Counter[str]) -> str:
     return ", ".join("{} {}".format(count, name) for name, count in counts.most_common()) or "-"
 
 
-_COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], bool]]] = {
+_COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], int]]] = {
     "manifest": _manifest,
-    "merge": lambda options: (to_json_lines(_results(options)), False),
-    "to-csv": lambda options: (to_csv(_results(options)), False),
+    "merge": lambda options: (to_json_lines(_documents(options)), 0),
+    "to-csv": lambda options: (to_csv(_documents(options)), 0),
     "summary": _summary,
     "compare": _compare,
-    "report": lambda options: (to_html(_results(options)), False),
+    "report": lambda options: (to_html(_documents(options)), 0),
 }
 _DESCRIPTIONS = {
     "manifest": "Lists the files in folders that can be measured, for `measure --manifest LIST --range A:B`.",

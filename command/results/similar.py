@@ -9,11 +9,10 @@ from pathlib import Path
 
 from ...core.measurement.plain_text import print_message, visible
 from ...core.shape.library import Entry, classify, rank, read_library
-from ...core.verdict.finding import QueryError, system_reason
+from ...core.verdict.finding import system_reason
 from ...core.verdict.sentences import SIMILARITY
-from ..findings import LIBRARY_UNREADABLE, NAME_AMBIGUOUS, NAME_NOT_IN_LIBRARY
 from ..options.option_types import count
-from ..parser import Parser
+from ..parser import Parser, UsageError
 
 _COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
 
@@ -42,14 +41,14 @@ def parse(argv: list[str]) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def answer(options: argparse.Namespace) -> tuple[str, int]:
-    """Return the table, and the number of records that could not be compared. Raises MeasureError."""
+def answer(options: argparse.Namespace) -> tuple[list[str], int]:
+    """Return the table, and the exit code: 1 if some records could not be compared. Raises UsageError."""
     entries, failures = [], []
     for path in options.libraries:
         try:
             readable, missing = read_library(path)
         except OSError as error:
-            raise QueryError(LIBRARY_UNREADABLE, file=str(path), error=system_reason(error)) from error
+            raise UsageError("{} cannot be read: {}".format(path, system_reason(error))) from error
         entries += readable
         failures += missing
     for failure in failures:
@@ -62,13 +61,14 @@ def answer(options: argparse.Namespace) -> tuple[str, int]:
         distance = "{:.3e}".format(likeness.distance(options.any_size, options.any_hand))
         similarity = SIMILARITY[classify(likeness)]
         lines.append(_COLUMNS.format(distance, "{:.4g}".format(likeness.scale), similarity, visible(entry.label)))
-    return "".join(lines), len(failures)
+    return lines, 1 if failures else 0
 
 
 def _entry_by_name(entries: list[Entry], name: str) -> Entry:
     named = [entry for entry in entries if entry.name == name] or [entry for entry in entries if entry.label == name]
     if not named:
-        raise QueryError(NAME_NOT_IN_LIBRARY, name=name)
+        raise UsageError("No body named {} has a signature".format(name))
     if len(named) > 1:
-        raise QueryError(NAME_AMBIGUOUS, name=name, names=[entry.label for entry in named])
+        labels = ", ".join(entry.label for entry in named)
+        raise UsageError("Several bodies are named {}. Use one of {}".format(name, labels))
     return named[0]

@@ -9,43 +9,45 @@ document. A line that is torn or damaged counts as none; of two with one path th
 
 from __future__ import annotations
 
+import errno
 import json
 import os
+import shutil
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+if os.name == "nt":
+    import msvcrt
+else:
+    import fcntl
+
 SCHEMA = "body-moments-journal/1"
 _SYNC = 1.0  # seconds between waits for the disk
-_BEYOND = {"timeout": "seconds", "memory": "memory"}  # statuses that a higher limit may change
+_WITHOUT_LOCKS = (errno.ENOLCK, errno.ENOSYS, errno.EINVAL, errno.ENOTSUP)
+_LIMITED = ("timeout", "memory")  # statuses that other limits may change
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One file's line without its document.
+    """One file's line, without its document. offset, length: position of the line."""
 
-    refers: whether the file refers to others. offset, length: position of the line.
-    """
-
-    key: dict[str, Any]
-    status: str
-    attempts: int
-    seconds: float
-    limits: dict[str, Any]
-    refers: bool
+    head: dict[str, Any]
     offset: int
     length: int
 
+    @property
+    def status(self) -> str:
+        """The status of the file's document."""
+        return self.head["status"]
+
     def serves(self, key: dict[str, Any], limits: dict[str, Any]) -> bool:
         """Return whether measuring the file again would give the same result."""
-        name = _BEYOND.get(self.status)
-        if name is not None:
-            before, now = self.limits.get(name), limits[name]
-            if before is not None and (now is None or now > before):
-                return False
-        return self.key == key
+        is_same = self.head["key"] == key and (self.status not in _LIMITED or self.head["limits"] == limits)
+        return is_same and all(state(name) == before for name, before in self.head["reads"].items())
 
 
 class Journal:
@@ -53,66 +55,45 @@ class Journal:
 
     def __init__(self, path: Path) -> None:
         self.entries: dict[str, Entry] = {}
-        flags = os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
-        self._file = open(os.open(path, flags, 0o666), "r+b")  # noqa: SIM115
-        end = 0
-        for offset, line in _lines(self._file):
-            end = offset + len(line)
-            entry = _entry(line, offset)
-            if entry is not None:
-                self.entries[entry.key["path"]] = entry
-        self._file.seek(max(0, end - 1))
-        self._torn = bool(end) and self._file.read(1) != b"\n"
+        self._file = open(path, "a+b")  # noqa: SIM115
+        self._file.seek(0)
+        end, self._torn = 0, False
+        for line in self._file:
+            with suppress(ValueError, KeyError, TypeError, RecursionError):  # it is torn, damaged or foreign
+                self._add(json.loads(line), end, len(line))
+            end += len(line)
+            self._torn = not line.endswith(b"\n")
         self._synced = time.monotonic()
 
-    def append(
-        self,
-        key: dict[str, Any],
-        status: str,
-        attempts: int,
-        seconds: float,
-        limits: dict[str, Any],
-        document: bytes,
-        reads: dict[str, Any] | None = None,
-    ) -> None:
+    def _add(self, record: dict[str, Any], offset: int, length: int) -> None:
+        head = {name: record[name] for name in ("key", "status", "limits", "reads")}
+        if record["schema"] == SCHEMA:
+            self.entries[head["key"]["path"]] = Entry(head, offset, length)
+
+    def append(self, head: dict[str, Any], document: bytes) -> None:
         """Append the line of a finished file.
 
-        document: JSON on one line. reads: the files that the file refers to, each with its `state`. Raises OSError.
+        head: its key, status, attempts, seconds, limits, and `reads`, the files that it refers to, each with its
+        `state`. document: JSON on one line. Raises OSError.
         """
-        head = {
-            "schema": SCHEMA,
-            "key": key,
-            "status": status,
-            "attempts": attempts,
-            "seconds": round(seconds, 6),
-            "limits": limits,
-            "reads": reads or {},
-        }
-        line = json.dumps(head)[:-1].encode() + b', "document": ' + document.strip() + b"}\n"
+        record = {"schema": SCHEMA, **head}
+        line = json.dumps(record)[:-1].encode() + b', "document": ' + document.strip() + b"}\n"
         offset = self._file.seek(0, os.SEEK_END)
         if self._torn:
             offset += self._file.write(b"\n")
             self._torn = False
         self._file.write(line)
         self._file.flush()
-        self.entries[key["path"]] = Entry(key, status, attempts, seconds, limits, bool(reads), offset, len(line))
+        self._add(record, offset, len(line))
         if time.monotonic() > self._synced + _SYNC:
             os.fsync(self._file.fileno())
             self._synced = time.monotonic()
 
     def document(self, path: str) -> dict[str, Any]:
         """Return the document of a file that is recorded. Raises OSError."""
-        return self._line(path)["document"]
-
-    def is_current(self, path: str) -> bool:
-        """Return whether the references of a recorded file are unchanged. Raises OSError."""
-        reads = self._line(path)["reads"] if self.entries[path].refers else {}
-        return all(state(name) == before for name, before in reads.items())
-
-    def _line(self, path: str) -> dict[str, Any]:
         entry = self.entries[path]
         self._file.seek(entry.offset)
-        return json.loads(self._file.read(entry.length))
+        return json.loads(self._file.read(entry.length))["document"]
 
     def __enter__(self) -> Journal:
         return self
@@ -132,38 +113,27 @@ def state(path: str) -> dict[str, int | None]:
     return {"size": status.st_size, "mtime_ns": status.st_mtime_ns}
 
 
-def is_journal(path: Path) -> bool:
-    """Return whether a file is empty, or begins as a journal does. Raises OSError."""
-    start = json.dumps({"schema": SCHEMA})[:-1].encode()
-    with open(path, "rb") as file:
-        return file.read(len(start)) in (b"", start)
+@contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Keep a folder for the files of one unfinished run within the block, and remove it afterwards.
 
-
-def _lines(file: Any) -> Iterator[tuple[int, bytes]]:
-    offset = 0
-    for line in file:
-        yield offset, line
-        offset += len(line)
-
-
-def _entry(line: bytes, offset: int) -> Entry | None:
-    """Return the entry of a line, or None if it is damaged or foreign."""
-    if not line.endswith(b"\n"):
-        return None
-    try:
-        record = json.loads(line)
-        if record["schema"] != SCHEMA or not isinstance(record["document"], dict):
-            return None
-        entry = Entry(
-            dict(record["key"]),
-            str(record["status"]),
-            int(record["attempts"]),
-            float(record["seconds"]),
-            dict(record["limits"]),
-            bool(record.get("reads")),
-            offset,
-            len(line),
-        )
-        return entry if isinstance(entry.key["path"], str) else None
-    except (ValueError, KeyError, TypeError, RecursionError):
-        return None
+    The lock is one of the operating system: it ends with its process, however that ends. A file system without locks is
+    used without one. Raises BlockingIOError if another run has the folder, and OSError.
+    """
+    folder.mkdir(exist_ok=True)
+    with open(folder / "lock", "wb") as file:
+        try:
+            if os.name == "nt":
+                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
+            else:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except (BlockingIOError, PermissionError) as error:  # the latter on Windows
+            raise BlockingIOError from error
+        except OSError as error:
+            if error.errno not in _WITHOUT_LOCKS:
+                raise
+        try:
+            yield
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+    shutil.rmtree(folder, ignore_errors=True)  # Windows cannot remove open files

@@ -2,19 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A child's end of the pipes to its supervisor.
 
-The child ends when the supervisor does, however that ended, also within a file that Blender never comes back from.
-
-On Linux the system itself sends a signal when the other end of a pipe closes, which nothing needs to run for. Elsewhere
-a thread waits for that. Either way, a file that takes longer than it may ends the process.
+The child ends when the supervisor does, however that ended. On Linux the system itself sees to that, also within a
+file that Blender never comes back from. Elsewhere a thread waits for the end of the pipe, and a file that takes longer
+than it may ends the process.
 """
 
 from __future__ import annotations
 
+import ctypes
 import faulthandler
 import json
 import os
 import queue
-import select
 import signal
 import sys
 from collections.abc import Iterator
@@ -23,62 +22,43 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 MARK = b"\x1e"  # begins an answer; what Blender prints before it comes to us does not
-WINDOW = "BODY_MOMENTS_WATCHED"  # a variable of the environment: the descriptor that such a run watches
+WINDOW = "BODY_MOMENTS_WINDOW"  # a variable of the environment: set in a run that ends with the process that started it
 _LATE = 5.0  # seconds after which a child ends itself whose supervisor should have ended it
-
-try:
-    import fcntl
-except ImportError:  # Windows
-    fcntl = None
-BY_SIGNAL = sys.platform.startswith("linux")  # elsewhere that signal is ignored, or there is none
+_PR_SET_PDEATHSIG = 1  # of Linux: the signal that a process gets when the one that started it ends
 
 
-def end_with(watched: int) -> None:
-    """From now on this process ends when the other end of a pipe closes, on which nothing ever comes. Linux alone."""
-    if fcntl is None:
-        return
-    signal.signal(signal.SIGIO, signal.SIG_DFL)
-    fcntl.fcntl(watched, fcntl.F_SETOWN, os.getpid())
-    fcntl.fcntl(watched, fcntl.F_SETFL, fcntl.fcntl(watched, fcntl.F_GETFL) | os.O_ASYNC)
-    ready = select.poll()
-    ready.register(watched, select.POLLHUP)  # the other end is closed already
-    if ready.poll(0):
-        os._exit(0)
+def end_with_parent(number: int) -> None:
+    """Get this signal when the process that started this one ends. Linux alone."""
+    if sys.platform.startswith("linux"):
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, number)
 
 
 def end_with_window() -> None:
     """End with the window that started this process for a run over files, if any."""
-    watched = os.environ.pop(WINDOW, "")
-    if BY_SIGNAL and watched:
-        end_with(int(watched))
+    if os.environ.pop(WINDOW, ""):
+        end_with_parent(signal.SIGTERM)
 
 
 class Lifeline:
-    """Messages from the supervisor, and answers to it.
+    """Messages from the supervisor, and answers to it. channel: the descriptor for the answers."""
 
-    channel: the descriptor for the answers. watched: the descriptor of a pipe that never carries data, or None.
-    """
-
-    def __init__(self, channel: int, watched: int | None) -> None:
+    def __init__(self, channel: int) -> None:
         self._channel = channel
-        self._waiting: queue.SimpleQueue[bytes] | None = None
+        self._waiting: queue.SimpleQueue[bytes] = queue.SimpleQueue()
         with suppress(OSError), open("/proc/self/oom_score_adj", "w") as file:
             file.write("500")  # if memory runs out, this process goes first, not its supervisor
-        if BY_SIGNAL and watched is not None:
-            end_with(watched)
-        else:
-            self._waiting = queue.SimpleQueue()
-            ThreadPoolExecutor().submit(self._listen, self._waiting)
+        if hasattr(signal, "SIGKILL"):
+            end_with_parent(signal.SIGKILL)
+        ThreadPoolExecutor().submit(self._listen)
 
     def messages(self) -> Iterator[dict[str, Any]]:
-        """Yield the supervisor's messages, until it closes the pipe."""
-        lines = iter(self._waiting.get, b"") if self._waiting else iter(sys.stdin.buffer.readline, b"")
-        for line in lines:
-            yield json.loads(line)
+        """Yield the supervisor's messages."""
+        while True:
+            yield json.loads(self._waiting.get())
 
-    def _listen(self, waiting: queue.SimpleQueue[bytes]) -> None:
+    def _listen(self) -> None:
         for line in iter(sys.stdin.buffer.readline, b""):
-            waiting.put(line)
+            self._waiting.put(line)
         os._exit(0)
 
     def answer(self, head: dict[str, Any], data: bytes = b"") -> None:

@@ -12,11 +12,11 @@ import json
 import os
 import re
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
+from errno import ENOENT
 from pathlib import Path
 
-from ...core.verdict.finding import QueryError, system_reason
-from ..findings import FOLDER_WITHOUT_FILES, MANIFEST_MALFORMED, MANIFEST_UNREADABLE
+from ...core.verdict.finding import system_reason
+from ..parser import UsageError
 
 SCHEMA = "body-moments-manifest/1"
 SUFFIXES = (
@@ -29,14 +29,14 @@ _RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # others are 
 
 
 def expand(names: Iterable[str]) -> Iterator[str]:
-    """Yield the names, with each folder replaced by its measurable files, sorted. Raises QueryError if it has none."""
+    """Yield the names, with each folder replaced by its measurable files, sorted. Raises OSError if it has none."""
     for name in names:
         if not os.path.isdir(name):
             yield name
             continue
-        found = [*_walk(name)]
+        found = sorted(_walk(name))
         if not found:
-            raise QueryError(FOLDER_WITHOUT_FILES, folder=name)
+            raise FileNotFoundError(ENOENT, "no file that can be measured is in it", name)
         yield from found
 
 
@@ -46,21 +46,14 @@ def _walk(top: str) -> Iterator[str]:
     Each folder counts once, so that links in a circle end. Hidden entries and unreadable folders are left out.
     """
     known: set[tuple[int, int]] = set()
-    waiting = [iter([top])]
-    while waiting:
-        path = next(waiting[-1], None)
-        if path is None:
-            waiting.pop()
-        elif not os.path.isdir(path):
-            if _is_measurable(path):
-                yield path
-        else:
-            with suppress(OSError):
-                status = os.stat(path)
-                if (status.st_dev, status.st_ino) not in known:
-                    known.add((status.st_dev, status.st_ino))
-                    names = sorted(name for name in os.listdir(path) if not name.startswith("."))
-                    waiting.append(iter([os.path.join(path, name) for name in names]))
+    for folder, folders, files in os.walk(top, followlinks=True):
+        status = os.stat(folder)
+        if (status.st_dev, status.st_ino) in known:
+            folders.clear()
+            continue
+        known.add((status.st_dev, status.st_ino))
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        yield from (os.path.join(folder, name) for name in files if name[0] != "." and _is_measurable(name))
 
 
 def _is_measurable(path: str) -> bool:
@@ -77,18 +70,16 @@ def write_lines(paths: Iterable[str]) -> Iterator[str]:
 
 
 def read(path: Path) -> list[str]:
-    """Return the files that a manifest lists; relative names are meant from its folder. Raises QueryError."""
+    """Return the files that a manifest lists; relative names are meant from its folder. Raises UsageError."""
     try:
         with open(path, "rb") as file:
             lines = [json.loads(line) for line in file if line.strip()]
-        if lines[0]["schema"] != SCHEMA:
-            raise ValueError(path)
         names = [line["path"] for line in lines[1:]]
-        if len(names) != lines[0]["files"] or not all(isinstance(name, str) for name in names):
+        if lines[0] != {"schema": SCHEMA, "files": len(names)} or not all(isinstance(name, str) for name in names):
             raise ValueError(path)
     except OSError as error:
-        raise QueryError(MANIFEST_UNREADABLE, file=str(path), error=system_reason(error)) from error
+        raise UsageError("The list {} cannot be read: {}".format(path, system_reason(error))) from error
     except (ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
-        raise QueryError(MANIFEST_MALFORMED, file=str(path)) from error
+        raise UsageError("{} is not a list of files. Make one with “manifest FOLDER”".format(path)) from error
     folder = "" if path.parent == Path() else path.parent
     return [os.path.join(folder, name) for name in names]

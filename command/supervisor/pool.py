@@ -23,13 +23,10 @@ from . import processes
 from .lifeline import MARK
 
 ATTEMPTS = 2  # for a file that ends its child; the second in a fresh child
-GROWTH = 256 << 20  # bytes that a child may keep of the files that it has measured before another one takes its place
 START_LIMIT = 300.0  # seconds in which a child must be ready
 MAX_FAILED_STARTS = 5  # in a row
 _WATCH = 0.05 if sys.platform.startswith("linux") else 1.0  # seconds between looks at the memory of children
-_GROWTH_PERIOD = 16  # files of a child between looks at its growth
 _STEP = 0.2  # seconds that are waited for what children answer
-_END = 10.0  # seconds in which a child must end that has nothing more to do
 _LOG_TAIL = 1 << 16  # bytes of what a child has said
 
 
@@ -71,20 +68,18 @@ class TaskOutcome:
 class _Child:
     """A child process.
 
-    started: time of its start, or of its task. deadline: for being ready, or done. task: its current file. base: its
-    memory when it was ready. measured: the number of files it was given. doomed: the reason if we ended it.
+    started: time of its start, or of its task. deadline: for being ready, or done. task: its current file. is_fresh:
+    whether it was given no file yet. doomed: the reason if we ended it.
     """
 
     process: subprocess.Popen[bytes]
-    kept: int | None
     folder: Path
     log: Path
     started: float
     deadline: float
     ready: bool = False
     task: str | None = None
-    base: int = 0
-    measured: int = 0
+    is_fresh: bool = True
     doomed: str = ""
 
     @property
@@ -103,27 +98,17 @@ class _Child:
 class Pool:
     """Children at work on tasks, which are names of files.
 
-    command: starts a child. count: their largest number. setup: the first message to each. verb: names the action on a
-    file in a message. work: a folder for all their files, which must not exist, and is removed in the end. Use it as a
-    context manager; its end kills the children.
+    command: starts a child. count: their largest number. setup: the first message to each. work: a folder for all
+    their files, which must not exist, and is removed in the end. Use it as a context manager; its end kills the
+    children.
     """
 
-    def __init__(
-        self,
-        command: Sequence[str],
-        count: int,
-        setup: dict[str, Any],
-        limits: Limits,
-        work: Path,
-        verb: str = "measure",
-    ) -> None:
-        self._command, self._count, self._setup, self._limits = command, count, setup, limits
-        self._work, self._verb = work, verb
+    def __init__(self, command: Sequence[str], count: int, setup: dict[str, Any], limits: Limits, work: Path) -> None:
+        self._command, self._count, self._setup, self._limits, self._work = command, count, setup, limits, work
         self._tasks: deque[str] = deque()
         self._again: deque[str] = deque()  # tasks that ended their child, for a fresh one
         self._attempts: dict[str, tuple[int, float]] = {}
         self._children: list[_Child] = []
-        self._ending: list[tuple[_Child, float]] = []
         self._events: queue.SimpleQueue[tuple[_Child, dict[str, Any] | None, bytes]] = queue.SimpleQueue()
         self._readers = ThreadPoolExecutor(max_workers=4 * count + 8)
         self._early: list[TaskOutcome] = []  # outcomes before the first step
@@ -137,9 +122,8 @@ class Pool:
         return self
 
     def __exit__(self, *_: object) -> None:
-        children = [*self._children, *(child for child, _ in self._ending)]
-        processes.kill([child.process for child in children], gently=True)
-        for child in children:
+        processes.kill([child.process for child in self._children], gently=True)
+        for child in self._children:
             self._close(child)
         self._readers.shutdown()
         shutil.rmtree(self._work, ignore_errors=True)
@@ -182,7 +166,7 @@ class Pool:
 
     def _refill(self) -> None:
         idle = [child for child in self._children if child.task is None]
-        fresh = sum(not child.measured for child in idle)
+        fresh = sum(child.is_fresh for child in idle)
         missing = max(len(self._tasks) + len(self._again) - len(idle), len(self._again) - fresh)
         if not self.about:
             missing = max(missing, 1 - len(self._children))
@@ -197,11 +181,11 @@ class Pool:
         self._started += 1
         log = name.with_suffix(".log")
         try:
-            process, kept = processes.start(self._command, name, log)
+            process = processes.start(self._command, name, log)
         except OSError as error:
             raise ChildError("{}: {}".format(self._command[0], error.strerror)) from error
         now = time.monotonic()
-        child = _Child(process, kept, name, log, now, now + START_LIMIT)
+        child = _Child(process, name, log, now, now + START_LIMIT)
         self._children.append(child)
         self._readers.submit(self._read, child)
         self._send(child, {**self._setup, "seconds": self._limits.seconds})
@@ -236,7 +220,6 @@ class Pool:
         if "ready" in head:
             self.about = head["ready"]
             child.ready, self._failed_starts = True, 0
-            child.base = self._memory(child)
             self._give(child)
             return []
         task = child.task
@@ -249,38 +232,19 @@ class Pool:
         attempts, seconds = self._attempts.pop(task, (0, 0.0))
         seconds += time.monotonic() - child.started
         said = self._stderr_tail(child)
-        if self._tasks and self._has_grown(child):
-            self._retire(child)
-        else:
-            self._give(child)
+        self._give(child)
         return [TaskOutcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
 
     def _give(self, child: _Child) -> None:
         """Send the next task, if any."""
         child.deadline = float("inf")
-        tasks = self._again if self._again and not child.measured else self._tasks
+        tasks = self._again if self._again and child.is_fresh else self._tasks
         if tasks:
             child.task = tasks.popleft()
-            child.measured += 1
+            child.is_fresh = False
             child.started = time.monotonic()
             child.deadline = child.started + self._limits.seconds
-            self._send(child, {self._verb: child.task})
-
-    def _has_grown(self, child: _Child) -> bool:
-        if child.measured % _GROWTH_PERIOD:
-            return False
-        return self._memory(child) > child.base + GROWTH
-
-    def _memory(self, child: _Child) -> int:
-        """Return the bytes of memory of a child, 0 if unknown."""
-        return processes.memory_of(child.process.pid) or 0
-
-    def _retire(self, child: _Child) -> None:
-        """Let a child end by itself, and another one take its place."""
-        self._children.remove(child)
-        with suppress(OSError):
-            child.requests.close()
-        self._ending.append((child, time.monotonic() + _END))
+            self._send(child, {"measure": child.task})
 
     def _ended(self, child: _Child) -> list[TaskOutcome]:
         processes.kill([child.process])  # and whatever it has left behind
@@ -304,7 +268,7 @@ class Pool:
         return [TaskOutcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
 
     def _watch(self) -> None:
-        """End children that are late or too large, and finished ones that do not end."""
+        """End children that are late or too large."""
         now = time.monotonic()
         for child in self._children:
             if now >= child.deadline:
@@ -312,14 +276,8 @@ class Pool:
         if self._limits.memory and now >= self._watched + _WATCH:
             self._watched = now
             for child in self._children:
-                if child.task is not None and self._memory(child) > self._limits.memory:
+                if child.task is not None and (processes.memory_of(child.process.pid) or 0) > self._limits.memory:
                     self._doom(child, "memory")
-        for child, limit in [*self._ending]:
-            if now >= limit:
-                processes.kill([child.process])
-            if child.process.poll() is not None:
-                self._ending.remove((child, limit))
-                self._close(child)
 
     def _doom(self, child: _Child, why: str, *, gently: bool = False) -> None:
         child.doomed, child.deadline = why, float("inf")
@@ -339,9 +297,6 @@ class Pool:
         for stream in (child.requests, child.answers):
             with suppress(OSError):
                 stream.close()
-        if child.kept is not None:
-            os.close(child.kept)
-            child.kept = None
         with suppress(OSError):
             child.log.unlink()
         shutil.rmtree(child.folder, ignore_errors=True)

@@ -43,39 +43,26 @@ def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
     return [sys.executable, script, *words]
 
 
-def start(command: Sequence[str], folder: Path, log: Path) -> tuple[subprocess.Popen[bytes], int | None]:
+def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[bytes]:
     """Start a child with temporary and user files in `folder` and its standard error in `log`.
 
-    Messages go to its standard input, answers come from its standard output. Also return the descriptor that keeps it
-    alive: the child ends as soon as this is closed, by whatever. Raises OSError.
+    Messages go to its standard input, answers come from its standard output. Raises OSError.
     """
-    folder.mkdir(parents=True)
-    watched, kept = (None, None) if _WINDOWS else os.pipe()
+    folder.mkdir()
     temporary = dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(folder))
     environment = {**os.environ, **temporary, "BLENDER_USER_RESOURCES": str(folder / "user")}
     # A terminal's Ctrl+C is for the supervisor alone.
     flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows; elsewhere a session of its own
-    passed = () if watched is None else (watched,)
-    try:
-        with open(log, "ab") as errors:
-            process = subprocess.Popen(
-                [*command, *map(str, passed)],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=errors,
-                env=environment,
-                pass_fds=passed,
-                creationflags=flags,
-                start_new_session=not _WINDOWS,
-            )
-    except OSError:
-        if kept is not None:
-            os.close(kept)
-        raise
-    finally:
-        if watched is not None:
-            os.close(watched)
-    return process, kept
+    with open(log, "ab") as errors:
+        return subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            env=environment,
+            creationflags=flags,
+            start_new_session=not _WINDOWS,
+        )
 
 
 def kill(processes: Sequence[subprocess.Popen[bytes]], *, gently: bool = False) -> None:

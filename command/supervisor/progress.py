@@ -1,21 +1,15 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Progress of a run over many files: a bar on a terminal, else a line every few seconds."""
+"""Progress of a run over many files, on the standard error: a line every few seconds."""
 
 from __future__ import annotations
 
-import shutil
-import sys
 import time
 from collections import Counter
 
-from ...core.measurement.plain_text import print_message, visible
-from ...core.verdict.finding import finding
-from ..findings import PROGRESS_DONE, PROGRESS_FILES, PROGRESS_STARTED
+from ...core.measurement.plain_text import counted, print_message
 
 PERIOD = 5.0  # seconds between lines
-_REDRAW = 0.1  # and between bars
-_CELLS = 24
 
 
 class Progress:
@@ -23,65 +17,41 @@ class Progress:
 
     def __init__(self, total: int, done: int = 0) -> None:
         self.counts: Counter[str] = Counter()
-        self._total, self._before, self._done = total, done, done
+        self._total, self._before = total, done
         self._began = time.monotonic()
-        self._is_terminal = sys.stderr.isatty()
-        self._due = self._began + (0.0 if self._is_terminal else PERIOD)
-        self._drawn = False
+        self._due = self._began + PERIOD
 
-    def add(self, status: str) -> None:
-        """One more file has ended."""
-        self._done += 1
+    def count_file(self, status: str) -> None:
+        """Count one finished file."""
         self.counts[status] += 1
 
     def show(self) -> None:
-        """Show the progress, if due."""
+        """Print the progress, if due."""
         now = time.monotonic()
         if now < self._due or self._total < 2:
             return
-        self._due = now + (_REDRAW if self._is_terminal else PERIOD)
-        if self._is_terminal:
-            self._draw()
-        else:
-            print_message(self._state())
-
-    def clear(self) -> None:
-        """Remove the bar, for other lines."""
-        if self._drawn:
-            sys.stderr.write("\r\x1b[K")
-            self._drawn = False
+        self._due = now + PERIOD
+        measured = self.counts.total()
+        done = self._before + measured
+        text = "{} of {} files".format(done, self._total)
+        if measured:
+            seconds = now - self._began
+            left = _duration((self._total - done) * seconds / measured)
+            failed = measured - self.counts["ok"]
+            text += ", {:.3g} per second, {} left, {} not ok".format(measured / seconds, left, failed)
+        print_message(text)
 
     def finish(self) -> None:
         """Print the totals of the run."""
-        self.clear()
         if self._total > 1:
             counts = ", ".join("{} {}".format(number, status) for status, number in self.counts.most_common())
             seconds = time.monotonic() - self._began
-            print_message(
-                finding(PROGRESS_DONE, count=self._done - self._before, seconds=seconds, counts=counts or "-")
-            )
-
-    def _state(self) -> object:
-        seconds = max(time.monotonic() - self._began, 1e-3)
-        rate = (self._done - self._before) / seconds
-        values = {"done": self._done, "total": self._total, "rate": rate, "failed": self._failed()}
-        if not rate:
-            return finding(PROGRESS_STARTED, **values)
-        return finding(PROGRESS_FILES, left=_duration((self._total - self._done) / rate), **values)
-
-    def _failed(self) -> int:
-        return sum(number for status, number in self.counts.items() if status != "ok")
-
-    def _draw(self) -> None:
-        filled = _CELLS * self._done // self._total
-        line = "[{}{}] {}".format("#" * filled, "." * (_CELLS - filled), self._state())
-        sys.stderr.write("\r\x1b[K" + visible(line)[: shutil.get_terminal_size().columns - 1])
-        sys.stderr.flush()
-        self._drawn = True
+            files = counted(self.counts.total(), "file")
+            print_message("{} in {:.1f} s: {}".format(files, seconds, counts or "-"))
 
 
 def _duration(seconds: float) -> str:
-    """Seconds, minutes or hours."""
+    """Return a time in hours, minutes and seconds."""
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     if hours:

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from . import processes
-from .lifeline import BY_SIGNAL, WINDOW
+from .lifeline import WINDOW
 
 _STOP = 5.0  # seconds that a run may take to stop
 
@@ -30,18 +30,10 @@ class WholeRun:
             raise FileNotFoundError("No module named 'bpy' is here")
         self._journal = output.with_name(output.name + ".journal")
         self._place, self._lines = 0, 0
-        self._kept: int | None = None  # the run continues while this is open
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
-        if not BY_SIGNAL:
-            flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows it can be asked to end then
-            self._process = subprocess.Popen(command, creationflags=flags, **nowhere)
-            return
-        watched, self._kept = os.pipe()
-        try:
-            environment = {**os.environ, WINDOW: str(watched)}
-            self._process = subprocess.Popen(command, env=environment, pass_fds=(watched,), **nowhere)
-        finally:
-            os.close(watched)
+        flags = getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0)  # on Windows it can be asked to end then
+        environment = {**os.environ, WINDOW: "1"}
+        self._process = subprocess.Popen(command, env=environment, creationflags=flags, **nowhere)
 
     @property
     def exit_code(self) -> int | None:
@@ -70,6 +62,3 @@ class WholeRun:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
-        if self._kept is not None:
-            os.close(self._kept)
-            self._kept = None

@@ -4,4 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(__name__, obj="obj", surface_file="surface_file")
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -19,13 +19,7 @@ from numpy.typing import NDArray
 from ..nurbs.patch import Patch
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
-from .findings import (
-    CURVES_LEFT_OUT,
-    SURFACE_DAMAGED,
-    SURFACE_TRIMMED,
-    SURFACE_UNSUPPORTED,
-    SURFACES_HIDDEN,
-)
+from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACE_TRIMMED, SURFACE_UNSUPPORTED, SURFACES_HIDDEN
 from .iges_text import Entry, IgesText, integers, numbers, padded
 from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
 from .trims import Piece, trims_nothing

@@ -18,10 +18,7 @@ SUFFIXES = tuple(_READERS)
 
 
 def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> SurfaceFile:
-    """Return the B-spline surfaces in a file, IGES or .obj with ``surf``, and refused ones as findings.
-
-    Of `limits`, `text_bytes` counts. FileError if the file has none that can be kept; OSError.
-    """
+    """Return the B-spline surfaces of an IGES or .obj file within `limits.text_bytes`. FileError, or OSError."""
     path = Path(path)
     read = _READERS.get(path.suffix.lower())
     if read is None:

@@ -137,11 +137,7 @@ def blender_patches(
     if sizes[0] * sizes[1] > MAX_POINTS:
         raise SurfaceRefusedError(SURFACE_TOO_LARGE, points=sizes[0] * sizes[1], limit=MAX_POINTS)
     patches = bezier_patches(Patch(spaces, points, weights), domain)
-    if any(patch.weights is not None and _too_uneven(patch.weights) for patch in patches):
+    weights_of = [patch.weights for patch in patches if patch.weights is not None]
+    if any(row.min() < 1e-30 * row.max() for row in weights_of):  # float32 would not hold them as positive numbers
         raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_POSITIVE_WEIGHTS))
     return patches
-
-
-def _too_uneven(weights: NDArray) -> bool:
-    """Return whether float32 would not hold the weights as positive numbers, the largest being 1."""
-    return bool(weights.min() < 1e-30 * weights.max())

@@ -40,7 +40,8 @@ def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tu
             shared = here & there
             if not shared.any():
                 return False
-            steps.append(_step(start, end, int(shared.argmax())))
+            x, y = end - start
+            steps.append(float((x, y, -x, -y)[int(shared.argmax())]))  # counterclockwise
     if last is None or np.abs((pieces[0].points[0] - low) / (high - low) - last).max() > TRIM_RTOL:
         return False
     traveled = sum(steps)
@@ -52,9 +53,3 @@ def _sides(points: NDArray) -> NDArray[np.bool_]:
     """Return (n, 4) mask of the sides of the unit square that each point is on: below, right, above, left."""
     x, y = points.T
     return np.abs(np.stack([y, x - 1.0, y - 1.0, x], axis=1)) <= TRIM_RTOL
-
-
-def _step(start: NDArray, end: NDArray, side: int) -> float:
-    """Return the distance along a side, counterclockwise."""
-    x, y = end - start
-    return float((x, y, -x, -y)[side])

@@ -10,7 +10,6 @@ measured. Nothing here needs numpy or Blender: a process that only gathers resul
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 import re
@@ -231,6 +230,8 @@ def _line(cells: Iterable[Any]) -> str:
 
     Before Python 3.13 the csv module quotes only line breaks that it ends a row with.
     """
+    import csv  # Registration reads the constants of this module alone.
+
     text = io.StringIO()
     csv.writer(text, lineterminator="\r\n").writerow(cells)
     return text.getvalue().removesuffix("\r\n") + "\n"

@@ -42,9 +42,8 @@ class BoundarySum:
                 block = piece[start : start + FACES_PER_BLOCK]
                 self._add_faces(_hash_places(block.reshape(-1, 3)).reshape(-1, 3))
             return
-        hashes = np.concatenate(
-            [NO_PLACES, *map(_hash_places, np.array_split(piece.points, len(piece.points) // FACES_PER_BLOCK + 1))]
-        )
+        blocks = np.array_split(piece.points, len(piece.points) // FACES_PER_BLOCK + 1)
+        hashes = np.concatenate([*map(_hash_places, blocks)])
         for faces in (piece.triangles, piece.quads):
             for start in range(0, len(faces), FACES_PER_BLOCK):
                 self._add_faces(hashes[faces[start : start + FACES_PER_BLOCK]])
@@ -54,9 +53,6 @@ class BoundarySum:
         columns = [*np.ascontiguousarray(corners.T)]
         for start, stop in zip(columns, [*columns[1:], columns[0]]):
             self._total += _sum_of_sides(start, stop)
-
-
-NO_PLACES = np.zeros(0, np.uint64)
 
 
 def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:

@@ -159,16 +159,16 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     start, stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
-    bits = (len(low) // width).bit_length()  # neighbors in the mesh share the table's cached part
+    bits = (len(low) // width).bit_length() + 1  # neighbors in the mesh share the table's cached part
     slots = np.left_shift(low, bits, dtype=np.intp)
-    slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits) if bits else 0
+    slots += (high.astype(np.uint32) * HASH_FACTOR) >> np.uint32(32 - bits)
     keys = np.multiply(low, width, dtype=np.int64)
     keys += high
     diagonals = 3 * (len(triangles) - 2 * quads + 2 * np.arange(quads))
     keys[diagonals + 2] = keys[diagonals + 3] = width * width + np.arange(quads)
     first = first_occurrence(keys, slots=slots)
     begins = first == np.arange(len(first))
-    of_side = (np.cumsum(begins) - 1)[first]
+    of_side = (np.cumsum(begins) - 1).take(first)
     return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))
 
 

@@ -301,17 +301,12 @@ def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float
     size = len(indices)
     fan = np.stack([np.zeros(size - 2, np.intp), np.arange(1, size - 1), np.arange(2, size)], axis=1)
     triangles = np.concatenate([fan, fan[:, [0, 2, 1]]])
-    above, below = np.arange(size - 2), np.arange(size - 2, 2 * size - 4)
-    before, after = above - 1, above + 1
-    before[0], after[-1] = below[0], below[-1]
-    under = (
-        np.where(after == below[-1], after, after + size - 2),
-        np.where(before == below[0], before, before + size - 2),
-    )
-    under[0][-1], under[1][0] = above[-1], above[0]
-    neighbors = np.concatenate(
-        [np.stack([before, below, after], axis=1), np.stack([under[0], above, under[1]], axis=1)]
-    )
+    above, below = np.arange(2 * size - 4).reshape(2, -1)
+    ends = np.stack([above - 1, above + 1]), np.stack([below - 1, below + 1])
+    for sides, beyond in zip(ends, (below, above)):
+        sides[0, 0], sides[1, -1] = beyond[0], beyond[-1]
+    (before, after), (first, last) = ends
+    neighbors = np.concatenate([np.stack([before, below, after], axis=1), np.stack([last, above, first], axis=1)])
     gap = tolerance * float(np.ptp(points, axis=0).max())
     return ConvexHull(points[indices], indices, triangles, neighbors, is_flat=True, gap=gap)
 

@@ -27,7 +27,7 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
-    """Return (n, k) the face across each side of (n, k) faces, or None unless every edge has two sides, run oppositely.
+    """Return (n, k) the face across each side of (n, k) faces, or None unless every edge has two opposite sides.
 
     None also if there are too many for 32 bits. All of the vertices are used.
     """

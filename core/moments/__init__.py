@@ -10,5 +10,4 @@ __getattr__, __dir__, __all__ = lazy_names(
     Moments="moments",
     monomials="exponents",
     normalize="normalized",
-    sum_moments="moments",
 )

@@ -79,8 +79,7 @@ def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None
     others go into the next round. slots: (n,) for the first round, the same for equal rows.
     """
     bits_of, salt = [column.view(np.uint64) for column in columns], 0
-    first = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
-    rest = first.copy()
+    first = rest = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
     while len(rest):
         size = 1 << (2 * len(rest)).bit_length() if slots is None else int(slots.max()) + 1
         if slots is None:
@@ -88,16 +87,19 @@ def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None
             for column in bits_of:
                 key = hash_uint64(key + column)
             slots = (key & np.uint64(size - 1)).view(np.intp)
-        winner = np.empty(size, first.dtype)
-        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=first.dtype)  # the last write wins
-        winner = winner[slots].astype(np.intp)
+        winner = np.empty(size, rest.dtype)
+        winner[slots[::-1]] = np.arange(len(rest) - 1, -1, -1, dtype=rest.dtype)  # the last write wins
+        winner = winner.take(slots).astype(np.intp)
         lost = np.zeros(len(rest), bool)
         for column in bits_of:
-            lost |= column != column[winner]
-        first[rest] = rest[winner] if len(rest) < len(first) else winner
+            lost |= column != column.take(winner)
+        if len(rest) == len(first):
+            first = winner
+        else:
+            first[rest] = rest[winner]
         lost = np.flatnonzero(lost)
         rest, bits_of, slots, salt = rest[lost], [column[lost] for column in bits_of], None, salt + 1
-    return first.astype(np.intp)
+    return first.astype(np.intp, copy=False)
 
 
 GOLDEN_RATIO_64 = np.uint64(0x9E3779B97F4A7C15)  # 2^64 divided by the golden ratio, as in SplitMix64

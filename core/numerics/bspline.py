@@ -38,10 +38,6 @@ class SplineSpace:
     ValueError
         If the knots make no such space.
 
-    Notes
-    -----
-    The function space of Soldea, Elber and Rivlin, section 2.
-
     Examples
     --------
     >>> from body_moments.core.numerics import SplineSpace

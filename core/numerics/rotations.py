@@ -46,10 +46,6 @@ def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
     (..., 4) array
         w, x, y, z with w ≥ 0.
 
-    Notes
-    -----
-    Shepperd's method.
-
     Examples
     --------
     >>> from body_moments.core.numerics import quaternion

@@ -96,10 +96,6 @@ def polyhedron_moments(
     MeasureError
         If the faces do not close, are too small (below 1e-60), or a moment is beyond the range of numbers.
 
-    Notes
-    -----
-    Sheynin and Tuzikov (Pattern Recognition Letters 22, 2001), as a recursion over the monomials.
-
     Examples
     --------
     >>> from body_moments.core import Surface, polyhedron_moments

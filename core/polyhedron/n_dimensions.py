@@ -128,10 +128,6 @@ def enclosed_moments(
     MeasureError
         If the simplices do not close, or moments are beyond the range of numbers.
 
-    Notes
-    -----
-    Sheynin and Tuzikov's formulas, which hold in any dimension; the recursion of Pozo et al.
-
     Examples
     --------
     >>> from body_moments.core.polyhedron import enclosed_moments

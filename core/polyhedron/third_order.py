@@ -220,10 +220,8 @@ class _Integration:
                 parts = [part for of_thread in pool.map(self._run_queue, [queue] * threads) for part in of_thread]
         parts.sort(key=itemgetter(0))
         results = [block for _, of_thread, _ in parts for block in of_thread]
-        flipped, step = (
-            np.concatenate([NO_QUADS.T, *(block for *_, of_thread in parts for block in of_thread)], axis=1),
-            self.size // 2,
-        )
+        flipped = np.concatenate([NO_QUADS.T, *(block for *_, of_thread in parts for block in of_thread)], axis=1)
+        step = self.size // 2
         if flipped.size:
             results += self.block_sums([([], [flipped[:, i : i + step]]) for i in range(0, flipped.shape[1], step)])
         return results

@@ -63,10 +63,7 @@ class Audit:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A measured shape in its own coordinates: points of its hull, and moments of its volume if certain.
-
-    upright: the rotation that its file asks for, if another axis than z is up.
-    """
+    """A measured shape in its own coordinates: hull points, moments if certain, and the rotation to z up, if any."""
 
     points: NDArray[np.float64]
     moments: Moments | None

@@ -90,10 +90,9 @@ class Diagnosis:
 def diagnose(
     stated: StatedInertial, references: Sequence[Reference], otherwise: Sequence[tuple[Finding, Reference]] = ()
 ) -> Diagnosis | None:
-    """Return the one change that corrects an inertial, or a note about the place of the mass.
+    """Return the one change that corrects an inertial, or a note about the place of the mass; None if it agrees.
 
-    stated: of positive mass and finite. references: candidates for the geometry, such as visual and collision shapes.
-    otherwise: geometries with a shape corrected. Returns None if the inertial agrees.
+    references: candidates for the geometry, such as visual and collision shapes. otherwise: with a shape corrected.
     """
     if not references:
         return None

@@ -56,9 +56,8 @@ class Inertial:
     ) -> Inertial:
         """Return an inertial with a principal pair that gives its tensor to rounding.
 
-        If two moments are all but equal, a measurement takes the axes nearest to the object's own, between which the
-        tensor still differs by up to a millionth. Readers of the pair alone would miss that; so the axes then turn to
-        the tensor's own.
+        For all but equal moments a measurement takes axes near to the object's own, between which the tensor differs by
+        up to a millionth. Readers of the pair alone would miss that, so the axes turn to the tensor's own.
         """
         largest = np.abs(inertia).max()
         along = axes.T @ inertia @ axes

@@ -33,10 +33,9 @@ def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
 def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     """Return radius and length, without its caps, of the capsule along the first principal axis; moments ascend.
 
-    It has the least moment along its axis and the mean of the others across it; if no capsule is that thick, the size
-    is that of a ball with the mean of the three. With t = L/r, of unit radius: the cylinder has πt and the caps 4π/3 of
-    the volume V; ∫x² dV across the axis is π(t/4 + 4/15), along it π(t³/12 + t²/3 + t/2 + 4/15). Their ratio grows with
-    t from that of a ball, 1.
+    It has the least moment along its axis and the mean of the others across it, else is a ball with the mean of all.
+    With t = L/r, r = 1: V = π(t + 4/3); ∫x² dV is π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis.
+    Their ratio grows with t from that of a ball, 1.
     """
     along = (moments[1] + moments[2] - moments[0]) / 2.0  # ∫x² dm
     across = max(moments[0] / 2.0, LEAST_SPREAD * along)

@@ -92,10 +92,7 @@ class StatedLink:
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """A robot description, with the whole file as `source`.
-
-    `scales`: "length": meters per unit of the file's numbers, "mass": kilograms.
-    """
+    """A robot description, with the whole file as `source`. scales: units of its "length" in m and "mass" in kg."""
 
     name: str
     format: str

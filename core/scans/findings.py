@@ -35,8 +35,7 @@ NRRD_DATA_FILE_OUTSIDE = error(
 ARRAYS_LEFT_OUT = warning("arrays_left_out", "The array “{array}” was measured; left out: {arrays}.")
 RAW_WITHOUT_LAYOUT = error(
     "raw_without_layout",
-    "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as "
-    "head_128x128x54_uint16.raw, or add "
+    "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as head_128x128x54_uint16.raw, or add "
     "an NRRD header.",
 )
 SCAN_IN_SEVERAL_FILES = error(

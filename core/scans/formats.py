@@ -30,17 +30,11 @@ from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import read_named_raw, read_npy, read_npz
 from .scan import Scan
-from .suffixes import SUFFIXES
+from .suffixes import SUFFIXES, scan_suffix
 
 READERS = dict(
     zip(SUFFIXES, (read_npy, read_npz, read_nrrd, read_nrrd, read_nifti, read_nifti, read_named_raw), strict=True)
 )
-
-
-def scan_suffix(path: str | Path) -> str:
-    """Return the suffix of a scan's file in lower case, one of `SUFFIXES`; "" if it is no scan's."""
-    name = str(path).lower()
-    return next((end for end in SUFFIXES if name.endswith(end)), "")
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:

@@ -55,10 +55,7 @@ _HEADER_END = re.compile(rb"\r?\n\r?\n")
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """Return the fields by their names in lower case, and the offset of the samples; None if the file ends before.
-
-    FileError if it is no NRRD file, or the header has no end within the limit.
-    """
+    """Return the fields by lower-case names, and the offset of the samples, None if the file ends before. FileError."""
     head, end = bytearray(), None
     with open(path, "rb") as file:
         while not end and (block := file.read(HEADER_BLOCK)):

@@ -105,10 +105,7 @@ def check_length(path: Path, held: int, wanted: int) -> None:
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Map uncompressed samples, x fastest, from byte `offset` to the end of the file.
-
-    from_end: they are its last bytes, after any other bytes at `offset`, so that only too few of them can be noticed.
-    """
+    """Map uncompressed samples, x fastest, from byte `offset` on; the last ones of the file if `from_end`."""
     size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
     if from_end:
         offset = max(offset, size - byte_count)
@@ -119,10 +116,7 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Unpack samples that are compressed by gzip from byte `start` of the file on, x fastest.
-
-    skip: unpacked bytes before the samples. They are read to the end of the file, for the checksum stands behind them.
-    """
+    """Unpack samples packed by gzip from byte `start` on, x fastest, behind `skip` bytes; check them to the end."""
     byte_count = dtype.itemsize * math.prod(shape)
     total, room = skip + byte_count, MAX_GZIP_RATIO * path.stat().st_size
     if total > room:
@@ -140,11 +134,10 @@ def unpack_samples(
 
 
 def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
-    """Yield the unpacked data from byte `start` of the file on, in blocks of at most BLOCK bytes.
+    """Yield the unpacked data from byte `start` of a file on, in blocks of at most BLOCK bytes.
 
-    A stream of gzip is one or more members. zlib compares the CRC-32 and the length of each, once it has been read to
-    its end. Zero bytes behind a member are padding, as for the gzip tool. Anything else there the tool ignores with a
-    warning; here it is damage, as for Python's gzip: it may have been a member of samples.
+    zlib compares the checksum and the length of each member. Zero bytes behind a member are padding; anything else
+    there, which the gzip tool ignores with a warning, is damage: it may have been a member of samples.
     """
     with open(path, "rb") as file:
         file.seek(start)

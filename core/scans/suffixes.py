@@ -2,8 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Names of files and sample types that scans are read from."""
 
+from __future__ import annotations
+
+from pathlib import Path
+
 SUFFIXES = (".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz", ".raw")  # none of which ends with another
 SAMPLE_TYPES = (
     *("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64"),
     *("float32", "float64"),
 )
+
+
+def scan_suffix(path: str | Path) -> str:
+    """Return the suffix of a scan's file in lower case, one of `SUFFIXES`; "" if it is no scan's."""
+    name = str(path).lower()
+    return next((end for end in SUFFIXES if name.endswith(end)), "")

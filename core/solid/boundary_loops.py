@@ -134,7 +134,7 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return a (l,) mask of holes: not narrower than `tolerance`, of all or each, and much longer than wide."""
+        """Return a (l,) mask of holes; others are narrower than `tolerance`, of all or each, and much longer."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:

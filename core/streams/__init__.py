@@ -4,4 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(__name__, measure="measure", mesh_file="mesh_file", threemf="threemf")
+__getattr__, __dir__, __all__ = lazy_names(__name__)

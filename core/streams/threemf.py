@@ -36,14 +36,8 @@ _KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _BLOCK = 1 << 16
 _DAMAGE = (
-    zipfile.BadZipFile,
-    zlib.error,
-    EOFError,
-    RuntimeError,
-    expat.ExpatError,
-    LookupError,
-    ValueError,
-    OverflowError,
+    *(zipfile.BadZipFile, zlib.error, EOFError, expat.ExpatError),
+    *(RuntimeError, LookupError, ValueError, OverflowError),
 )
 
 
@@ -71,8 +65,7 @@ class Placed:
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
     """Return each mesh of a file's build at each of its places, in the file's unit, and that unit in meters.
 
-    Of `limits`, `entries` and `unpacked_bytes` count. FileError if the file is damaged, beyond a limit, or needs an
-    extension that changes shapes.
+    FileError if the file is damaged, beyond limits (`entries`, `unpacked_bytes`), or needs an unknown extension.
     """
     try:
         with zipfile.ZipFile(path) as archive:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
-from ...blender import bodies
-from ...blender.read.assembly import Root, is_assembly, members_of
+from ...blender import bodies, read
 from ...blender.session import stored
+from ...blender.settings.assembly import Root, is_assembly
 from ...blender.write import properties, reports
 from ...core.verdict.finding import MeasureError, Severity
 from ...core.verdict.sentences import of_severity
@@ -60,7 +60,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
         depsgraph = context.evaluated_depsgraph_get()
         data = target_of(context, self.target)
         properties.require_storable(data)
-        self._member = members_of(data, depsgraph)
+        self._member = read.assembly.members_of(data, depsgraph)
         self._results: Results = {}
         self._steps = bodies.measure_members(self._member, depsgraph, self._results)
         return sum(member.is_measured for member in self._member.walk())

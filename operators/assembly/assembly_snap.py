@@ -15,7 +15,7 @@ from ...blender.scene.changes import require_editable
 from ...blender.scene.findings import OPEN_OBJECT
 from ...blender.session import stored
 from ...blender.write import properties, reports
-from ...core import numerics
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError
 from ...core.verdict.method import Verdict
 from .. import selection
@@ -41,7 +41,7 @@ class _SnapToAssembly:
         for part in assembly.root.walk():
             if part.measurement is not None and part.measurement.method.verdict == Verdict.OPEN:
                 raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
-        unit = numerics.shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         center = (assembly.measurement.mass_properties.center / unit).tolist()
         selection.report(self, self._place(context, assembly, center))
         return {"FINISHED"}
@@ -82,7 +82,7 @@ class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
             empty[FRAME_OF] = owner
             context.scene.collection.objects.link(empty)
         require_editable(empty)
-        unit = numerics.shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
         frame = Matrix(body.principal.axes.tolist()).to_4x4()
         frame.translation = center

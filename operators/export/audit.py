@@ -3,7 +3,7 @@
 """File > Import > Robot Description for Audit: a text with its errors, and on request a repaired copy."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
@@ -11,14 +11,12 @@ from bpy.types import Context, Menu, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
-from ...command.findings import AUDIT_DONE, AUDIT_NOT_WRITTEN
 from ...core import robots
-from ...core.files.whole_file import whole_file
 from ...core.robots import read, write
 from ...core.robots.formats import AUDITED_SUFFIXES
-from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ...core.verdict.finding import FileError, MeasureError
 from .. import selection
-from ..findings import AUDIT_TEXT, FILE_EXISTS
+from ..findings import FILE_EXISTS
 
 if TYPE_CHECKING:
     from ...core.robots.audit import Audit
@@ -43,28 +41,32 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
     )
     write_page: BoolProperty(name="Write HTML", description="Write the report as a page beside the file", default=False)
 
+    @selection.report_refusals
     def execute(self, _context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))
         try:
-            findings = self._audit(path)
+            document, text = self._audit(path)
         except MeasureError as error:
-            selection.report(self, reports.refusal(error.about(path.name)))
-            return {"CANCELLED"}
-        selection.report(self, *findings)
+            raise error.about(path.name) from error
+        counts = write.audit_report.count_findings(document)
+        done = reports.phrase("{links} links: {errors} errors, {warnings} warnings, {notes} notes", **counts)
+        selection.report(self, done, reports.phrase("See the text “{text}” in the Text Editor", text=text))
         return {"FINISHED"}
 
-    def _audit(self, path: Path) -> list[Finding]:
+    def _audit(self, path: Path) -> tuple[dict[str, Any], str]:
+        """Return the report of a file, and the name of its text."""
         folders = [Path(bpy.path.abspath(self.root))] if self.root else []
         roots = read.paths.Roots.for_file(path, folders, self.allow_outside)
         audit = robots.audit.Auditor(roots).audit(read.descriptions.read_description(path, roots))
         copy = self._write_copy(path, audit) if self.write_copy else None
         document = write.audit_report.document(str(path), audit, copy)
         if self.write_page:
-            _write(path.with_name(path.name + ".audit.html"), write.audit_report.to_html([document]).encode("utf-8"))
+            page = path.with_name(path.name + ".audit.html")
+            selection.write_file(page, [write.audit_report.to_html([document])])
         text = bpy.data.texts.new("Audit of {}".format(path.name))
         text.write(write.audit_report.to_text(document))
         text.cursor_set(0)
-        return [finding(AUDIT_DONE, **write.audit_report.count_findings(document)), finding(AUDIT_TEXT, text=text.name)]
+        return document, text.name
 
     def _write_copy(self, path: Path, audit: "Audit") -> str | None:
         repairs = audit.repairs()
@@ -73,16 +75,8 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         target = path.with_name("{}_repaired{}".format(path.stem, path.suffix))
         if target.exists():
             raise FileError(FILE_EXISTS, file=target.name)
-        _write(target, robots.repair.repaired_copy(audit.description, repairs))
+        selection.write_file(target, [robots.repair.repaired_copy(audit.description, repairs)])
         return str(target)
-
-
-def _write(path: Path, data: bytes) -> None:
-    try:
-        with whole_file(path) as file:
-            file.write(data)
-    except OSError as error:
-        raise FileError(AUDIT_NOT_WRITTEN, error=system_reason(error)) from error
 
 
 def _menu(menu: Menu, _context: Context) -> None:

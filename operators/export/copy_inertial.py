@@ -2,16 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Inertials as text on the clipboard, to be pasted into a robot description."""
 
-from __future__ import annotations
-
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator
 
-from ...blender.session.robots import object_links
+from ...blender import session
 from ...blender.write import reports
+from ...core.robots import write
 from ...core.robots.formats import FORMATS
-from ...core.robots.write.texts import robot_text
-from ...core.verdict.finding import MeasureError
 from .. import selection
 from ..measure.copy import copy_text
 
@@ -27,21 +24,12 @@ class OBJECT_OT_body_moments_copy_inertial(selection.OnSelectionInObjectMode, Op
 
     format: EnumProperty(name="Format", description="What reads the text", items=ITEMS, default="urdf")
 
+    @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        try:
-            made = object_links(context, "robot", selection.selected_measurable(context))
-        except MeasureError as error:
-            selection.report(self, reports.refusal(error))
-            return {"CANCELLED"}
-        text, _ = robot_text(made.robot, self.format, made.findings, inertial_only=True)
-        copy_text(
-            self,
-            context,
-            text,
-            reports.phrase(
-                "Inertial of {count} link copied.", "Inertials of {count} links copied.", count=len(made.robot.links)
-            ),
-        )
+        made = session.robots.object_links(context, "robot", selection.selected_measurable(context))
+        text, _ = write.texts.robot_text(made.robot, self.format, made.findings, inertial_only=True)
+        done = "Inertial of {count} link copied.", "Inertials of {count} links copied."
+        copy_text(self, context, text, reports.phrase(*done, count=len(made.robot.links)))
         if made.findings:
             selection.report(self, *made.findings)
         return {"FINISHED"}

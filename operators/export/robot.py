@@ -5,38 +5,28 @@
 The exporters of collections keep their path and options in the .blend; Blender runs them again by Export All.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, FileHandler, Menu, Object, Operator, UILayout
 from bpy_extras.io_utils import ExportHelper
 
-from ...blender.read.robots import USD_ROOT, sheared_objects, usd_path
-from ...blender.session import robots as scenes
-from ...blender.session.robots import SceneLinks
+from ...blender import read, session
 from ...blender.write import reports
-from ...core.files.whole_file import whole_file
+from ...core.robots import write
 from ...core.robots.findings import ROBOT_SCALED
 from ...core.robots.formats import FORMATS, RobotFormat
-from ...core.robots.write import gltf, usd
-from ...core.robots.write.shapes import with_primitives
-from ...core.robots.write.texts import robot_text, with_geometry
-from ...core.verdict.finding import EditRefusedError, FileError, Finding, MeasureError, finding, system_reason
+from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
 from ...core.verdict.sentences import sentence
 from .. import selection
-from ..findings import (
-    ROBOT_EXPORTED,
-    ROBOT_GEOMETRY_NOT_WRITTEN,
-    ROBOT_NAMES_ALIKE,
-    ROBOT_NOT_WRITTEN,
-    ROBOT_SHEARED,
-)
+from ..findings import FILE_NOT_WRITTEN, ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE, ROBOT_SHEARED
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
+
+if TYPE_CHECKING:
+    from ...blender.session.robots import SceneLinks
 
 LINKS = (
     ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
@@ -52,7 +42,7 @@ GEOMETRY = (
 )
 
 
-class RobotExport(ExportHelper):
+class RobotExport(selection.InObjectMode, ExportHelper):
     """The common base of the exporters. FORMAT: a name of the table of formats."""
 
     FORMAT = ""
@@ -68,45 +58,38 @@ class RobotExport(ExportHelper):
         name="Inertials Only", description="Write mass, center and inertia of each link and nothing else", default=False
     )
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        if context.mode != "OBJECT":
-            return reports.unavailable(cls, "Switch to Object Mode")
-        return True
-
+    @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        try:
-            objects = scenes.candidates(context, self.collection, self.use_selection)
-            findings = self._export(context, objects, Path(bpy.path.abspath(self.filepath)))
-        except MeasureError as error:
-            selection.report(self, reports.refusal(error))
-            return {"CANCELLED"}
-        except OSError as error:
-            selection.report(self, finding(ROBOT_NOT_WRITTEN, error=system_reason(error)))
-            return {"CANCELLED"}
-        selection.report(self, *findings)
+        path = Path(bpy.path.abspath(self.filepath))
+        objects = session.robots.candidates(context, self.collection, self.use_selection)
+        made = self._links(context, objects, path.stem)
+        findings = self._export(context, made, path)
+        done = "{count} link exported to {file}.", "{count} links exported to {file}."
+        selection.report(self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings)
         return {"FINISHED"}
 
-    def _links(self, context: Context, objects: list[Object], name: str) -> SceneLinks:
+    def _links(self, context: Context, objects: list[Object], name: str) -> "SceneLinks":
         if self.links == "BONE":
-            return scenes.bone_links(context, name, objects)
+            return session.robots.bone_links(context, name, objects)
         if self.links == "COLLECTION":
             root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
-            return scenes.collection_links(context, name, root, objects)
+            return session.robots.collection_links(context, name, root, objects)
         with reports.progress(len(objects)) as step:
-            return scenes.object_links(context, name, objects, step)
+            return session.robots.object_links(context, name, objects, step)
 
-    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
-        made = self._links(context, objects, path.stem)
+    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         robot, bare = made.robot, []
         if self.geometry != "MESH":
-            robot = with_primitives(robot, self.geometry.lower())
+            robot = write.shapes.with_primitives(robot, self.geometry.lower())
         elif not self.inertial_only:
-            robot, bare = with_geometry(robot, self.FORMAT, partial(made.surface, context), path)
-        text, findings = robot_text(robot, self.FORMAT, [*made.findings, *bare], inertial_only=self.inertial_only)
-        with whole_file(path) as file:
-            file.write(self._encode(text, path))
-        return [finding(ROBOT_EXPORTED, count=len(robot.links), file=path.name), *findings]
+            try:
+                robot, bare = write.texts.with_geometry(robot, self.FORMAT, partial(made.surface, context), path)
+            except OSError as error:
+                raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
+        found = [*made.findings, *bare]
+        text, findings = write.texts.robot_text(robot, self.FORMAT, found, inertial_only=self.inertial_only)
+        selection.write_file(path, [self._encode(text, path)])
+        return findings
 
     def _encode(self, text: str, _path: Path) -> bytes:
         return text.encode("utf-8")
@@ -129,18 +112,17 @@ class RobotExport(ExportHelper):
 class GeometryExport(RobotExport):
     """Base of exporters that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
-    _export_over: Callable[[Context, SceneLinks, Path], list[Finding]]  # writes the geometry as Blender does, with the
-    # masses, and returns what is to be said about them
-
-    def _export(self, context: Context, objects: list[Object], path: Path) -> list[Finding]:
+    def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         if self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only:
-            return super()._export(context, objects, path)
-        made = self._links(context, objects, path.stem)
-        sheared = sheared_objects([obj for held in made.members.values() for obj in held])
+            return super()._export(context, made, path)
+        sheared = read.robots.sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
             made.findings.append(finding(ROBOT_SHEARED, count=len(sheared), links=sheared))
-        findings = self._export_over(context, made, path)
-        return [finding(ROBOT_EXPORTED, count=len(made.robot.links), file=path.name), *findings]
+        return self._export_over(made, path)
+
+    def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
+        """Write the geometry as Blender does, with the masses; return the findings about them."""
+        raise NotImplementedError
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:
         """Run Blender's own exporter on the same objects."""
@@ -156,45 +138,43 @@ class GeometryExport(RobotExport):
 class UsdExport(GeometryExport):
     """Base of the exporter whose layer of masses lies over Blender's layer."""
 
-    def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
-        robot, findings = made.robot, made.findings
-        paths = {label: usd_path(held[0], usd.identifier) for label, held in made.members.items()}
+    def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
+        robot, findings, usd = made.robot, made.findings, write.usd
+        paths = {label: read.robots.usd_path(held[0], usd.identifier) for label, held in made.members.items()}
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
             raise EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
         findings += usd.check(robot)
         geometry = path.with_name(path.stem + "_geometry.usdc")
-        options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + USD_ROOT}
+        options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + read.robots.USD_ROOT}
         self._run_exporter("wm.usd_export", geometry, options)
         scaled = [link.name for link in robot.roots if min(link.scale) < 0.0]
         if scaled:
             findings.append(finding(ROBOT_SCALED, count=len(scaled), links=scaled))
         remarks = list(map(sentence, findings))
         text = usd.write_over(robot, paths, "./" + geometry.name, made.unit, remarks)
-        with whole_file(path) as file:
-            file.write(text.encode("utf-8"))
+        selection.write_file(path, [text])
         return findings
 
 
 class GltfExport(GeometryExport):
     """Base of the exporter that adds bodies to the file of Blender's exporter."""
 
-    def _export_over(self, context: Context, made: SceneLinks, path: Path) -> list[Finding]:
+    def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         findings = made.findings
         options = {"use_selection": self.use_selection, "export_format": "GLB", "export_yup": True}
         self._run_exporter("export_scene.gltf", path, options)
         data = path.read_bytes()
         try:
-            document = gltf.read_json(data)
+            document = write.gltf.read_json(data)
         except ValueError as error:
             raise FileError(ROBOT_GEOMETRY_NOT_WRITTEN, error=path.name) from error
-        findings += gltf.add_rigid_bodies(document, made.robot, made.unit)
-        with whole_file(path) as file:
-            file.write(gltf.replace_json(data, document))
+        findings += write.gltf.add_rigid_bodies(document, made.robot, made.unit)
+        selection.write_file(path, [write.gltf.replace_json(data, document)])
         return findings
 
     def _encode(self, text: str, path: Path) -> bytes:
-        return gltf.to_glb(text) if path.suffix.lower() == ".glb" else text.encode("utf-8")
+        return write.gltf.to_glb(text) if path.suffix.lower() == ".glb" else text.encode("utf-8")
 
 
 BASES = {"usd": UsdExport, "gltf": GltfExport}  # The other formats are files of our own alone.

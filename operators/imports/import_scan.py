@@ -11,10 +11,9 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 from bpy.types import Context, Menu, Operator
 from bpy_extras.io_utils import ImportHelper
 
-from ...blender import read, scene
-from ...blender.settings.limits import scan_limits
+from ...blender import read, scene, settings
 from ...blender.write import reports
-from ...core import numerics, scans
+from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.suffixes import SAMPLE_TYPES, SUFFIXES
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, system_reason
@@ -110,21 +109,21 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
 
     def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""
-        limits = replace(scan_limits(), allow_outside=self.allow_outside)
+        limits = replace(settings.limits.scan_limits(), allow_outside=self.allow_outside)
         raw = (self.raw_shape, self.raw_type, self.raw_big_endian) if all(self.raw_shape) else None
         files = {"x": self.x_positions, "y": self.y_positions, "z": self.z_positions}
         files = {axis: bpy.path.abspath(file) for axis, file in files.items() if file}
         spacing = self.spacing if self.use_spacing else None
         placed = scene.read_placed(path, limits, raw, spacing, files, self.position_unit)
-        target = path.with_name(path.name[: -len(scans.scan_suffix(path))] + ".vdb")
+        target = placed.target
         if target.exists() and not self.overwrite:
             raise FileError(FILE_EXISTS, file=target.name)
-        unit = numerics.shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         try:
-            low = scene.write_volume(module, target, placed, unit)
+            low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
             raise FileError(FILE_NOT_WRITTEN, error=getattr(error, "strerror", None) or str(error)) from error
-        obj = scene.add_volume(context, target, placed.positions)
+        obj = scene.add_volume(context, placed)
         samples = list(placed.scan.samples.shape)
         texts = [reports.phrase("Imported {samples:size} samples as “{file}”", samples=samples, file=target.name)]
         if files:

@@ -9,11 +9,9 @@ from bpy.props import CollectionProperty, FloatProperty, StringProperty
 from bpy.types import Context, Menu, Object, Operator, OperatorFileListElement, UILayout
 from bpy_extras.io_utils import ImportHelper
 
-from ...blender import scene
-from ...blender.settings.limits import scan_limits
+from ...blender import scene, settings
 from ...blender.write import reports
 from ...command.findings import SURFACES_ROUNDED
-from ...core import cad, numerics
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from .. import selection
@@ -76,23 +74,16 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
         try:
-            file = cad.read_surfaces(path, scan_limits())
+            found = scene.import_surfaces(path, settings.limits.scan_limits(), self.unit, context)
         except OSError as error:
             raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-        scale = numerics.shortest_decimal(context.scene.unit_settings.scale_length)
-        unit = numerics.shortest_decimal(self.unit) if file.unit is None else file.unit
-        made = scene.import_bodies(file.bodies, context.collection, unit / scale)
-        moved = max(share for _, share in made)
-        patches = [patch for body in file.bodies for patch in body.patches]
-        order = max(space.order for patch in patches for space in patch.spaces)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",
         )
-        parts = [reports.phrase(*texts, count=len(patches), order=order, file=path.name)]
-        if moved:
-            parts.append(finding(SURFACES_ROUNDED, share=moved))
-        return [obj for obj, _ in made], [*parts, *file.refused, *file.notes]
+        done = reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
+        rounded = [finding(SURFACES_ROUNDED, share=found.moved)] if found.moved else []
+        return found.objects, [done, *rounded, *found.findings]
 
 
 def _select(context: Context, made: list[Object]) -> None:

@@ -8,7 +8,7 @@ from bpy.types import Context, Object, Operator
 
 from ...blender.read.visibility import measurable
 from ...blender.session import live
-from ...blender.session.tracking import posed
+from ...blender.session.tracking import armatures
 from ...blender.write import reports
 from .. import selection
 
@@ -31,7 +31,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
     def execute(self, context: Context) -> set[str]:
         objects = _subjects(context)
-        if any(live.following.is_live(obj) for obj in posed.subjects([context.object])):
+        if any(live.following.is_live(obj) for obj in armatures.subjects([context.object])):
             for obj in objects:
                 live.live.stop(obj)
             selection.redraw(context)
@@ -50,7 +50,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
 def _subjects(context: Context) -> list[Object]:
     """Return the measurable ones of the active object and the selected objects."""
-    objects = posed.subjects([context.object, *context.view_layer.objects.selected])
+    objects = armatures.subjects([context.object, *context.view_layer.objects.selected])
     return [obj for obj in objects if measurable(obj)]
 
 

@@ -10,7 +10,7 @@ import bmesh
 from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
-from ...blender.read.reference import ReferenceChoice
+from ...blender import read
 from ...blender.session import stored
 from ...blender.write import properties, reports
 from ...blender.write.findings import NO_STORED_RESULTS
@@ -19,6 +19,7 @@ from .. import selection
 from .copy import copy_text
 
 if TYPE_CHECKING:
+    from ...blender.read.reference import ReferenceChoice
     from ...core.inertia.reference import ReferredInertia
 
 POINTS = 2  # points of an axis
@@ -64,7 +65,11 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
         result = stored.reference.referred(context.object, context.scene)
         if result is None or isinstance(result, Finding):
             return selection.refuse(self, result or finding(NO_STORED_RESULTS))
-        text = _text(context.object.name, ReferenceChoice.from_settings(context.scene.body_moments_reference), result)
+        text = _text(
+            context.object.name,
+            read.reference.ReferenceChoice.from_settings(context.scene.body_moments_reference),
+            result,
+        )
         copy_text(self, context, text, reports.phrase("Copied the report of {count} object", count=1))
         return {"FINISHED"}
 

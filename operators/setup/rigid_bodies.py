@@ -12,7 +12,7 @@ from ...blender import session
 from ...blender.write import reports
 from ...blender.write.translations import localized
 from ...blender.write.units import Units
-from ...core import numerics
+from ...core.numerics.float32 import shortest_decimal
 from .. import selection
 from ..snap.rigid_body import display_scaled
 
@@ -107,7 +107,7 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
             for obj, one in made.measured.items()
             if one.target.finding is not None and self.frame == "AXES"
         ]
-        unit = numerics.shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":
             findings.insert(0, display_scaled(unit))
         return selection.summarize(self, count, count + len(made.failures), done, made.failures, findings)

@@ -18,14 +18,12 @@ from ...blender import session
 from ...blender.read.visibility import measurable_objects
 from ...blender.session.stored import outcome
 from ...blender.write import reports
-from ...core import shape
 from ...core.verdict.finding import Finding, MeasureError, system_reason
 from .. import selection
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
-    from ...core.shape.library import Entry
-    from ...core.shape.signatures import Likeness
+    from ...blender.session.similar import Match
 
 MAX_LISTED_BODIES = 20
 MIRRORED = BoolProperty(name="Ignore Mirroring", default=False, description="Rank mirror images like copies")
@@ -78,25 +76,25 @@ class _SearchMixin:
             return reports.unavailable(cls, "Make an object active to compare with")
         return selection.poll_object_mode(cls, context)
 
-    def store_results(self, context: Context, ranked: list[tuple["Entry", "Likeness"]], looked_at: str) -> None:
+    def store_and_report(
+        self, context: Context, matches: list["Match"], looked_at: str, failures: list[Finding]
+    ) -> set[str]:
+        """Keep the nearest matches with the scene, and report what was found."""
         search = context.scene.body_moments_search
         search.wanted, search.looked_at = context.object.name, looked_at
         search.found.clear()
-        for entry, likeness in ranked[:MAX_LISTED_BODIES]:
+        for match in matches[:MAX_LISTED_BODIES]:
             row = search.found.add()
-            row.name, row.file, row.verdict = entry.name, entry.file, shape.classify(likeness).value
-            row.distance = likeness.distance(self.scaled, self.mirrored)
-            row.scale = likeness.scale
-
-    def report_found(self, rows: list[tuple["Entry", "Likeness"]], failures: list[Finding]) -> set[str]:
-        counts = Counter(shape.classify(likeness) for _, likeness in rows)
+            for name in ("name", "file", "verdict", "distance", "scale"):
+                setattr(row, name, getattr(match, name))
+        selection.redraw(context)
+        counts = Counter(match.verdict for match in matches)
         alike = [reports.phrase(*COUNTS[kind], count=counts[kind]) for kind in COUNTS if counts[kind]]
         found = ", ".join(alike) if alike else reports.phrase("none is similar")
-        done = [reports.phrase("Compared {count} shape", "Compared {count} shapes", count=len(rows)), found]
-        if rows:
-            entry, likeness = rows[0]
-            distance = likeness.distance(self.scaled, self.mirrored)
-            done.append(reports.phrase("nearest is {object}, at {distance:.2e}", object=entry.name, distance=distance))
+        done = [reports.phrase("Compared {count} shape", "Compared {count} shapes", count=len(matches)), found]
+        if matches:
+            text = "nearest is {object}, at {distance:.2e}"
+            done.append(reports.phrase(text, object=matches[0].name, distance=matches[0].distance))
         outcome.remember(self.bl_label, failures)
         reports.report(self, *done, *reports.first(failures))
         return {"FINISHED"}
@@ -141,9 +139,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
 
     def _finish(self, context: Context) -> set[str]:
         """Nothing is kept or selected before everything is compared, so that a canceled search leaves nothing."""
-        found = self._search.ranked(self.scaled, self.mirrored)
-        ranked = [(entry, likeness) for _, entry, likeness in found]
-        self.store_results(context, ranked, "")
+        matches = self._search.find_nearest(self.scaled, self.mirrored)
         if self.select:
             chosen = {
                 "copy": True,
@@ -151,11 +147,10 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
                 "scaled_copy": self.scaled,
                 "scaled_mirror": self.mirrored and self.scaled,
             }
-            picked = [obj for obj, _, likeness in found if chosen.get(shape.classify(likeness))]
+            picked = {match.obj for match in matches if chosen.get(match.verdict)}
             for obj in context.view_layer.objects:
                 obj.select_set(obj in picked or obj == context.object)
-        selection.redraw(context)
-        return self.report_found(ranked, self._failures)
+        return self.store_and_report(context, matches, "", self._failures)
 
 
 class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
@@ -179,20 +174,15 @@ class OBJECT_OT_body_moments_find_in_library(_SearchMixin, Operator):
 
     def execute(self, context: Context) -> set[str]:
         path = Path(bpy.path.abspath(self.filepath))
+        search = session.SimilarSearch(context.object, context.evaluated_depsgraph_get())
         try:
-            entries, missing = shape.read_library(path)
+            matches, missing = search.find_in_library(path, self.scaled, self.mirrored)
         except OSError as error:
             text = "{file} cannot be read: {error}"
             return selection.refuse(self, text, file=path.name, error=system_reason(error))
-        search = session.SimilarSearch(context.object, context.evaluated_depsgraph_get())
-        try:
-            for _ in search.measure():
-                pass
         except MeasureError as error:
             return selection.refuse(self, error.about(context.object.name))
-        ranked = shape.rank(search.wanted, entries, self.scaled, self.mirrored)
-        self.store_results(context, ranked, path.name)
-        return self.report_found(ranked, missing)
+        return self.store_and_report(context, matches, path.name, missing)
 
 
 class OBJECT_OT_body_moments_select_found(Operator):

@@ -19,7 +19,7 @@ from ...blender.scene.changes import require_storable_data
 from ...blender.scene.findings import RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ...blender.scene.rigid_world import MIN_MASS, add_rigid_bodies, require_rigid_world
 from ...blender.write import reports
-from ...core import numerics
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
 from .. import selection
 from ..findings import NOT_A_RIGID_BODY, RIGID_BODY_CENTER_ELSEWHERE
@@ -97,7 +97,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
             changed |= {plan.obj for plan in plans}
             findings += [found.of_sources([plan.obj.name]) for plan in plans for found in plan.findings]
         count = len(changed)
-        unit = numerics.shortest_decimal(context.scene.unit_settings.scale_length)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
         if count and unit != 1.0 and context.scene.unit_settings.system != "NONE":
             findings.append(display_scaled(unit))
         elsewhere = [body.obj.name for body in bodies if scene.matrix_at_center(body.obj, body) is not None]

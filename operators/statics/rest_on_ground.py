@@ -11,7 +11,7 @@ from ...blender import session
 from ...blender.session import stored
 from ...blender.write import reports
 from ...blender.write.translations import localized
-from ...core import statics
+from ...core.verdict.finding import Finding
 from .. import selection
 
 
@@ -49,7 +49,7 @@ class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, O
         layout.use_property_split = True
         layout.prop(self, "pose")
         poses = stored.stability.poses(context.object) if context.object is not None else None
-        if self.pose and isinstance(poses, statics.RestingPoses):
+        if self.pose and poses is not None and not isinstance(poses, Finding):
             count = len(poses.shares)
             place = (self.pose - 1) % count
             text = localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")

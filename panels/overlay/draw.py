@@ -1,16 +1,29 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The overlay's draw handler. Its engine and numpy are loaded when there is something to draw."""
+"""The overlay's draw handler, which loads its engine and numpy when there is something to draw, and its switches.
+
+The switches are a section of the Overlays popover, and the button in the panel's header.
+"""
 
 from __future__ import annotations
 
 import bpy
-from bpy.types import Context, Object, SpaceView3D
+from bpy.types import Context, Menu, Object, Panel, SpaceView3D, UILayout
 
 from ...blender.session.live.following import is_live
-from ...blender.session.tracking.posed import stands_for_meshes
+from ...blender.session.tracking.armatures import stands_for_meshes
 from .. import overlay
 
+# settings → labels that fit into half of the popover
+SWITCHES = {
+    "show_axes": "Principal Axes",
+    "show_drop_line": "Drop Line",
+    "show_all": "All Objects",
+    "show_sum": "Total",
+    "show_support": "Support",
+    "show_faults": "Faults",
+    "show_path": "Paths",
+}
 _handle: object = None
 _has_drawn = False
 
@@ -43,17 +56,41 @@ def drawn_objects(context: Context, show_all: bool) -> list[Object]:
     ]
 
 
+def header_switch(layout: UILayout, context: Context) -> None:
+    """Draw the overlay's button, for the header of the panel."""
+    layout.prop(context.scene.body_moments.overlay, "show", text="", icon="OVERLAY")
+
+
+def section(self: Panel | Menu, context: Context) -> None:
+    """Draw the overlay's settings, at the end of Blender's Object section of the Overlays popover."""
+    settings = context.scene.body_moments.overlay
+    layout = self.layout
+    layout.separator()
+    column = layout.column()
+    column.active = context.space_data.overlay.show_overlays
+    column.prop(settings, "show")
+    column = column.column()
+    column.active = settings.show
+    grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    for name, text in SWITCHES.items():
+        grid.prop(settings, name, text=text)
+    column.label(text="Equal Inertia")
+    column.row(align=True).prop(settings, "equivalent", expand=True)
+
+
 def register() -> None:
-    """Draw from now on, if there are windows."""
+    """Draw from now on, if there are windows; add the section to Blender's popover."""
     global _handle
+    bpy.types.VIEW3D_PT_overlay_object.append(section)
     if not bpy.app.background:
         _handle = SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
         _redraw()
 
 
 def unregister() -> None:
-    """Draw no more, and free the batches."""
+    """Draw no more, free the batches, and remove the section."""
     global _handle
+    bpy.types.VIEW3D_PT_overlay_object.remove(section)
     if _handle is not None:
         SpaceView3D.draw_handler_remove(_handle, "WINDOW")
         _handle = None

@@ -255,5 +255,5 @@ def test_threshold_measures_volumes_and_warns_for_meshes(tmp_path):
     entries = {entry["type"]: entry for entry in document["objects"]}
     truth = threshold_body(ball(), 0.5, background=0.0)
     assert close(entries["VOLUME"]["volume"], truth.volume.total, rel=1e-5)
-    assert "threshold_option_unused" in codes(entries["MESH"])
-    assert "threshold_option_unused" not in codes(entries["VOLUME"])
+    assert "options_unused" in codes(entries["MESH"])
+    assert "options_unused" not in codes(entries["VOLUME"])

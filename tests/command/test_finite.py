@@ -170,17 +170,17 @@ def test_a_gltf_with_a_position_that_is_not_finite_is_refused(tmp_path, gltf):
     struct.pack_into("<f", binary, start + 12 * 5 + 4, math.nan)
     (tmp_path / "box.bin").write_bytes(binary)
     name = text["meshes"][0]["name"]
-    assert reason(path) == refused(1, "at_mesh_vertex", mesh=name, vertex=5)
+    assert reason(path) == refused(1, "at_gltf_row", row=5, part="mesh", name=name)
     # Repeat it with a single file, and with the data as text.
     text["buffers"][0].pop("uri")
     head = json.dumps(text).encode()
     head += b" " * (-len(head) % 4)
     body = struct.pack("<I4s", len(head), b"JSON") + head + struct.pack("<I4s", len(binary), b"BIN\0") + binary
     (tmp_path / "box.glb").write_bytes(struct.pack("<4s2I", b"glTF", 2, 12 + len(body)) + body)
-    said(tmp_path / "box.glb", 1, "at_mesh_vertex", mesh=name, vertex=5)
+    said(tmp_path / "box.glb", 1, "at_gltf_row", row=5, part="mesh", name=name)
     text["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
     files.write_text(path, json.dumps(text))
-    said(path, 1, "at_mesh_vertex", mesh=name, vertex=5)
+    said(path, 1, "at_gltf_row", row=5, part="mesh", name=name)
 
 
 def test_gltf_text_numbers_and_overrides_are_checked(tmp_path, gltf):
@@ -198,7 +198,7 @@ def test_gltf_text_numbers_and_overrides_are_checked(tmp_path, gltf):
     for key, values in (("translation", [0, "word", "word"]), ("matrix", ["word", *range(15)])):
         text["nodes"][0][key] = values
         files.write_text(path, json.dumps(text).replace('"word"', "1e39"))
-        said(path, values.count("word"), "at_node", node=text["nodes"][0]["name"])
+        said(path, values.count("word"), "at_gltf_row", row=0, part="node", name=text["nodes"][0]["name"])
         del text["nodes"][0][key]
     end = len(binary)
     binary += struct.pack("<H2x3f", 3, 0.0, 0.0, math.inf)
@@ -222,8 +222,8 @@ def test_gltf_checks_cover_only_placed_points(tmp_path):
     accessors = [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"} for count in (4, 6)]
     text = {"buffers": [{"uri": "t.bin", "byteLength": numbers.nbytes}], "bufferViews": [view], "accessors": accessors}
     instancing = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}
-    other = finding("at_accessor", accessor=1, element=4)
-    of_mesh = finding("at_mesh_vertex", mesh="0", vertex=4)
+    other = finding("at_gltf_row", row=4, part="accessor", name="1")
+    of_mesh = finding("at_gltf_row", row=4, part="mesh", name="0")
     for more, place in (
         ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 1}}]}]}, None),
         ({"meshes": [{"primitives": [{"attributes": {"POSITION": 1}}]}]}, of_mesh),
@@ -248,7 +248,7 @@ def test_gltf_error_names_its_missing_or_short_buffer(tmp_path, gltf):
     assert reason(tmp_path / "box.gltf") == expected
     text["buffers"][0]["uri"] = "no%20more.bin"
     files.write_text(tmp_path / "box.gltf", json.dumps(text))
-    assert reason(tmp_path / "box.gltf") == sentence("gltf_buffer_missing", buffer="no more.bin")
+    assert reason(tmp_path / "box.gltf") == sentence("missing_references", names=["no more.bin"])
 
 
 def fbx_file(path, values, packed):

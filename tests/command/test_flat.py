@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
-from body_moments.command.files.own_results import replaceable
+from body_moments.command.files.own_results import is_result
 from body_moments.core.measurement.page import to_html
 from body_moments.core.shape.library import read_library
 from body_moments.operators import batch
@@ -111,7 +111,7 @@ def test_the_transform_of_a_flat_shape_is_in_its_plane(tmp_path, frame):
         assert (np.abs(found["F"] - true) <= found["error"] + 1e-14).all() and found["error"].max() < 1e-12
         assert np.abs(found["axes"] - np.eye(3)[:2]).max() < 1e-12
         assert np.abs(found["origin"] - ([0, 0, 7] if frame == "world" else [5, 6, 7])).max() < 1e-12
-    assert replaceable(out, "fourier")
+    assert is_result(out)
     shape("--fourier", out, "--grid", "5", "--qmax", "2", "--frame", frame)
     with np.load(out) as found:
         assert found["q"].shape == (25, 2) and found["q"][12].tolist() == [0.0, 0.0]
@@ -151,14 +151,14 @@ def test_summary_and_report_hold_flat_shapes(tmp_path, capfd):
     add_box()
     found = document("--flat", "--pose", "--density", "1000")
     (entry,) = found["flat"]
-    assert entry["pose"] is None and [one["code"] for one in entry["findings"]] == ["pose_of_flat"]
+    assert entry["pose"] is None and [one["code"] for one in entry["findings"]] == ["options_unused"]
     path = tmp_path / "found.json"
     path.write_text(json.dumps(found), encoding="utf-8")
     assert batch.main(["summary", str(path)], channel=1) == 0
     counted = capfd.readouterr().out
-    assert "2 objects: " in counted and "1 flat" in counted and "pose_of_flat" in counted
+    assert "2 objects: " in counted and "1 flat" in counted and "options_unused" in counted
     page = "".join(to_html([found]))
-    assert page.count("Sheet &lt;b&gt;") == 2 and "has no pose" in page
+    assert page.count("Sheet &lt;b&gt;") == 2 and "--pose" in page
 
 
 def test_operator_writes_transform_and_picture_of_a_flat_shape(tmp_path):

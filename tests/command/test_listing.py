@@ -7,8 +7,6 @@ import os
 import pytest
 from body_moments.command.supervisor.listing import expand
 
-from tests.core.findings import refused
-
 FILES = "a.stl", "b.NRRD", "c_2x3x4_uint8.raw", "d.nii.gz", "e.body_moments.blend.blend", "f/g.blend", "f/h/i.iges"
 OTHERS = "a.txt", "b", "c.raw", "d.gz", "e.body_moments.blend", ".f.stl", ".g/h.stl", "f/stl"
 
@@ -28,5 +26,5 @@ def test_folders_list_their_measurable_files(tmp_path):
 def test_a_folder_with_nothing_to_measure_is_refused(tmp_path, others):
     for name in others:
         (tmp_path / name).write_bytes(b"")
-    with refused("folder_without_files", folder=str(tmp_path)):
+    with pytest.raises(OSError):
         [*expand([str(tmp_path)])]

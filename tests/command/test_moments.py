@@ -157,6 +157,7 @@ def test_overflowing_moments_are_an_error_beside_the_mass():
     cause = finding("moments_overflow", order=8).as_record()
     for words in ((), ("--surface-moments",)):
         found = document("--order", "8", *words)
-        assert found["errors"] == [{"name": files.BOX_NAME, "reason": sentence("moments_unavailable", cause=cause)}]
+        reason = sentence("part_unavailable", part="moments of this order", cause=cause)
+        assert found["errors"] == [{"name": files.BOX_NAME, "reason": reason}]
         assert found["objects"] == [plain] and "moments" not in plain and found["status"] == "error"
     assert "moments" in document("--order", "4")["objects"][0]

@@ -170,7 +170,7 @@ def test_file_without_measurable_objects_is_an_error(tmp_path):
     assert errors(line.documents[0]) == {None: sentence("nothing_rendered", count=2)} and line.errors == 1
     assert list(left_out(line.documents[0])) == ["a", "b"]
     assert document(path, "--all")["errors"] == []
-    assert errors(document(path, "--object", "z")) == {"z": sentence("object_not_in_scene")}
+    assert errors(document(path, "--object", "z")) == {"z": sentence("object_not_in_file")}
 
 
 def test_a_density_that_nobody_set_is_a_finding():

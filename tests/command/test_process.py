@@ -66,19 +66,6 @@ def test_closed_standard_output_matters_only_without_output_file(folder, tmp_pat
     assert json.loads((tmp_path / "out.json").read_text())["objects"]
 
 
-@pytest.mark.parametrize("closed", ["2>&-", "<&- 2>&-"])
-def test_a_closed_standard_error_keeps_nothing_from_ending_well(folder, closed, tmp_path):
-    def without(*words):
-        shell = ("sh", "-c", 'exec "$@" ' + closed, "sh")
-        return process(*shell, sys.executable, SCRIPT, "measure", *words, cwd=folder, timeout=300)
-
-    ended = without("part.blend", "part.glb")
-    assert ended.returncode == 0 and [one["file"] for one in json.loads(ended.stdout)] == ["part.blend", "part.glb"]
-    ended = without("bad.blend")
-    assert ended.returncode == 1 and json.loads(ended.stdout)["errors"]
-    assert without("--nonsense").returncode == 2
-
-
 def test_a_broken_file_gives_1_and_the_others_are_there(folder):
     ended = script("measure", "part.glb", "bad.blend", "gone.stl", "part.stl", "--format", "jsonl", cwd=folder)
     found = [json.loads(line) for line in ended.stdout.splitlines()]

@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line's --write: results stored in the .blend file, whole or not at all, and nobody else's work lost."""
+"""The command line's --write: results stored in the .blend file, whole or not at all."""
 
 import os
 import signal
 import subprocess
 import sys
-import threading
-import time
 
 import pytest
 
@@ -15,11 +13,10 @@ pytest.importorskip("bpy")
 import bpy
 import numpy as np
 from body_moments.command.measure import measuring
-from body_moments.core.files import file_lock
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured, run
-from tests.command.test_process import BLENDER, SCRIPT, in_blender, process
+from tests.command.test_process import SCRIPT
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -113,7 +110,10 @@ def test_a_file_that_cannot_be_replaced_is_left_as_it_was(tmp_path, monkeypatch)
     found = document(path, "--write")
     assert [entry["name"] for entry in found["objects"]] == [files.BOX_NAME]
     (error,) = found["errors"]
-    assert error == {"name": None, "reason": files.sentence("file_not_saved", error="No space left on device")}
+    assert error == {
+        "name": None,
+        "reason": files.sentence("result_not_written", file="part.blend", error="No space left on device"),
+    }
     assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
 
@@ -144,7 +144,7 @@ def test_a_scene_that_was_never_saved_cannot_be_written():
     line = run("--write")
     (found,) = line.documents
     assert len(found["objects"]) == 1 and line.errors == 1 and not line.has_saved
-    assert found["errors"] == [{"name": None, "reason": files.sentence("scene_never_saved")}]
+    assert found["errors"] == [{"name": None, "reason": files.sentence("results_need_blend")}]
     assert "body_mass" not in bpy.data.objects[files.BOX_NAME]
 
 
@@ -236,82 +236,7 @@ def test_a_file_that_is_gone_does_not_come_back(tmp_path, monkeypatch):
     files.box_file(path)
     meanwhile(monkeypatch, path.unlink)
     (error,) = document(path, "--write")["errors"]
-    assert "no longer there" in error["reason"] and list(tmp_path.iterdir()) == []
-
-
-@pytest.fixture
-def holder():
-    """Another thread that holds a file's lock: for some time, or until the test ends. What it does before the end."""
-    threads, over = [], threading.Event()
-
-    def hold(path, seconds=None, last=lambda: None):
-        begun = threading.Event()
-
-        def work():
-            with file_lock.locked(path):
-                begun.set()
-                over.wait(seconds)
-                last()
-
-        threads.append(threading.Thread(target=work))
-        threads[-1].start()
-        assert begun.wait(120)
-
-    yield hold
-    over.set()
-    for thread in threads:
-        thread.join()
-
-
-def test_second_writer_waits_and_adds_its_results(tmp_path, holder):
-    path, later = tmp_path / "part.blend", tmp_path / "later.blend"
-    files.box_file(path)
-    files.add_box("First")["body_mass"] = 7.0
-    files.save(later)
-    holder(path, 0.5, lambda: os.replace(later, path))
-    found = document(path, "--write", "--object", files.BOX_NAME)
-    assert found["errors"] == [] and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
-    objects = reopened(path)
-    assert objects["First"]["body_mass"] == 7.0 and "body_mass" in objects[files.BOX_NAME]
-
-
-def test_writer_after_too_long_a_wait_is_refused(tmp_path, holder, monkeypatch):
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    kept = path.read_bytes()
-    partial = tmp_path / ".part.blend.1.partial"
-    partial.touch()
-    monkeypatch.setattr(file_lock, "WAIT", 0.2)
-    holder(path)
-    found = document(path, "--write")
-    (error,) = found["errors"]
-    assert len(found["objects"]) == 1 and "another process" in error["reason"]
-    assert path.read_bytes() == kept and partial.exists() and file_lock.beside(path, "body_moments.lock").exists()
-
-
-def test_two_processes_write_one_file_and_both_results_are_in_it(tmp_path):
-    path = tmp_path / "part.blend"
-    files.add_box("A")
-    files.add_box("B")
-    files.save(path)
-    words = (sys.executable, SCRIPT, "measure", path, "--write", "--object")
-    writers = [subprocess.Popen([*map(str, words), name], stdout=subprocess.DEVNULL) for name in "AB"]
-    assert [writer.wait(600) for writer in writers] == [0, 0]
-    objects = reopened(path)
-    assert "body_mass" in objects["A"] and "body_mass" in objects["B"]
-    assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
-
-
-def test_leftovers_of_killed_processes_are_removed(tmp_path):
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    for name in (".part.blend.1.partial", ".part.blend.22.partial@", ".part.blend.body_moments.lock"):
-        (tmp_path / name).touch()
-    others = [".other.blend.1.partial", ".part.blend.x.partial", "part.blend1"]
-    for name in others:
-        (tmp_path / name).touch()
-    measured(path, "--write")
-    assert sorted(file.name for file in tmp_path.iterdir()) == sorted([*others, "part.blend"])
+    assert "it is gone" in error["reason"] and list(tmp_path.iterdir()) == []
 
 
 # A process that is in the midst of saving the file behind --write, and does not get any further.
@@ -329,7 +254,7 @@ runpy.run_path(sys.argv[0], run_name="__main__")
 
 @pytest.mark.skipif(os.name == "nt", reason="not on this system: signals")
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL] if os.name != "nt" else [])
-def test_a_process_that_is_ended_while_it_saves(tmp_path, number):
+def test_process_ended_while_saving_leaves_the_file(tmp_path, number):
     path = tmp_path / "part.blend"
     files.box_file(path)
     kept = path.read_bytes()
@@ -337,58 +262,23 @@ def test_a_process_that_is_ended_while_it_saves(tmp_path, number):
     with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as saving:
         while b"saving" not in (line := saving.stderr.readline()):
             assert line
-        assert len(list(tmp_path.iterdir())) == 3
+        assert len(list(tmp_path.iterdir())) == 2
         saving.send_signal(number)
-        assert saving.wait(120) == -number
+        assert saving.wait(120) == (3 if number == signal.SIGTERM else -number)
     assert path.read_bytes() == kept
-    assert len(list(tmp_path.iterdir())) == (1 if number == signal.SIGTERM else 3)
-    begun = time.monotonic()
-    measured(path, "--write")  # the lock has ended with its process
-    assert time.monotonic() - begun < file_lock.WAIT
-    assert [file.name for file in tmp_path.iterdir()] == ["part.blend"]
+    assert len(list(tmp_path.iterdir())) == (1 if number == signal.SIGTERM else 2)
+    measured(path, "--write")
+    assert "body_mass" in reopened(path)[files.BOX_NAME]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="not on this system: owners and modes")
-def test_saved_file_keeps_owner_and_mode(tmp_path, monkeypatch):
+@pytest.mark.skipif(os.name == "nt", reason="not on this system: modes")
+def test_saved_file_keeps_its_mode(tmp_path):
     path = tmp_path / "part.blend"
     files.box_file(path)
     path.chmod(0o640)
-    if not os.getuid():
-        os.chown(path, 12345, 23456)
-    before, fsync, modes = path.stat(), os.fsync, []
-
-    def synchronize(descriptor):
-        modes.append(os.fstat(descriptor).st_mode & 0o777)
-        fsync(descriptor)
-
-    monkeypatch.setattr(os, "fsync", synchronize)
+    before = path.stat()
     measured(path, "--write")
-    after = path.stat()
-    assert (after.st_mode, after.st_uid, after.st_gid) == (before.st_mode, before.st_uid, before.st_gid)
-    assert after.st_ino != before.st_ino and modes[0] == 0o640 and len(modes) == 2  # the file, then its folder
-
-
-def test_hard_link_is_reported_to_keep_the_old_content(tmp_path, capsys):
-    path, other = tmp_path / "part.blend", tmp_path / "other.blend"
-    files.box_file(path)
-    os.link(path, other)
-    kept = other.read_bytes()
-    (warning,) = document(path, "--write")["total"]["warnings"]
-    assert "2 names" in warning and "hard links" in warning and warning in capsys.readouterr().err
-    assert other.read_bytes() == kept and "body_mass" in reopened(path)[files.BOX_NAME]
-    assert document(path, "--write")["total"]["warnings"] == []
-
-
-@in_blender
-def test_file_saved_during_start_is_not_overwritten(tmp_path):
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    start = (BLENDER, "--factory-startup", "-b", path)
-    save = "open({!r}, 'ab').write(b'more')".format(str(path))  # after Blender has read it, before the script runs
-    words = ("--python", SCRIPT, "--", "measure", "--write")
-    assert process(*start, *words).returncode == 0
-    ended = process(*start, "--python-expr", save, *words)
-    assert ended.returncode == 1 and b"name the file" in ended.stderr and path.read_bytes().endswith(b"more")
+    assert path.stat().st_mode == before.st_mode and path.stat().st_ino != before.st_ino
 
 
 def error_of(found):
@@ -404,7 +294,9 @@ def test_a_file_that_may_not_be_written_stays(tmp_path, monkeypatch):
     files.box_file(path)
     before, real = path.read_bytes(), os.access
     monkeypatch.setattr(os, "access", lambda one, mode: str(one) != str(path) and real(one, mode))
-    assert error_of(document(path, "--write")) == files.sentence("file_read_only")
+    assert error_of(document(path, "--write")) == files.sentence(
+        "result_not_written", file="part.blend", error="it is gone, or read-only"
+    )
     assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
 
 
@@ -419,27 +311,7 @@ def test_failed_copy_is_an_error_and_the_file_stays(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", full)
-    expected = files.sentence("file_not_saved", error="No space left on device")
-    for where in ("copy", "file"):
+    for where, name in (("copy", "part.body_moments.blend"), ("file", "part.blend")):
+        expected = files.sentence("result_not_written", file=name, error="No space left on device")
         assert error_of(document(path, "--asset-metadata", where)) == expected
         assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
-
-
-@pytest.mark.skipif(os.name == "nt", reason="not on this system: modes")
-def test_temporary_file_is_unreadable_to_others(tmp_path):
-    path, masks = tmp_path / "part.blend", []
-    files.box_file(path)
-
-    @bpy.app.handlers.persistent
-    def look(*_):
-        masks.append(os.umask(0o777))
-        os.umask(masks[-1])
-
-    before = os.umask(0o022)
-    bpy.app.handlers.save_pre.append(look)
-    try:
-        measured(path, "--write")
-        assert masks == [0o077] and os.umask(before) == 0o022
-    finally:
-        bpy.app.handlers.save_pre.remove(look)
-        os.umask(before)

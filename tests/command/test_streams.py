@@ -109,7 +109,7 @@ def test_huge_file_is_read_in_blocks_unless_switched_off(tmp_path, monkeypatch):
 def test_the_usual_findings_are_there(tmp_path):
     _, document = run(tmp_path, written(tmp_path), "--stream", "always", "--pose", "--signature", "--spacing", "1,1,1")
     (entry,) = document["objects"]
-    assert {"unit_assumed", "density_defaulted", "shape_of_stream", "array_options_unused"} <= {*codes(entry)}
+    assert {"unit_assumed", "density_defaulted", "options_unused"} <= {*codes(entry)}
     assert entry["pose"] is None and entry["signature"] is None and entry["density"] == 1000.0
     _, document = run(tmp_path, written(tmp_path), "--stream", "always", "--mass", "7")
     assert document["objects"][0]["mass"] == pytest.approx(7.0, rel=1e-14)
@@ -147,7 +147,7 @@ def test_damaged_and_empty_files_are_errors(tmp_path):
     place = {"code": "at_row", "values": {"element": "triangle", "row": 2}}
     for data, reason in (
         (whole[:-1], sentence("stl_cut_short", end=BY_COUNT)),
-        (b"", sentence("file_empty")),
+        (b"", sentence("import_failed", error="it is empty")),
         (stl((points, triangles)), sentence("non_finite_coordinates", count=3, place=place)),
         (stl((points[:0], triangles[:0])), sentence("file_without_objects", content="faces")),
         (stl_text(part())[:-40], sentence("stl_cut_short", end=BY_WORD)),

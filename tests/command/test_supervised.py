@@ -9,14 +9,10 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-with suppress(ImportError):  # Windows
-    import pty
 
 pytest.importorskip("bpy")
 import bpy
@@ -188,39 +184,6 @@ def test_children_that_do_not_listen_end_together():
     assert [child.returncode for child in children] == [-signal.SIGKILL] * 20
 
 
-@on_linux
-def test_terminal_shows_a_bar_and_ctrl_c_ends_the_run(tmp_path):
-    """The key reaches the supervisor alone, not its children, and the bar is gone before the last line."""
-    for one in range(3):
-        np.save(tmp_path / "{}.npy".format(one), np.full((3, 4, 5), one + 1, "u2"))
-    slow = tmp_path / "z_2048x2048x2048_uint8.raw"
-    slow.touch()
-    os.truncate(slow, 1 << 33)
-    words = [sys.executable, SCRIPT, "measure", str(tmp_path), "--jobs", "1", "--output", str(tmp_path / "out")]
-    try:
-        pid, terminal = pty.fork()
-    except OSError:
-        pytest.skip("needs a terminal")
-    if pid == 0:
-        os.execv(sys.executable, words)
-    shown = b""
-    with open(terminal, "rb+", buffering=0) as screen:
-        while b"3 of 4" not in shown:
-            shown += screen.read(1 << 16)
-        born = commands.children(pid)
-        screen.write(b"\x03")
-        with suppress(OSError):  # Reading the end of a terminal fails.
-            while data := screen.read(1 << 16):
-                shown += data
-    _, status = os.waitpid(pid, 0)
-    assert os.waitstatus_to_exitcode(status) == 3
-    assert b"\r\x1b[K[##################......] 3 of 4 files" in shown
-    assert (
-        shown.rstrip().endswith(b"--resume goes on.") or b"interrupted after 3 of 4" in shown.rpartition(b"\x1b[K")[2]
-    )
-    assert born and not any(map(commands.is_running, born))
-
-
 def test_two_runs_do_not_write_the_same_result(scans, tmp_path):
     slow = tmp_path / "z_2048x2048x2048_uint8.raw"
     slow.touch()
@@ -294,26 +257,6 @@ def test_the_scan_through_children_is_the_one_without(scans):
     names = sorted(scans.iterdir())[:3]
     one, other = (script("measure", *names, *words) for words in ((), ("--no-supervisor",)))
     assert one.returncode == other.returncode == 0 and one.stdout == other.stdout
-
-
-def test_a_closed_pipe_of_the_supervisor_ends_its_child(tmp_path):
-    """Close the descriptor that a child watches, as a killed supervisor does."""
-    if not sys.platform.startswith("linux"):
-        pytest.skip("not on this system: signals of pipes")
-    watched, kept = os.pipe()
-    child = subprocess.Popen(
-        [sys.executable, SCRIPT, "child", str(watched)],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        pass_fds=[watched],
-    )
-    os.close(watched)
-    time.sleep(0.5)
-    os.close(kept)
-    assert child.wait(60) in (-signal.SIGIO, 0)
-    child.stdin.close()
-    child.stdout.close()
 
 
 def test_resuming_notices_changed_references(tmp_path):

@@ -35,7 +35,7 @@ from body_moments.core.flat import (
 from body_moments.core.fourier import polygon_transform, surface_transform
 from body_moments.core.inertia import Reference, combine
 from body_moments.core.mesh import convex_hull
-from body_moments.core.moments import normalize, sum_moments
+from body_moments.core.moments import normalize
 from body_moments.core.numerics import SplineSpace, clamped_space, quaternion
 from body_moments.core.nurbs import (
     Curve,
@@ -155,7 +155,6 @@ CALLS = {
     "signature": (signature, {"moments": CENTRAL, "radius": 2.0}),
     "similarity": (similarity, {"a": SHAPE, "b": SHAPE}),
     "solid_transform": (solid_transform, {"surface": SURFACE}),
-    "sum_moments": (lambda parts: sum_moments([parts]), {"parts": VOLUME}),
     "surface_transform": (surface_transform, {"surface": SURFACE, "q": Q}),
     "symmetry": (symmetry, {"moments": VOLUME}),
     "threshold_body": (threshold_body, {"samples": SAMPLES, "threshold": 3.5, "matrix": MATRIX}),

@@ -245,7 +245,7 @@ CASES = {  # scene, operator, options, code of the refusal (None: a text)
     "bill nowhere": (assembly_of_boxes, "object.export_bill", {"filepath": NOWHERE}, "file_not_written"),
     "bill without a file": (assembly_of_boxes, "object.export_bill", {}, None),
     "inertial of an empty mesh": (no_faces, "object.copy_inertial", {}, "no_geometry"),
-    "urdf nowhere": (body, "export_scene.urdf", {"filepath": NOWHERE}, "robot_not_written"),
+    "urdf nowhere": (body, "export_scene.urdf", {"filepath": NOWHERE}, "file_not_written"),
     "urdf of no collections": (
         empty_assembly,
         "export_scene.urdf",

@@ -24,7 +24,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PICTURES = ROOT / "tests" / "window" / "pictures"
 PACKAGE = "body_moments"
 NAME = "Body Moments"
-FOLDER = "manual"  # in the zip; `panels/manual.py` opens its pages
+FOLDER = "manual"  # in the zip; `panels/menus.py` opens its pages
 
 PAGE = """<!DOCTYPE html>
 <html lang="en">

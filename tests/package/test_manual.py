@@ -11,7 +11,7 @@ import pytest
 from tests.package import manual
 
 bpy = pytest.importorskip("bpy")
-from body_moments.panels import manual as shown
+from body_moments.panels import menus as shown
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
@@ -85,11 +85,11 @@ def test_every_page_of_buttons_and_settings_exists(folder):
 )
 def test_online_manual_finds_the_page_of_a_control(control, page, folder, monkeypatch):
     monkeypatch.setattr(shown, "folder", lambda: folder)
-    shown.register()
+    shown.register_manual()
     try:
         from bl_operators.wm import WM_OT_doc_view_manual as Viewer
 
         assert Viewer._lookup_rna_url(control, verbose=False) == folder.as_uri() + "/" + page
     finally:
-        shown.unregister()
+        shown.unregister_manual()
     assert all(prefix != folder.as_uri() + "/" for prefix, _ in bpy.utils.manual_map())

@@ -37,7 +37,7 @@ REFUSED = NETWORK | {
 REFUSED_NAMES = {"eval", "exec", "compile", "__import__", "bl_info"}
 # The supervisor alone starts processes, Blender with this add-on, so that no file can end the run over all of them.
 STARTS_PROCESSES = {"command/supervisor/" + name for name in ("processes.py", "pool.py", "whole_run.py")}
-ASKS_WINDOWS = {"command/supervisor/windows.py"}
+ASKS_SYSTEM = {"command/supervisor/lifeline.py", "command/supervisor/windows.py"}
 ALLOWED = (set(sys.stdlib_module_names) - REFUSED) | BLENDER | {"numpy"}
 
 
@@ -73,7 +73,7 @@ def test_only_packages_of_blender_are_imported():
             if (
                 package not in ALLOWED
                 and not (package == "subprocess" and file in STARTS_PROCESSES)
-                and not (package == "ctypes" and file in ASKS_WINDOWS)
+                and not (package == "ctypes" and file in ASKS_SYSTEM)
             )
             or (file.startswith("core/") and package in BLENDER)
         ]

@@ -127,8 +127,7 @@ def shown(closed=(), without=()):
 
     without: names of sub-panels.
     """
-    from body_moments.panels import places
-    from body_moments.panels.measure import body
+    from body_moments.panels import body, places
 
     layout = Layout(closed=closed)
     body.VIEW3D_PT_body_moments.draw(SimpleNamespace(layout=layout), bpy.context)

@@ -10,7 +10,7 @@ from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding
 from ...bodies.rig import Rig
 from ...write import properties
-from ..tracking import rigs, staleness
+from ..tracking import armatures, staleness
 
 
 def store(rig: Rig) -> list[tuple[str, Finding]]:
@@ -33,7 +33,7 @@ def store(rig: Rig) -> list[tuple[str, Finding]]:
             properties.store(bone, part.measurement)
         except Exception as error:
             failures.append((bone.name, internal_error.finding_of(error)))
-    rigs.watch(armature, rig.objects)
+    armatures.watch(armature, rig.objects)
     staleness.mark_object(armature)
     return failures
 

@@ -19,12 +19,12 @@ from ...read.rig import skinned_objects
 from ...write import properties
 from ...write.properties import StoredProperties
 from ..displayed import Displayed, Trust, displayed, drawn_bone
-from ..tracking import posed
+from ..tracking import armatures
 
 
 def of_meshes(armature: Object, scene: Scene) -> Displayed | None:
     """Return the sum of the meshes that an armature deforms and that have numbers; None if they have no mass."""
-    parts = [shown for mesh in posed.deformed_meshes(armature) if (shown := displayed(mesh, scene)) is not None]
+    parts = [shown for mesh in armatures.deformed_meshes(armature) if (shown := displayed(mesh, scene)) is not None]
     return _of_parts(armature, scene, parts)
 
 

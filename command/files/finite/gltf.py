@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ....core.streams.misread import MAX_FLOAT32, Data, map_file
 from ....core.verdict.finding import FileError, finding
-from ...findings import AT_ACCESSOR, AT_MESH_VERTEX, AT_NODE, GLTF_BUFFER_MISSING, GLTF_BUFFER_SHORT
+from ...findings import AT_GLTF_ROW, GLTF_BUFFER_SHORT, MISSING_REFERENCES
 from .numbers import MALFORMED, bad_in_table, refuse
 
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -32,16 +32,14 @@ def check_gltf(data: Data, path: str) -> None:
         document = buffers.document
         nodes = document.get("nodes", [])
         for number, node in enumerate(nodes):
-            numbers = [one for key in _OF_NODES for one in node.get(key, ())]
-            refuse(_bad_numbers(numbers), finding(AT_NODE, node=node.get("name") or str(number)))
+            count = _bad_numbers(one for key in _OF_NODES for one in node.get(key, ()))
+            refuse(count, finding(AT_GLTF_ROW, row=0, part="node", name=node.get("name") or str(number)))
         for number, mesh in _placing_accessors(document).items():
             accessor = document["accessors"][number]
             count, first = _bad_in_accessor(buffers, accessor)
-            if mesh is None:
-                place = finding(AT_ACCESSOR, accessor=number, element=first)
-            else:
-                place = finding(AT_MESH_VERTEX, mesh=mesh, vertex=first)
-            refuse(count + _bad_numbers([*accessor.get("min", ()), *accessor.get("max", ())]), place)
+            part, name = ("accessor", str(number)) if mesh is None else ("mesh", mesh)
+            count += _bad_numbers([*accessor.get("min", ()), *accessor.get("max", ())])
+            refuse(count, finding(AT_GLTF_ROW, row=first, part=part, name=name))
 
 
 def _bad_numbers(numbers: Iterable[float]) -> int:
@@ -119,7 +117,7 @@ class Buffers:
         if uri is None:
             name = "BIN"
             if self.binary is None:
-                raise FileError(GLTF_BUFFER_MISSING, buffer=name)
+                raise FileError(MISSING_REFERENCES, names=[name])
             data, start = self.binary
         elif uri.startswith("data:"):
             name, data, start = "data:", base64.b64decode(uri.partition(",")[2]), 0
@@ -128,7 +126,7 @@ class Buffers:
             try:
                 data, start = map_file(os.path.join(self.folder, name)), 0
             except (OSError, ValueError) as error:  # ValueError: it is empty
-                raise FileError(GLTF_BUFFER_MISSING, buffer=name) from error
+                raise FileError(MISSING_REFERENCES, names=[name]) from error
         if len(data) - start < size:
             raise FileError(GLTF_BUFFER_SHORT, buffer=name, size=len(data) - start, expected=size)
         return data, start

@@ -5,16 +5,6 @@
 These files come from anywhere. No entities, no network, no path outside of given folders, and limits on everything.
 """
 
-from typing import TYPE_CHECKING
-
 from ...lazy import lazy_names
 
-if TYPE_CHECKING:
-    from . import descriptions as descriptions
-    from . import paths as paths
-
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    descriptions="descriptions",
-    paths="paths",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -33,10 +33,7 @@ MAX_LINKS = 100_000
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return the description of a robot in a file. FileError if it is none, or is refused.
-
-    roots: places of files that it includes, by default the allowed places of its meshes.
-    """
+    """Return the description of a robot in a file, with files that it includes from the roots. FileError if refused."""
     data = _bytes(path)
     if data.startswith(_USD.encode()):
         description = AUDITED[_USD].reader_module.read(data)
@@ -92,10 +89,7 @@ def _narrow(data: bytes) -> bytes:
 
 
 def _include(root: Node, roots: Roots) -> None:
-    """Put the elements of the files that an MJCF model includes in the place of each `include`.
-
-    They have no place in the model's own file, so their inertials are judged and not repaired.
-    """
+    """Put the files that an MJCF model includes in place of each `include`, without a place in the model's own file."""
     included, total = set(), 0
     waiting = [root]
     while waiting:

@@ -36,8 +36,7 @@ _DAMAGE = (
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
     """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up.
 
-    The rotation is given if the file says that another axis is up, which readers obey or not. FileError, with the
-    file's name, if it cannot be read.
+    The rotation is None if the file says no other axis. FileError, with the file's name, if it cannot be read.
     """
     try:
         return _read_mesh(path)

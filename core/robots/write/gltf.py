@@ -32,8 +32,7 @@ _GLB, JSON, BINARY = 0x46546C67, 0x4E4F534A, 0x004E4942  # a binary file, and ki
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
     """Return the entry `motion` of both extensions, in the axes of the file.
 
-    inertial: along the axes of Blender's object. scale: meters per unit of the node's own space along Blender's axes,
-    for the center.
+    scale: meters per unit of the node's own space along Blender's axes, for the center.
     """
     values: dict[str, Any] = {
         "mass": inertial.mass,
@@ -46,11 +45,16 @@ def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
     return values
 
 
-def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
-    """Give the nodes of a glTF document their motions, and the document its unit, in place.
+def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
+    """Return both extensions of a node that is a rigid body; parameters as of `motion`."""
+    values = motion(inertial, scale)
+    return {KHR: {"motion": values}, OMI: {"motion": {"type": "dynamic", **values}}}
 
-    document: the JSON of a file. robot: with links named like nodes. meters_per_unit: of the Blender scene. Returns
-    findings about links without a node of their own, and scales that readers may take in different ways.
+
+def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
+    """Give the nodes of a glTF document their motions, and the document its unit, in place; return findings.
+
+    robot: with links named like nodes. meters_per_unit: of the Blender scene.
     """
     nodes, bones = document.get("nodes", []), {joint for skin in document.get("skins", []) for joint in skin["joints"]}
     by_name: dict[str, list[dict]] = {}
@@ -67,10 +71,7 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
             scaled.append(link.name)
-        values = motion(inertial, meters_per_unit * link.scale)
-        extensions = found[0].setdefault("extensions", {})
-        extensions[KHR] = {"motion": values}
-        extensions[OMI] = {"motion": {"type": "dynamic", **values}}
+        found[0].setdefault("extensions", {}).update(body_extensions(inertial, meters_per_unit * link.scale))
         written += 1
     if written:
         document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), KHR, OMI})

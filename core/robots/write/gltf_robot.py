@@ -22,7 +22,7 @@ from ...mesh.surface import Surface
 from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding
 from ..model import Joint, Link, Pose, Robot, Shape
-from .gltf import KHR, OMI, Y_UP, motion
+from .gltf import KHR, OMI, Y_UP, body_extensions
 from .marker import MARKER
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import unique_names
@@ -60,11 +60,7 @@ class _Document:
         index = self._node(self.names[link.name], Pose() if inertial_only else link.pose)
         self.of_link[link.name] = index
         if link.inertial is not None:
-            values = motion(link.inertial)
-            self.nodes[index]["extensions"] = {
-                KHR: {"motion": values},
-                OMI: {"motion": {"type": "dynamic", **values}},
-            }
+            self.nodes[index]["extensions"] = body_extensions(link.inertial)
         for shape in () if inertial_only else link.shapes:
             self._add_shape(index, link, shape)
 

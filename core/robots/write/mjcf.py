@@ -14,7 +14,7 @@ from xml.etree.ElementTree import Element, SubElement
 from ...numerics.rotations import quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import MJCF_INERTIA_TOO_SMALL, MJCF_MESH_TOO_LARGE
-from ..model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
 from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_text
 
@@ -106,13 +106,10 @@ def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, na
         return
     for count, free in enumerate(joint.free, start=1):
         name = names[joint.name] if len(joint.free) == 1 else "{}_{}".format(names[joint.name], count)
-        element = SubElement(body, "joint", name=name, type=_joint_type(free), axis=numbers(free.axis))
+        kind = "hinge" if free.kind == "rotate" else "slide"
+        element = SubElement(body, "joint", name=name, type=kind, axis=numbers(free.axis))
         if free.is_limited:
             element.set("range", "{} {}".format(number(max(free.lower, -1e10)), number(min(free.upper, 1e10))))
-
-
-def _joint_type(free: FreeAxis) -> str:
-    return "hinge" if free.kind == "rotate" else "slide"
 
 
 def _add_inertial(body: Element, inertial: Inertial) -> None:

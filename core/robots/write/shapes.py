@@ -31,10 +31,7 @@ def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
 
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
-    """Return a robot with surfaces in its meshes, and a finding about the links that have none.
-
-    surface_of: returns a link's surface by its name, in meters along the link's axes; None if it shows no faces.
-    """
+    """Return a robot with each link's surface by its name, in m along its axes, and a finding about links without."""
     links, bare = [], []
     for link in robot.links:
         surface = surface_of(link.name) if link.shapes else None

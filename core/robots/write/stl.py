@@ -33,9 +33,8 @@ def to_stl(surface: Surface) -> bytes:
 def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bool = False) -> Robot:
     """Write the surfaces of a robot's meshes, and return the robot that names their files.
 
-    output: the robot's own file; the meshes are in a folder of its name, in the folder `meshes` beside it. read: a file
-    that is read, and never replaced. force: True to replace even files that are no meshes of ours. Raises OSError if
-    one of the files cannot be written or must not be replaced. In the latter case none is written.
+    output: the robot's own file, beside whose folder `meshes` they stand. read: a file that is never replaced. OSError
+    if a file cannot be written, or is no mesh of ours and not to be replaced by `force`; then none is written.
     """
     files = mesh_files([link.name for link in robot.links], output.stem)
     surfaces = {

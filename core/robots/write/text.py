@@ -50,10 +50,7 @@ def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iter
 
 
 def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
-    """Return angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn.
-
-    The roll is found after the yaw, so that they give the rotation back even if both turn about nearly the same axis.
-    """
+    """Return angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn, right at the poles too."""
     yaw = atan2(rotation[1, 0], rotation[0, 0])
     pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
     roll = atan2(

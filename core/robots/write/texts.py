@@ -27,10 +27,7 @@ def with_geometry(
     read: Path | None = None,
     force: bool = False,
 ) -> tuple[Robot, list[Finding]]:
-    """Return a robot with its meshes, as files if the format names such, and a finding about links without any.
-
-    surface_of: as of `with_meshes`. output, read, force: as of `write_meshes`. Raises OSError.
-    """
+    """Return a robot with its meshes, as files if the format names such, and a finding about links without any."""
     robot, findings = with_meshes(robot, surface_of)
     return robot if FORMATS[format_name].holds_meshes else write_meshes(robot, output, read, force), findings
 
@@ -38,10 +35,7 @@ def with_geometry(
 def robot_text(
     robot: Robot, format_name: str, findings: Iterable[Finding] = (), *, inertial_only: bool = False
 ) -> tuple[str, list[Finding]]:
-    """Return a robot in one of the formats, and findings about it, which stand in the text as well.
-
-    findings: about the robot, whatever the format. inertial_only: without geometry and joints.
-    """
+    """Return a robot in a format, without geometry and joints if `inertial_only`, and all findings, as it has them."""
     writer = FORMATS[format_name].writer_module
     said = [one for one in writer.check(robot) if one.code in OF_INERTIALS or not inertial_only]
     findings = [*findings, *said]

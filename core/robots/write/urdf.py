@@ -19,16 +19,7 @@ from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
 from ..model import FreeAxis, Inertial, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
-from .text import (
-    document,
-    inertial_element,
-    is_identity,
-    number,
-    numbers,
-    roll_pitch_yaw,
-    unique_names,
-    xml_text,
-)
+from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_text
 
 BASE = "base_link"
 # A limited joint must state these, and nothing here knows them: N·m or N, and rad/s or m/s, which bind nothing.

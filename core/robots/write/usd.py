@@ -71,10 +71,8 @@ def write_over(
 ) -> str:
     """Return a layer that gives the prims of another one their mass, and nothing else.
 
-    `paths`: the prims of each root, from the top. `geometry`: the other layer's file, relative to this one.
-    `meters_per_unit`: unit scale of the Blender scene, left out by its exporter. `remarks`: comments at the beginning.
-    Prims stand in one another as objects do, and a body within a body is none: so each root carries all that is fixed
-    to it.
+    paths: the prims of each root, from the top. geometry: the other layer's file, relative to this one. A body within a
+    body is none, so each root carries all that is fixed to it. meters_per_unit: of the scene, left out by its exporter.
     """
     tree: dict[str, dict] = {}
     bodies = {}
@@ -126,10 +124,7 @@ def quoted(text: str) -> str:
 
 
 def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: ArrayLike = (1.0, 1.0, 1.0)) -> list[str]:
-    """Return the lines that give a prim its mass, in the units of its stage.
-
-    meters_per_unit: of the stage. scale: (3,) scale of the prim; the center is in its local space.
-    """
+    """Return the lines that give a prim its mass, in units of its stage. scale: (3,) of the prim, for the center."""
     center = inertial.center / (meters_per_unit * np.asarray(scale, np.float64))
     inertia = inertial.inertia / meters_per_unit**2
     entries = [inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))]

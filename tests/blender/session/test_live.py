@@ -14,7 +14,7 @@ import bpy
 from body_moments.blender.session.displayed import Trust, displayed, drawn, total
 from body_moments.blender.session.live import following, live
 from body_moments.blender.session.stored import sums
-from body_moments.blender.session.tracking import posed, updates
+from body_moments.blender.session.tracking import armatures, updates
 from mathutils import Euler, Matrix
 
 from tests.blender.objects import add, measured, mesh_body, only
@@ -286,10 +286,10 @@ def assert_bounds_hold(shown, parts):
 def test_in_pose_mode_the_armature_stands_for_its_meshes(monkeypatch):
     meshes = [add(mesh_body(), "A"), add(mesh_body(), "B", (4, 0, 0))]
     armature, other = armature_with(*meshes), add(mesh_body(), "Other", (0, 9, 0))
-    assert posed.subjects([armature]) == [armature]
+    assert armatures.subjects([armature]) == [armature]
     only(armature)
     bpy.ops.object.mode_set(mode="POSE")
-    assert posed.subjects([armature]) == meshes
+    assert armatures.subjects([armature]) == meshes
     assert bpy.ops.object.body_moments_live() == {"FINISHED"}
     assert [following.is_live(obj) for obj in (*meshes, other, armature)] == [True, True, False, False]
     with monkeypatch.context() as patch:

@@ -5,7 +5,7 @@
 import bpy
 import pytest
 from body_moments.blender.session.live import following
-from body_moments.blender.session.tracking import posed
+from body_moments.blender.session.tracking import armatures
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -33,15 +33,19 @@ def test_armature_stands_for_its_deformed_meshes():
     curve = add(bpy.data.curves.new("Curve", "CURVE"), "Curve")
     curve.parent, curve.parent_type = rig, "ARMATURE"
     bpy.context.view_layer.update()
-    assert posed.deformed_meshes(rig) == (bound, skinned)
-    assert posed.subjects([rig, free, free]) == [rig, free]
+    assert armatures.deformed_meshes(rig) == (bound, skinned)
+    assert armatures.subjects([rig, free, free]) == [rig, free]
     only(rig)
     bpy.ops.object.mode_set(mode="POSE")
-    assert posed.stands_for_meshes(rig) and not posed.stands_for_meshes(other) and not posed.stands_for_meshes(free)
-    assert posed.subjects([free, rig, bound, other]) == [free, bound, skinned, other]
+    assert (
+        armatures.stands_for_meshes(rig)
+        and not armatures.stands_for_meshes(other)
+        and not armatures.stands_for_meshes(free)
+    )
+    assert armatures.subjects([free, rig, bound, other]) == [free, bound, skinned, other]
     bpy.ops.object.mode_set(mode="OBJECT")
     hidden.modifiers["Armature"].show_viewport = True
     bpy.data.objects.remove(skinned)
     bpy.context.view_layer.update()
-    assert posed.deformed_meshes(rig) == (bound, hidden)
+    assert armatures.deformed_meshes(rig) == (bound, hidden)
     assert not following.is_live(below) and following.current_numbers(below) is None

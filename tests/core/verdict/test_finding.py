@@ -165,8 +165,8 @@ def test_list_is_cut_uniformly_and_its_remainder_translated(count, more):
     shown = ", ".join(["“a”"] * min(count, 8)) + more
     assert truncate_list(names, translate=lambda text: german.get(text, text)) == shown
     assert truncate_list(names[:8], count, german.get) == shown
-    missing = sentence(finding("missing_links", names=names), lambda text: german.get(text, text))
-    assert missing.startswith("Linked data is missing: " + shown)
+    missing = sentence(finding("missing_references", names=names), lambda text: german.get(text, text))
+    assert missing.startswith("The file refers to what cannot be found: " + shown)
     several = [finding("no_faces")] * count
     cut = truncate_findings(several, 8)
     assert cut[:8] == several[:8] and cut[8:] == ([finding("and_more", count=count - 8)] if more else [])

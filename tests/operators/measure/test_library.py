@@ -103,9 +103,9 @@ def test_metadata_of_collections_and_a_word_about_assets_without(library, report
 
 
 def test_an_empty_folder_is_refused(tmp_path, reported):
-    with pytest.raises(RuntimeError, match="No file that can be measured"):
+    with pytest.raises(RuntimeError, match="no file that can be measured"):
         measure(tmp_path)
-    assert "folder_without_files" in reported.codes
+    assert "library_not_started" in reported.codes
 
 
 def test_an_asset_library_of_the_preferences(library):

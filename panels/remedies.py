@@ -12,18 +12,18 @@ from dataclasses import replace
 
 from bpy.types import Context, UILayout
 
-from ...blender.bodies.findings import (
+from ..blender.bodies.findings import (
     DUPLICATE_FACES_OF_SHELL,
     FACES_REVERSED_BEFORE_UNION,
     HOLES_CAPPED_BEFORE_UNION,
 )
-from ...blender.session.stored import outcome
-from ...blender.write.properties import StoredProperties
-from ...blender.write.translations import localized
-from ...blender.write.units import Units
-from ...core.inertia.findings import NEGATIVE_INERTIA
-from ...core.measurement.findings import NO_VOLUME
-from ...core.solid.findings import (
+from ..blender.session.stored import outcome
+from ..blender.write.properties import StoredProperties
+from ..blender.write.translations import localized
+from ..blender.write.units import Units
+from ..core.inertia.findings import NEGATIVE_INERTIA
+from ..core.measurement.findings import NO_VOLUME
+from ..core.solid.findings import (
     COMPONENTS_NESTED,
     COMPONENTS_OVERLAP,
     DUPLICATE_FACES_COUNTED,
@@ -37,11 +37,11 @@ from ...core.solid.findings import (
     SELF_INTERSECTING,
     VERTICES_WELDED,
 )
-from ...core.verdict.finding import Finding, Severity, truncate
-from ...core.verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
-from ...core.verdict.sentences import of_severity, severity
-from ...operators.findings import RIGID_BODY_CENTER_ELSEWHERE
-from .. import rows
+from ..core.verdict.finding import Finding, Severity, truncate
+from ..core.verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
+from ..core.verdict.sentences import of_severity, severity
+from ..operators.findings import RIGID_BODY_CENTER_ELSEWHERE
+from . import rows
 
 UNION = ("object.body_moments_count_as_union", "MOD_BOOLEAN")
 OUTSIDE = ("object.body_moments_recalculate_outside", "NORMALS_FACE")

@@ -9,20 +9,19 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ...blender.session.displayed import Displayed, Trust, displayed, failure
-from ...blender.session.live.following import Lag, current_numbers, is_live
-from ...blender.session.tracking import posed
-from ...blender.write import properties
-from ...blender.write.translations import localized
-from ...blender.write.units import Units
-from ...core.verdict.method import Source
-from ...core.verdict.sentences import METHODS, method_key
-from ...core.wall.findings import WALL_MEASURED
-from .. import rows
-from ..density import material_row
-from ..overlay.popover import header_switch
-from ..places import in_both_places
-from . import remedies
+from ..blender.session.displayed import Displayed, Trust, displayed, failure
+from ..blender.session.live.following import Lag, current_numbers, is_live
+from ..blender.session.tracking import armatures
+from ..blender.write import properties
+from ..blender.write.translations import localized
+from ..blender.write.units import Units
+from ..core.verdict.method import Source
+from ..core.verdict.sentences import METHODS, method_key
+from ..core.wall.findings import WALL_MEASURED
+from . import remedies, rows
+from .density import material_row
+from .overlay.draw import header_switch
+from .places import in_both_places
 
 CENTER_HEADINGS = {"WORLD": "Center of Mass (World)", "OBJECT": "Center of Mass (Object)"}  # by the frame
 RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # for rigs
@@ -76,7 +75,7 @@ class BodyPanel:
         buttons.scale_y = 1.4
         rows.button(buttons, context, "object.body_moments_measure", "PHYSICS")
         row = buttons.row(align=True)
-        followed = any(is_live(subject) for subject in posed.subjects([obj]))
+        followed = any(is_live(subject) for subject in armatures.subjects([obj]))
         rows.button(row, context, "object.body_moments_live", "REC", depress=followed)
         row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
         if shown is not None:
@@ -101,7 +100,7 @@ def _verdict(layout: UILayout, context: Context, obj: Object, shown: Displayed |
         remedies.remedies(column, context, refusal)
     if shown is None:
         return
-    if posed.stands_for_meshes(obj):
+    if armatures.stands_for_meshes(obj):
         _posed(column, context, obj)
         return
     _headline(column, context, obj, shown)
@@ -115,7 +114,7 @@ def _verdict(layout: UILayout, context: Context, obj: Object, shown: Displayed |
 
 def _posed(column: UILayout, context: Context, armature: Object) -> None:
     """Draw the meshes that an armature deforms, with warnings about missing and outdated numbers."""
-    meshes = posed.deformed_meshes(armature)
+    meshes = armatures.deformed_meshes(armature)
     texts = "Sum of {count} mesh of the armature", "Sum of {count} meshes of the armature"
     rows.remark(column, context, *texts, icon="POSE_HLT", count=len(meshes))
     numbers = {mesh.name: displayed(mesh, context.scene) for mesh in meshes}
@@ -164,7 +163,6 @@ class ApplyPanel:
     """Use the center of mass and the principal axes in the scene"""
 
     bl_label = "Apply to Object"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object

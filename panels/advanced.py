@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
-from ...blender.session import stored
-from ...blender.session.displayed import displayed
-from ...blender.session.tracking.staleness import stale_reason
-from ...blender.write import properties
-from ...blender.write.units import Units
-from ...core.lazy import loaded_module
-from .. import rows
-from ..places import in_both_places
+from ..blender.session import stored
+from ..blender.session.displayed import displayed
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.write import properties
+from ..blender.write.units import Units
+from ..core.lazy import loaded_module
+from . import rows
+from .places import in_both_places
 
 BOUNDS = (("Rounding, at Most", None), ("Float32 Coordinates, at Most", "input"))
 ESTIMATED = "Quadrature and Rounding, Estimated"
@@ -32,7 +32,6 @@ class AdvancedPanel:
     """Error bounds and analyses"""
 
     bl_label = "Advanced"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout, obj, scene = self.layout, context.object, context.scene
@@ -57,8 +56,7 @@ def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: properties
     display = properties.optional(obj, "body_display_volume")
     if display is None:
         return
-    header, body = layout.panel("body_moments_display_mesh", default_closed=True)
-    header.label(text="Display Mesh")
+    body = rows.fold(layout, "body_moments_display_mesh", "Display Mesh")
     if body is not None:
         column = body.column(align=True)
         rows.values(column, units, ("Volume", "Difference"), "volume", (display, display - shown.volume))
@@ -66,8 +64,7 @@ def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: properties
 
 
 def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.StoredProperties) -> None:
-    header, body = layout.panel("body_moments_bounds", default_closed=True)
-    header.label(text="Error Bounds")
+    body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return
     sizes = {
@@ -92,7 +89,6 @@ class MomentsPanel:
     """Moments to a chosen order"""
 
     bl_label = "Moments"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout, obj, settings = self.layout, context.object, context.scene.body_moments

@@ -6,13 +6,13 @@ from __future__ import annotations
 
 from bpy.types import Context
 
-from ...blender.session import stored
-from ...blender.session.displayed import displayed
-from ...blender.write.properties import tensor_entries
-from ...blender.write.units import Units
-from ...core.verdict.finding import Finding
-from .. import rows
-from ..places import in_both_places
+from ..blender.session import stored
+from ..blender.session.displayed import displayed
+from ..blender.write.properties import tensor_entries
+from ..blender.write.units import Units
+from ..core.verdict.finding import Finding
+from . import rows
+from .places import in_both_places
 
 ERROR_OF_A_DIFFERENCE = 6.0  # each principal moment is off by at most 3 times the error of a tensor entry
 EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
@@ -26,7 +26,6 @@ class InertiaPanel:
     """Principal moments and axes, radii of gyration and inertia tensor"""
 
     bl_label = "Inertia"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -53,8 +52,7 @@ class InertiaPanel:
         if text:
             rows.remark(column, context, text)
         rows.group(layout, units, "Radii of Gyration", rows.PRINCIPAL_LABELS, "length", shown.gyration)
-        header, body = layout.panel("body_moments_tensor")
-        header.label(text="Inertia Tensor")
+        body = rows.fold(layout, "body_moments_tensor", "Inertia Tensor", closed=False)
         if body is not None:
             rows.group(
                 body, units, "About the center of mass, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", shown.inertia
@@ -65,7 +63,6 @@ class ReferencePanel:
     """Inertia about a point, a frame or an axis"""
 
     bl_label = "Inertia about Reference"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout, scene = self.layout, context.scene
@@ -90,7 +87,7 @@ class ReferencePanel:
         units = Units.from_settings(scene.unit_settings)
         if settings.about == "AXIS":
             column = layout.column(align=True)
-            rows.value(column, units, "About Axis", "inertia", result.about_z)
+            rows.quantities(column, units, [("About Axis", "inertia", result.about_z)])
             distances = result.radius_about_z, result.distance_from_z
             rows.values(column, units, ("Radius of Gyration", "Distance of Center"), "length", distances)
         center, reach = result.center, max(map(abs, result.center))

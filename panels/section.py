@@ -8,15 +8,14 @@ from math import degrees
 
 from bpy.types import Context, UILayout
 
-from ...blender.read.visibility import SECTION_TYPES
-from ...blender.session.tracking.staleness import stale_reason
-from ...blender.session.tracking.stamps import of_section
-from ...blender.write import section as record
-from ...blender.write.translations import localized
-from ...blender.write.units import Units, number
-from .. import rows
-from ..places import in_both_places
-from . import remedies
+from ..blender.read.visibility import SECTION_TYPES
+from ..blender.session.tracking.staleness import stale_reason
+from ..blender.session.tracking.stamps import of_section
+from ..blender.write import section as record
+from ..blender.write.translations import localized
+from ..blender.write.units import Units, number
+from . import remedies, rows
+from .places import in_both_places
 
 ABOUT_LABELS = ("x", "y", "1", "2")
 BOUND_LABELS = {
@@ -31,7 +30,6 @@ class SectionPanel:
     """Section properties"""
 
     bl_label = "Section"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:
@@ -78,24 +76,17 @@ def _numbers(layout: UILayout, units: Units, section) -> None:
         column.label(text="Every Axis Is Principal", icon="INFO")
     else:
         angle = degrees(section.angle)
-        rows.text(
-            column,
-            "Angle from x to 1",
-            "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle)),
-            repr(section.angle),
-            "rad",
-        )
+        shown = "{:s}°".format(number(0.0 if abs(angle) < 1e-6 else angle))
+        rows.table(column, [("Angle from x to 1", shown, repr(section.angle), "rad")])
 
 
 def _more_numbers(layout: UILayout, units: Units, section) -> None:
-    header, body = layout.panel("body_moments_section_moduli", default_closed=True)
-    header.label(text="Section Moduli and Radii of Gyration")
+    body = rows.fold(layout, "body_moments_section_moduli", "Section Moduli and Radii of Gyration")
     if body is not None:
         moduli, radii = (["{:s}{:s}".format(letter, name) for name in ABOUT_LABELS] for letter in "Wi")
         rows.group(body, units, "Elastic, at the Outermost Corner", moduli, "volume", section.moduli)
         rows.group(body, units, "Radii of Gyration", radii, "length", section.radii)
-    header, body = layout.panel("body_moments_section_plane", default_closed=True)
-    header.label(text="Plane")
+    body = rows.fold(layout, "body_moments_section_plane", "Plane")
     if body is not None:
         column = body.column(align=True)
         rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
@@ -106,8 +97,7 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
         )
         column.label(text="About the centroid, Ix = ∫y² dA, Ixy = +∫xy dA")
         column.label(text="Jp = Ix + Iy is not the torsion constant")
-    header, body = layout.panel("body_moments_section_bounds", default_closed=True)
-    header.label(text="Error Bounds")
+    body = rows.fold(layout, "body_moments_section_bounds", "Error Bounds")
     if body is not None:
         sizes = {
             "area": section.area,
@@ -125,6 +115,4 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
             rows.bounds(column, units, entries)
 
 
-CLASSES = VIEW3D_PT_body_moments_section, OBJECT_PT_body_moments_section = in_both_places(
-    SectionPanel, "section", parent="advanced"
-)
+CLASSES = in_both_places(SectionPanel, "section", parent="advanced")

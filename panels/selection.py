@@ -7,12 +7,12 @@ from __future__ import annotations
 from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, UILayout, UIList
 
-from ...blender.session import displayed
-from ...blender.session.displayed import Trust, drawn
-from ...blender.session.stored.listing import SortBy, listed_masses, listing
-from ...blender.write.units import Units
-from .. import rows
-from ..places import in_both_places
+from ..blender.session import displayed
+from ..blender.session.displayed import Trust, drawn
+from ..blender.session.stored.listing import SortBy, listed_masses, listing
+from ..blender.write.units import Units
+from . import rows
+from .places import in_both_places
 
 VERDICT_ICONS = {  # the form says it, not the color alone
     Trust.EXACT: "CHECKMARK",
@@ -49,9 +49,7 @@ class BODY_MOMENTS_UL_measured(UIList):
         row.active = obj.select_get()
         row.label(text=obj.name, icon=VERDICT_ICONS[body.trust], translate=False)
         if not rows.is_narrow(context):
-            cell = row.row(align=True)
-            cell.alignment = "RIGHT"
-            cell.label(text=listed_masses(context.scene, context.view_layer)[obj.session_uid], translate=False)
+            rows.right(row, listed_masses(context.scene, context.view_layer)[obj.session_uid])
 
     def draw_filter(self, _context, layout) -> None:
         row = layout.row(align=True)
@@ -71,7 +69,6 @@ class SelectionPanel:
     """The selected objects as one body"""
 
     bl_label = "Selection"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -129,7 +126,4 @@ def _total(layout: UILayout, context: Context, units: Units) -> None:
     rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
 
 
-PANELS = VIEW3D_PT_body_moments_selection, OBJECT_PT_body_moments_selection = in_both_places(
-    SelectionPanel, "selection"
-)
-CLASSES = (BODY_MOMENTS_UL_measured, *PANELS)
+CLASSES = (BODY_MOMENTS_UL_measured, *in_both_places(SelectionPanel, "selection"))

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Armatures and their meshes: which are posed, and which measured characters are edited.
+
+In Pose Mode an armature stands for the meshes that it deforms: they are posed, but not selected. A skinned mesh is
+evaluated anew whenever its armature moves, which changes nothing: the rest pose is measured. So an edit is noted if
+Blender reports a new shape of a mesh and nothing new of its armature.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import bpy
+from bpy.types import Object
+
+from ... import read
+from ...read.tracking import tracking_paused
+from ...write import properties
+from . import handlers, staleness
+from .cache import SessionCache, current_value
+
+# by armature: the number of the last change, and its meshes
+_meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
+_watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the armatures that deform them
+
+
+def stands_for_meshes(obj: Object) -> bool:
+    """Return whether an original object is an armature that is being posed."""
+    return obj.type == "ARMATURE" and obj.mode == "POSE"
+
+
+def deformed_meshes(armature: Object) -> tuple[Object, ...]:
+    """Return the meshes of the window's view layer that an original armature deforms, in the layer's order."""
+    objects = bpy.context.view_layer.objects
+    return current_value(
+        _meshes,
+        armature,
+        handlers.generation(),
+        lambda: tuple(obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)),
+    )
+
+
+def subjects(objects: Iterable[Object]) -> list[Object]:
+    """Return original objects with the meshes that they stand for in their place, each once."""
+    found: dict[Object, None] = {}
+    for obj in objects:
+        found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
+    return list(found)
+
+
+def watch(armature: Object, objects: Iterable[Object]) -> None:
+    """Note edits of the meshes that an armature deforms from now on."""
+    for obj in read.rig.skinned_objects(armature, objects):
+        _watched[obj.session_uid] = armature
+
+
+def watch_all() -> None:
+    """Watch the meshes of all measured characters of a file."""
+    _watched.clear()
+    for obj in bpy.data.objects:
+        if obj.type == "ARMATURE" and "body_mass" in obj:
+            watch(obj, bpy.data.objects)
+
+
+def note_updates(updates: handlers.Updates) -> None:
+    """Note the edits among the updated objects."""
+    if tracking_paused.depth or not _watched:
+        return
+    touched = {*updates.reshaped, *updates.moved, *updates.others}
+    for uid in _watched.keys() & updates.reshaped:
+        armature = _watched[uid]
+        if armature.session_uid not in touched:
+            staleness.set_edited(armature, properties.fingerprint(armature), True)
