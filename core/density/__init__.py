@@ -10,6 +10,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     SplineAxis="spline_tables",
     density_moments="spline_grid",
     grid_moments="spline_grid",
-    parse_polynomial="polynomial",
     threshold_body="threshold",
 )

@@ -125,28 +125,9 @@ class Polynomial:
 
 
 def parse_polynomial(text: str) -> Polynomial:
-    """Parse a polynomial that a person typed.
+    """Parse a polynomial that a person typed: an expression such as ``1000 + 20*z``, or coefficients as of `from_list`.
 
-    Parameters
-    ----------
-    text : str
-        An expression such as ``1000 + 20*z``, or a list of coefficients (``1000, 0, 0, 20``) in the order of
-        `Polynomial.from_list`.
-
-    Returns
-    -------
-    Polynomial
-
-    Raises
-    ------
-    MeasureError
-        If the text is no polynomial; the finding names the offending part.
-
-    Examples
-    --------
-    >>> from body_moments.core.density import parse_polynomial
-    >>> parse_polynomial("1000 + 20*z**2").coefficients()[[0, 9]].tolist()
-    [1000.0, 20.0]
+    MeasureError if the text is no polynomial; the finding names the offending part.
     """
     text = text.strip()
     if not text:

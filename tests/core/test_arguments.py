@@ -25,22 +25,20 @@ from body_moments.core.density import (
     threshold_body,
 )
 from body_moments.core.flat import (
-    Plane,
-    area_moments,
     directed_edges,
     fit_plane,
     measure_section,
     region_moments,
 )
+from body_moments.core.flat.section import Plane
 from body_moments.core.fourier import polygon_transform, surface_transform
-from body_moments.core.inertia import Reference, combine
+from body_moments.core.inertia import combine
 from body_moments.core.mesh import convex_hull
 from body_moments.core.moments import normalize
 from body_moments.core.numerics import SplineSpace, clamped_space, quaternion
 from body_moments.core.nurbs import (
     Curve,
     Patch,
-    TrackedSolid,
     length_moments,
     measure_patches,
 )
@@ -91,11 +89,6 @@ CALLS = {
     "Moments.transform": (VOLUME.transform, {"matrix": MATRIX}),
     "Patch": (Patch, {"spaces": (LINE, LINE), "points": PATCH_POINTS, "weights": np.array([[1.0, 2.0], [3.0, 4.0]])}),
     "Patch.transform": (PATCH.transform, {"matrix": MATRIX}),
-    "Plane.project": (PLANE.project, {"points": POINTS}),
-    "PrincipalFrame.rotate": (PROPERTIES.principal.rotate, {"rotation": AXES}),
-    "Reference": (Reference, {"origin": ORIGIN, "axes": AXES}),
-    "Reference.refer": (Reference(ORIGIN).refer, {"properties": PROPERTIES}),
-    "Reference.through_points": (Reference.through_points, {"first": ORIGIN, "second": np.ones(3)}),
     "SplineAxis": (SplineAxis, {"knots": np.arange(4.0), "order": 2}),
     "SplineAxis.at_positions": (SplineAxis.at_positions, {"positions": np.arange(4.0)}),
     "SplineSpace": (SplineSpace, {"knots": np.arange(4.0), "order": 2, "count": 2}),
@@ -105,9 +98,7 @@ CALLS = {
     ),
     "Surface.from_triangles": (Surface.from_triangles, {"points": POINTS, "triangles": TRIANGLES}),
     "Surface.transform": (SURFACE.transform, {"linear": AXES, "offset": ORIGIN}),
-    "TrackedSolid": (lambda patches: TrackedSolid([patches]), {"patches": PATCH}),
     "area_gradient": (area_gradient, {"surface": SURFACE, "about": ORIGIN}),
-    "area_moments": (area_moments, {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]}),
     "balance": (
         balance,
         {
