@@ -19,11 +19,7 @@ from body_moments.core import (
     signature,
     solid_transform,
 )
-from body_moments.core.density import (
-    SplineAxis,
-    density_moments,
-    threshold_body,
-)
+from body_moments.core.density import threshold_body
 from body_moments.core.flat import (
     directed_edges,
     fit_plane,
@@ -65,7 +61,6 @@ CURVE_POINTS = np.array([[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]])
 CURVE = Curve(LINE, CURVE_POINTS)
 PATCH_POINTS = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
 PATCH = Patch((LINE, LINE), PATCH_POINTS)
-GRID_AXES = [SplineAxis.uniform(2)] * 3
 SAMPLES = np.arange(8.0).reshape(2, 2, 2)
 SHAPE = signature(CENTRAL, 2.0)
 Q = np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
@@ -89,8 +84,6 @@ CALLS = {
     "Moments.transform": (VOLUME.transform, {"matrix": MATRIX}),
     "Patch": (Patch, {"spaces": (LINE, LINE), "points": PATCH_POINTS, "weights": np.array([[1.0, 2.0], [3.0, 4.0]])}),
     "Patch.transform": (PATCH.transform, {"matrix": MATRIX}),
-    "SplineAxis": (SplineAxis, {"knots": np.arange(4.0), "order": 2}),
-    "SplineAxis.at_positions": (SplineAxis.at_positions, {"positions": np.arange(4.0)}),
     "SplineSpace": (SplineSpace, {"knots": np.arange(4.0), "order": 2, "count": 2}),
     "Surface": (
         Surface,
@@ -111,7 +104,6 @@ CALLS = {
     ),
     "combine": (lambda bodies: combine([(bodies, 2.0)]), {"bodies": VOLUME}),
     "convex_hull": (convex_hull, {"points": POINTS}),
-    "density_moments": (density_moments, {"coefficients": SAMPLES, "axes": GRID_AXES}),
     "directed_edges": (lambda loops: directed_edges([loops]), {"loops": np.arange(4)}),
     "enclosed_moments": (
         enclosed_moments,
