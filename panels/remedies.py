@@ -14,8 +14,6 @@ from bpy.types import Context, UILayout
 
 from ..blender.bodies.findings import (
     DUPLICATE_FACES_OF_SHELL,
-    FACES_REVERSED_BEFORE_UNION,
-    HOLES_CAPPED_BEFORE_UNION,
 )
 from ..blender.session.stored import outcome
 from ..blender.write.properties import StoredProperties
@@ -54,9 +52,7 @@ REMEDIES = {
     SELF_INTERSECTION: (UNION,),
     FLIPPED_FACES: (OUTSIDE, DEFECTS),
     INVERTED_COMPONENTS: (OUTSIDE,),
-    FACES_REVERSED_BEFORE_UNION: (OUTSIDE,),
     HOLES_CAPPED: (DEFECTS, SHELL),
-    HOLES_CAPPED_BEFORE_UNION: (DEFECTS,),
     DUPLICATE_FACES_IGNORED: (DEFECTS,),
     DUPLICATE_FACES_COUNTED: (DEFECTS,),
     DUPLICATE_FACES_OF_SHELL: (DEFECTS,),

@@ -129,10 +129,7 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def extend_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments of another order with the input bounds of the known moments about the same point.
-
-    At degree 0 the bound is the swept volume, or area; each further degree multiplies it by the reach.
-    """
+    """Return moments of another order with the known input bounds: the swept extent times powers of the reach."""
     swept, further = known.input_error[:2].tolist()
     reach = further / swept if swept > 0.0 else 0.0
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))

@@ -20,62 +20,36 @@ UNION_FAILED = error(
     "union_failed",
     "Blender's Boolean cannot unite the components. Close and clean up the mesh, or set Overlaps to Count Each Shell.",
 )
-HOLES_CAPPED_BEFORE_UNION = warning(
-    "holes_capped_before_union", "Holes capped before uniting ({share:percent} of the area)."
-)
-FACES_REVERSED_BEFORE_UNION = warning(
-    "faces_reversed_before_union", "Faces were turned outward before uniting. Use Mesh > Normals > Recalculate Outside."
-)
 OPEN_COMPONENTS_UNITED = warning(
     "open_components_united", "Open components were united; the result may not be the intended body. Close the mesh."
 )
-UNION_OF_DISPLAY_MESH = warning(
-    "union_of_display_mesh",
-    "The display mesh was measured, as uniting needs polygons. Raise Resolution Preview, or set Overlaps to Count "
-    "Each Shell.",
+DISPLAY_MESH_NEEDED = warning(
+    "display_mesh_needed",
+    "The display mesh was measured, as {purpose:word} needs polygons. Raise Resolution Preview for accuracy.",
 )
 ZERO_SCALE = error(
-    "zero_scale", "A zero scale flattens the object. Set its scale and its parents' scale, or set Kind to Shell."
+    "zero_scale",
+    "A zero scale flattens the object or its instances. Set their scale and their parents', or set Kind to Shell.",
 )
-ALL_INSTANCES_ZERO_SCALE = error(
-    "all_instances_zero_scale", "A zero scale flattens all instances. Set their scale, or set Kind to Shell."
-)
-INSTANCES_ZERO_SCALE = warning(
-    "instances_zero_scale",
-    "{count} instance is flattened by a zero scale and encloses nothing.",
-    "{count} instances are flattened by a zero scale and enclose nothing.",
-)
-INSTANCE_OVERLAP_UNCHECKED = warning(
-    "instance_overlap_unchecked",
-    "Overlap was not checked between {count} instances whose bounding boxes overlap. Use Object > Apply > Make "
-    "Instances Real and join them.",
-)
-FLAT_INSTANCE_SOURCES = warning(
-    "flat_instance_sources",
+FLAT_SURFACES = warning(
+    "flat_surfaces",
     "{count} of {total} surfaces is flat: its area counts, its volume does not.",
     "{count} of {total} surfaces are flat: their areas count, their volumes do not.",
 )
-CURVE_NOT_FILLED = note("curve_not_filled", "The curve is not filled; the flat region that it bounds was measured.")
+INSTANCE_OVERLAP_UNCHECKED = warning(
+    "instance_overlap_unchecked",
+    "Overlap was not checked between instances whose bounding boxes overlap. Use Object > Apply > Make Instances Real "
+    "and join them.",
+)
 CURVE_FILL_MEASURED = warning(
     "curve_fill_measured", "Blender's fill of the curves was measured, overlapping or not: {cause}"
 )
-CURVE_FILL_FOR_DENSITY = warning(
-    "curve_fill_for_density", "Blender's fill of the curve was measured, as a varying density needs polygons."
-)
-NO_LENGTH = error("no_length", "The curve has no length. Move its points apart.")
 WALL_ERROR_ESTIMATE_LARGE = warning(
     "wall_error_estimate_large", "The estimated error of the wall's volume is above the target."
-)
-DISPLAY_MESH_FOR_DENSITY = warning(
-    "display_mesh_for_density",
-    "The display mesh was measured, as a varying density needs polygons. Raise Resolution Preview for accuracy.",
 )
 WALL_UNORIENTED = warning(
     "wall_unoriented",
     "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > Flip to change sides.",
-)
-WALL_FACES_REVERSED = warning(
-    "wall_faces_reversed", "Faces were turned outward. Use Mesh > Normals > Recalculate Outside."
 )
 WALL_THICKNESS_VARIES = warning(
     "wall_thickness_varies",
@@ -92,79 +66,40 @@ WALL_OVERLAP_UNCHECKED = warning(
 WALLS_OVERLAP = warning(
     "walls_overlap", "The walls overlap; the shared space counts twice. Reduce Thickness, or change Wall."
 )
-INSTANCE_WALLS_UNCHECKED = warning(
-    "instance_walls_unchecked",
-    "Overlap was not checked between the walls of instances. Use Object > Apply > Make Instances Real and join them.",
-)
 WALL_FOLDS = error(
     "wall_folds",
     "A wall of {thickness:length} ({side:word}) folds over itself near {point:point}; the largest is "
     "{largest:length}. Reduce Thickness, change Wall, or set Wall to Thin.",
-)
-WALL_FOLDS_SOMEWHERE = error(
-    "wall_folds_somewhere",
-    "A wall of {thickness:length} ({side:word}) folds over itself; the largest is {largest:length}. Reduce "
-    "Thickness, change "
-    "Wall, or set Wall to Thin.",
-)
-WALL_FACES_FOLD_BACK = error(
-    "wall_faces_fold_back",
-    "Faces fold back on their neighbors near {point:point}, leaving no room for a wall. Repair them, change "
-    "Wall, or "
-    "set Wall to Thin.",
-)
-WALL_FACES_FOLD_BACK_SOMEWHERE = error(
-    "wall_faces_fold_back_somewhere",
-    "Faces fold back on their neighbors, leaving no room for a wall. Repair them, change Wall, or set Wall to Thin.",
-)
-WALL_NEEDS_ONE_DENSITY = error(
-    "wall_needs_one_density",
-    "A wall of real thickness needs one density. Set Density From to One Value, or Wall to Thin.",
-)
-WALL_OF_MIXED_SURFACES = error(
-    "wall_of_mixed_surfaces", "Walls are not supported for NURBS surfaces and meshes together. Set Wall to Thin."
 )
 WALL_CREASES = warning(
     "wall_creases",
     "At creases of up to {angle:.0f}° the wall overlaps or gapes, as it is not mitered. Use Object > Convert > Mesh.",
 )
 MASS_OVERFLOW = error("mass_overflow", "The densities are too large. Lower them.")
-DENSITY_VOLUME_UNREADABLE = error("density_volume_unreadable", "The density from “{object}” cannot be read: {cause}")
 DENSITY_ATTRIBUTE_OF_SOLID = error(
     "density_attribute_of_solid",
     "A vertex attribute holds densities on the surface only. Set Kind to Shell, or change Density From.",
 )
-DENSITY_VOLUME_OF_SHELL = error(
-    "density_volume_of_shell", "A grid holds densities inside a solid only. Set Kind to Solid, or change Density From."
+ATTRIBUTE_VALUES = error(
+    "attribute_values",
+    "The attribute “{attribute}” is negative or not finite at {count} vertex: {elements}. Set its density.",
+    "The attribute “{attribute}” is negative or not finite at {count} vertices: {elements}. Set their densities.",
 )
-ATTRIBUTE_NON_FINITE = error(
-    "attribute_non_finite",
-    "The attribute “{attribute}” is not finite at {count} vertex: {elements}. Set its density.",
-    "The attribute “{attribute}” is not finite at {count} vertices: {elements}. Set their densities.",
-)
-ATTRIBUTE_NEGATIVE = error(
-    "attribute_negative",
-    "The attribute “{attribute}” is negative at {count} vertex: {elements}. Set its density.",
-    "The attribute “{attribute}” is negative at {count} vertices: {elements}. Set their densities.",
-)
-MATERIALS_OF_UNION = error(
-    "materials_of_union",
-    "United components have no materials. Set Overlaps to Count Each Shell, or Density From to One Value.",
+UNION_LACKS = error(
+    "union_lacks",
+    "A union has no {data:word}. Set Overlaps to Count Each Shell, or change Density From or Coordinates.",
 )
 MATERIAL_WITHOUT_DENSITY = error(
     "material_without_density",
     "{count} of {total} faces has no material with a density, and Density is zero. Set Density.",
     "{count} of {total} faces have no material with a density, and Density is zero. Set Density.",
 )
-MIXED_MATERIAL_COMPONENT = warning(
-    "mixed_material_component",
-    "A component has several materials ({materials}) and takes their mean by area, {density:.7g} kg/m³. Use Mesh > "
+MIXED_MATERIALS = warning(
+    "mixed_materials",
+    "{count} of {total} components has several materials ({materials}) and takes their mean by area. Use Mesh > "
     "Separate > By Material.",
-)
-MIXED_MATERIAL_COMPONENTS = warning(
-    "mixed_material_components",
-    "{count} of {total} components have several materials and take their means by area. Use Mesh > Separate >"
-    " By Material.",
+    "{count} of {total} components have several materials ({materials}) and take their means by area. Use Mesh > "
+    "Separate > By Material.",
 )
 OVERLAPPING_DENSITIES = warning(
     "overlapping_densities", "Densities add up where components overlap. Cut a cavity for each insert."
@@ -176,10 +111,6 @@ SHEARED_DENSITY_AXES = warning(
     "sheared_density_axes",
     "The object is sheared; its density follows the nearest right-angled axes. Use Object > Apply > Scale.",
 )
-DENSITY_OF_UNITED_INSTANCES = error(
-    "density_of_united_instances",
-    "United instances have no object coordinates. Set Coordinates to World, or Overlaps to Count Each Shell.",
-)
 DENSITY_POSSIBLY_NEGATIVE = warning(
     "density_possibly_negative", "The density may be negative inside the object, though no tested point shows it."
 )
@@ -190,20 +121,11 @@ DENSITY_NEGATIVE = error(
 )
 DENSITY_FROM_SAMPLES = note("density_from_samples", "samples")
 DENSITY_FROM_GRID = note("density_from_grid", "grid “{grid}”")
-DENSITY_FROM_GRID_OF = note("density_from_grid_of", "grid “{grid}” of “{object}”")
 DENSITY_FROM_ATTRIBUTE = note("density_from_attribute", "vertex attribute “{attribute}”")
 DENSITY_FROM_MATERIALS = note("density_from_materials", "materials: {materials}")
 DENSITY_OF_MATERIAL = note("density_of_material", "{material} {density:.7g} kg/m³")
 DENSITY_OF_OTHERS = note("density_of_others", "others {density:.7g} kg/m³")
-DENSITY_MIXED_BY_AREA = note("density_mixed_by_area", "mixed components by area")
-GRID_DENSITY = note("grid_density", "Density from the grid “{grid}”, {samples:size} voxels. {cause}")
-GRID_DENSITY_OF = note(
-    "grid_density_of",
-    "Density from the grid “{grid}” of “{object}”, constant in each voxel. {cause} The error bounds of the "
-    "mass are "
-    "estimates.",
-)
-ARRAY_DENSITY = note("array_density", "Density from an array of {samples:size} samples. {cause}")
+GRID_DENSITY = note("grid_density", "Density from {samples:size} samples. {cause}")
 GRID_WITHOUT_SURFACE = note(
     "grid_without_surface", "A grid has no surface: the area is 0, the volume is that of the voxels that are not empty."
 )
@@ -213,31 +135,17 @@ LEVEL_SET_MEASURED = note(
 )
 GRID_IS_LEVEL_SET = error(
     "grid_is_level_set",
-    "The grid “{grid}” is a level set of distances, not densities. Set Measure As to Solid, or convert it to a fog "
-    "volume.",
-)
-DENSITY_GRID_IS_LEVEL_SET = error(
-    "density_grid_is_level_set",
-    "The grid “{grid}” of “{object}” is a level set of distances, not densities. Choose another grid.",
+    "The grid “{grid}” is a level set of distances, not densities. Set Measure As to Solid, or choose another grid.",
 )
 GRID_IS_NOT_LEVEL_SET = error(
     "grid_is_not_level_set", "The grid “{grid}” is not a level set. Set Measure As to Density."
 )
-LEVEL_SET_EMPTY = error("level_set_empty", "The level set “{grid}” bounds no volume. Choose another grid.")
-GRID_EMPTY = error("grid_empty", "The grid has no voxels with mass. Choose another grid, or check Values.")
-DENSITY_GRID_EMPTY = error(
-    "density_grid_empty",
-    "The grid “{grid}” of “{object}” is empty or flattened. Choose another grid, or set its scale.",
-)
+GRID_EMPTY = error("grid_empty", "The grid is empty or flattened. Choose another grid, or check Values and the scale.")
 DENSITY_GRID_ELSEWHERE = error(
     "density_grid_elsewhere", "The grid “{grid}” of “{object}” has no density inside the object. Check where both are."
 )
 OUTSIDE_GRID = warning(
     "outside_grid", "{share:percent} of the volume is outside the grid and counts as empty. Enlarge the grid."
-)
-DENSITY_GRID_TOO_FINE = error(
-    "density_grid_too_fine",
-    "The grid “{grid}” of “{object}” has too many voxels around the object, {samples:size}. Use a coarser grid.",
 )
 THRESHOLD_MEASURED = note(
     "threshold_measured",
@@ -252,34 +160,19 @@ THRESHOLD_NOT_REACHED = error(
     "threshold_not_reached",
     "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold.",
 )
-THRESHOLD_POSITIONS = error(
-    "threshold_positions", "A threshold needs samples at equal distances. Leave out --positions, or resample the scan."
-)
 THRESHOLD_NEEDS_FACTOR = error(
     "threshold_needs_factor",
     "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to Material.",
 )
-THRESHOLD_TOO_LARGE = error(
-    "threshold_too_large",
-    "The grid “{grid}” spans too many voxels, {samples}, for a threshold. Resample it, or crop it.",
-)
-GRID_AS_SHELL = error("grid_as_shell", "A grid of voxels cannot be a shell. Set Kind to Solid.")
+GRID_AS_SHELL = error("grid_as_shell", "A grid holds densities inside a solid only. Set Kind to Solid.")
 OPEN_SURFACE_OF_GRID = error(
     "open_surface_of_grid", "The surface is open, so the inside of the grid is undefined. Close the mesh."
-)
-OBJECT_WITHOUT_GRID = error("object_without_grid", "The Volume object shows no grid. Choose another one.")
-ARRAY_NEGATIVE = error(
-    "array_negative",
-    "Negative densities, down to {density:.6g} kg/m³. Convert the samples to densities, or use File > Import "
-    "> Scan of "
-    "Densities.",
 )
 SAMPLES_POSITIONED = note("samples_positioned", "The samples stand at the given positions along {axes}.")
 GIVEN_DENSITY_IGNORED = warning("given_density_ignored", "The samples are densities; the given density was not used.")
 SHAPE_OF_GRID = warning("shape_of_grid", "A grid of densities has no shape for a pose or signature.")
-SHAPE_OF_WIRE_OR_WALL = error(
-    "shape_of_wire_or_wall",
-    "Pose and signature are not available for wires and walls. Set Wall to Thin, or convert to a mesh.",
+WIRE_UNSUPPORTED = error(
+    "wire_unsupported", "{quantity:word} is not available for wires. Set Kind to Solid or Shell, or convert to a mesh."
 )
 SHAPE_OF_OPEN_SURFACE = error(
     "shape_of_open_surface",
@@ -291,33 +184,16 @@ SHAPE_FAR_FROM_ORIGIN = error(
 SIGNATURE_NEEDS_POLYGONS = error(
     "signature_needs_polygons", "The signature needs polygons. Use Object > Convert > Mesh."
 )
-FOURIER_OF_WIRE = error(
-    "fourier_of_wire",
-    "The Fourier transform of a wire is not available. Set Kind to Solid or Shell, or Domain to Surface.",
-)
-FOURIER_OF_WALL = error(
-    "fourier_of_wall",
-    "The Fourier transform needs a thin shell. Set Wall to Thin or Domain to Surface, or apply a Solidify modifier.",
-)
 FOURIER_NO_EXTENT = error("fourier_no_extent", "The object has no extent. Set Max Frequency.")
 FOURIER_APPROXIMATE = note(
     "fourier_approximate",
     "The fast Fourier transform of this grid is accurate to {share:g} of its value at 0. Use --q for the closed form.",
-)
-FOURIER_OF_DISPLAY_MESH = warning(
-    "fourier_of_display_mesh",
-    "The Fourier transform is that of the display mesh. Raise Resolution Preview for accuracy.",
 )
 FOURIER_OF_UNIFORM_DENSITY = warning(
     "fourier_of_uniform_density", "The Fourier transform is that of the shape, with uniform density."
 )
 OUTLINES_CROSS = error(
     "outlines_cross", "Outlines cross or overlap. Move them apart, or convert to a mesh and unite its faces."
-)
-OUTLINES_CROSS_AT = error(
-    "outlines_cross_at",
-    "Outlines cross at {count} place. Move them apart, or convert to a mesh and unite its faces.",
-    "Outlines cross at {count} places. Move them apart, or convert to a mesh and unite its faces.",
 )
 SECTION_FACE_CROSSES_ITSELF = error(
     "section_face_crosses_itself", "Some faces cross themselves. Cut them where they cross."
@@ -350,17 +226,13 @@ STREAMED_OPEN = warning(
     "The surface is not closed, or its faces disagree: the volume depends on the reference point. Repair the mesh, "
     "or use --stream never.",
 )
-STREAMED_INSIDE_OUT = warning(
-    "streamed_inside_out", "The surface is inside out as a whole and was measured as reversed."
-)
-NO_DEFORMING_BONES = error("no_deforming_bones", "No bone deforms meshes. Make those that do deforming bones.")
-BONE_MISSING = warning(
-    "bone_missing", "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."
-)
 RIG_WITHOUT_PARTS = error(
     "rig_without_parts",
-    "The armature deforms no mesh that can be measured, and nothing is parented to its bones. Add an Armature "
-    "modifier to the mesh.",
+    "No deforming bone moves a mesh that can be measured, and nothing is parented to bones. Turn on Deform, or add an "
+    "Armature modifier to the mesh.",
+)
+BONE_MISSING = warning(
+    "bone_missing", "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."
 )
 BONE_PART_IMPOSSIBLE = error(
     "bone_part_impossible", "No body has the moments of the bone's part: {cause} Check weights and normals."
@@ -376,9 +248,6 @@ UNWEIGHTED_VERTICES = warning(
     "nearest bone. Assign weights.",
     "{count} of {total} vertices have no weight on a deforming bone; faces with such vertices alone go with the "
     "nearest bone. Assign weights.",
-)
-RIG_OPEN_MESH = warning(
-    "rig_open_mesh", "The mesh cannot be closed; each bone's part is closed at its own cuts. Repair the mesh."
 )
 RIG_WALL_THIN = note("rig_wall_thin", "The wall counts as a thin sheet: area times thickness.")
 RIG_MEAN_DENSITY = warning(
@@ -429,12 +298,6 @@ MEMBERS_DENSITY_UNSET = warning(
     "{count} member has no density or mass set and counts with the default: {names}. Set Density.",
     "{count} members have no density or mass set and count with the default: {names}. Set Density.",
 )
-MEMBERS_MASS_GIVEN = note(
-    "members_mass_given",
-    "{count} assembly in it has a given mass: {names}.",
-    "{count} assemblies in it have a given mass: {names}.",
-)
-INSTANCE_WITHOUT_SCALE = error("instance_without_scale", "The instance is scaled to zero along an axis. Set its scale.")
 INSTANCE_STRETCHES_SHEETS = error(
     "instance_stretches_sheets",
     "The instance stretches shells or wires unevenly, and their mass has no one factor. Give it a uniform scale.",

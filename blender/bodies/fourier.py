@@ -16,7 +16,7 @@ from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
 from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
 from ...core.fourier.spectrum import APPROXIMATE, Spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid
-from ...core.measurement.findings import NO_THICKNESS
+from ...core.measurement.findings import NO_THICKNESS, WALL_UNSUPPORTED
 from ...core.measurement.settings import Settings
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
@@ -29,12 +29,11 @@ from ..settings.density import density_field
 from ..settings.options import MeasureOptions
 from ..settings.resolve import object_settings
 from .findings import (
+    DISPLAY_MESH_NEEDED,
     FOURIER_APPROXIMATE,
     FOURIER_NO_EXTENT,
-    FOURIER_OF_DISPLAY_MESH,
     FOURIER_OF_UNIFORM_DENSITY,
-    FOURIER_OF_WALL,
-    FOURIER_OF_WIRE,
+    WIRE_UNSUPPORTED,
 )
 from .mesh.mesh import mesh_body
 
@@ -97,7 +96,7 @@ def object_transform(
             of, total = Measure.AREA, body.area.total
         else:
             if resolved.kind == "wire":
-                raise ReadError(FOURIER_OF_WIRE)
+                raise ReadError(WIRE_UNSUPPORTED, quantity="The Fourier transform")
             if body.method.verdict == Verdict.OPEN:
                 raise ReadError(FOURIER_OF_OPEN_SURFACE)
             parts = [(solid.repaired_surface, matrices) for solid, matrices in body.solids]
@@ -115,7 +114,7 @@ def object_transform(
     factor = resolved.thickness if shell and not area else 1.0
     findings = [*reading.findings, *body.findings]
     if reading.has_patches or (obj.type == "CURVE" and shell and shows_flat_region(obj)):
-        findings.append(finding(FOURIER_OF_DISPLAY_MESH))
+        findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a Fourier transform"))
     if varies:
         findings.append(finding(FOURIER_OF_UNIFORM_DENSITY))
     return ObjectTransform(obj.name, transform, factor, tuple(findings))
@@ -123,7 +122,7 @@ def object_transform(
 
 def _require_thin(settings: Settings) -> None:
     if settings.wall != "thin":
-        raise ReadError(FOURIER_OF_WALL)
+        raise ReadError(WALL_UNSUPPORTED, quantity="The Fourier transform")
     if not settings.thickness > 0.0:
         raise ReadError(NO_THICKNESS)
 

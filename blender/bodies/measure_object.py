@@ -19,7 +19,6 @@ from ...core.measurement.body import Body
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
-from ..read.grids.volume import VolumeReading
 from ..read.reading import Reading
 from ..settings.options import AS_SET, MeasureOptions
 from .assembly.given import point_measurement, read_point, with_given
@@ -35,7 +34,7 @@ class Measured:
     """One object's measurement, with its reading and body."""
 
     measurement: Measurement
-    reading: Reading | VolumeReading
+    reading: Reading
     body: Body
 
     @property
@@ -57,10 +56,7 @@ class Measured:
 def measure_object(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Measurement:
-    """Return the mass properties of one object as it is evaluated, in SI units and world axes.
-
-    Raise MeasureError if there is nothing to measure.
-    """
+    """Return the mass properties of one evaluated object, SI, world axes, or raise MeasureError."""
     return measure_body(obj, depsgraph, options).measurement
 
 

@@ -12,13 +12,12 @@ from ...core.measurement.body import Body
 from ...core.measurement.builder import measure_body
 from ...core.measurement.measurement import Measurement
 from ..read.fingerprint import fingerprint, transform_key
-from ..read.grids.volume import VolumeReading
 from ..read.reading import Reading
 from ..settings.accepted import with_acceptance
 from .request import Request
 
 
-def measurement_of(reading: Reading | VolumeReading, body: Body, request: Request) -> Measurement:
+def measurement_of(reading: Reading, body: Body, request: Request) -> Measurement:
     """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments."""
     settings = replace(request.settings, varying=body.density_key)
     digested = [moments for moments in (body.volume, body.area, body.mass, body.length) if moments is not None]

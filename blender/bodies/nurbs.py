@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.measurement.body import Body
+from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
 from ...core.moments.images import sum_of_images
@@ -29,15 +30,19 @@ from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from ..read.reading import Part, Reading, SplineReading, to_si
 from .body import MeshBody, extend_input_error
-from .findings import UNION_OF_DISPLAY_MESH, WALL_CREASES, WALL_ERROR_ESTIMATE_LARGE, WALL_OF_MIXED_SURFACES
+from .findings import (
+    DISPLAY_MESH_NEEDED,
+    INSTANCE_OVERLAP_UNCHECKED,
+    WALL_CREASES,
+    WALL_ERROR_ESTIMATE_LARGE,
+    ZERO_SCALE,
+)
 from .mesh.instances import (
     each_once,
     findings_by_part,
     instances_overlap,
     merge_health,
-    not_compared,
     singular_instances_message,
-    singular_reason,
 )
 from .mesh.mesh import mesh_body
 from .request import Request
@@ -152,12 +157,12 @@ def nurbs_body(
     if wall is not None:
         return _sheet_body(reading, unit, wall, thickness, threads)
     if reading.all_singular:
-        raise ReadError(singular_reason(reading))
+        raise ReadError(ZERO_SCALE)
     patch_parts, meshes = _split_parts(reading)
     measures = [measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts]
     if union and (reading.instance_count > 1 or measures[0].health.components > 1):
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
-        return replace(united, findings=(finding(UNION_OF_DISPLAY_MESH), *united.findings))
+        return replace(united, findings=(finding(DISPLAY_MESH_NEEDED, purpose="a union"), *united.findings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
     pieces = [(part, measure, to_si(part.matrices, unit)) for part, measure in zip(patch_parts, measures)]
     volume = sum_moments(
@@ -201,9 +206,9 @@ def _solid_findings(
     if rest:
         findings += rest.findings
     if reading.singular_instance_count:
-        findings.append(singular_instances_message(reading.singular_instance_count))
+        findings.append(singular_instances_message(reading))
     if instances_overlap(reading):
-        findings.append(not_compared(reading))
+        findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
     return findings
 
 
@@ -239,7 +244,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
     """Return thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
-        raise ReadError(WALL_OF_MIXED_SURFACES)
+        raise ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
     sheets, areas, healths, by_part = [], [], [], []
     for part in patch_parts:
         matrices = to_si(part.matrices, unit)

@@ -62,10 +62,7 @@ class Request:
 
     @cached_property
     def density(self) -> DensityField | None:
-        """Source of a density that is not one number.
-
-        Raises MeasureError if the settings name none that can be read.
-        """
+        """Source of a density that is not one number; may raise MeasureError."""
         settings, properties = self.settings, self.obj.body_moments
         is_given = self.given.density is not None or settings.mass is not None
         if is_given or settings.kind == "wire" or properties.density_from == "VALUE":

@@ -38,9 +38,7 @@ from .findings import (
     MEMBERS_DENSITY_UNSET,
     MEMBERS_LEFT_OUT,
     MEMBERS_NOT_MEASURED,
-    NO_DEFORMING_BONES,
     RIG_MEAN_DENSITY,
-    RIG_OPEN_MESH,
     RIG_WALL_THIN,
     RIG_WITHOUT_PARTS,
     UNWEIGHTED_VERTICES,
@@ -96,10 +94,7 @@ class Rig:
 
 
 def measure_rig(context: Context, armature: Object) -> Rig:
-    """Measure the parts of all bones of a character; the view layer has the armature and all that it moves.
-
-    Raise MeasureError if no part has a mass.
-    """
+    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass."""
     with rest_pose(context, armature) as depsgraph:
         return _Measuring(armature, depsgraph).rig()
 
@@ -141,7 +136,7 @@ class _Measuring:
         objects = list(self.depsgraph.view_layer.objects)
         skinned = skinned_objects(self.armature, objects)
         if skinned and not self.bones.deforming:
-            raise ReadError(NO_DEFORMING_BONES, subject=self.armature.name)
+            raise ReadError(RIG_WITHOUT_PARTS, subject=self.armature.name)
         hanging = hanging_objects(self.armature, skinned)
         unrendered = [obj.name for obj in (*skinned, *[obj for obj, _ in hanging]) if obj.hide_render]
         if unrendered:
@@ -248,8 +243,6 @@ class _Measuring:
                 finding(UNWEIGHTED_VERTICES, bare, count=len(bare), total=count).of_sources([obj.name])
             )
         solid = None if shell else measure_solid(surface)
-        if solid is not None and solid.method == Verdict.OPEN:
-            self.findings.append(finding(RIG_OPEN_MESH).of_sources([obj.name]))
         if solid is not None:
             self.findings += [found.of_sources([obj.name]) for found in solid.findings]
         for matrix in part.matrices:

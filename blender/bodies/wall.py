@@ -16,15 +16,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.measurement.body import Body
-from ...core.measurement.findings import NO_THICKNESS
+from ...core.measurement.findings import NO_THICKNESS, WALL_UNSUPPORTED
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
 from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomials, sum_moments
 from ...core.polyhedron import polyhedron_moments
+from ...core.solid.findings import INVERTED_COMPONENTS
 from ...core.solid.measure import SolidIntegrals
 from ...core.verdict.finding import Finding, ReadError, finding, unique
+from ...core.verdict.findings import FLIPPED_FACES
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
 from ...core.wall import OffsetSolid, offset_solid, wall_moments
@@ -33,14 +35,9 @@ from ...core.wall.walls import split_thickness
 from ..read.reading import Reading
 from .body import MeshBody
 from .findings import (
-    INSTANCE_WALLS_UNCHECKED,
-    WALL_FACES_FOLD_BACK,
-    WALL_FACES_FOLD_BACK_SOMEWHERE,
-    WALL_FACES_REVERSED,
+    INSTANCE_OVERLAP_UNCHECKED,
     WALL_FACES_WITHOUT_AREA,
     WALL_FOLDS,
-    WALL_FOLDS_SOMEWHERE,
-    WALL_NEEDS_ONE_DENSITY,
     WALL_OVERLAP_UNCHECKED,
     WALL_THICKNESS_VARIES,
     WALL_UNORIENTED,
@@ -109,10 +106,7 @@ class Walls:
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
-        """Return the body with walls of a thickness, m.
-
-        check_overlap: find walls that meet, which takes time. Raises ReadError if a wall folds over.
-        """
+        """Return the body with walls of a thickness, m, or raise ReadError; finding walls that meet takes time."""
         if not thickness > 0.0:
             raise ReadError(NO_THICKNESS)
         if any(piece.folds(self.side, thickness) for piece in self.pieces):
@@ -142,14 +136,11 @@ class Walls:
     def _folded_reason(self, thickness: float) -> Finding:
         piece = min(self.pieces, key=lambda piece: piece.max_thickness(self.side))
         largest = self.max_thickness
-        near = {}
+        point = None
         if len(piece.offset.points):
-            point = piece.matrices[0, :3, :3] @ piece.offset.first_fold_location(self.side) + piece.matrices[0, :3, 3]
-            near = {"point": point.tolist()}
-        if not largest > 0.0:
-            return finding(WALL_FACES_FOLD_BACK if near else WALL_FACES_FOLD_BACK_SOMEWHERE, **near)
-        sizes = {"thickness": thickness, "side": self.side, "largest": _round_down(largest)}
-        return finding(WALL_FOLDS if near else WALL_FOLDS_SOMEWHERE, **sizes, **near)
+            matrix = piece.matrices[0]
+            point = (matrix[:3, :3] @ piece.offset.first_fold_location(self.side) + matrix[:3, 3]).tolist()
+        return finding(WALL_FOLDS, thickness=thickness, side=self.side, largest=_round_down(largest), point=point)
 
     def _decisions(self, thickness: float, looked: bool) -> list[Finding]:
         findings = [finding(WALL_MEASURED, thickness=thickness, side=self.side), *self.findings]
@@ -166,7 +157,7 @@ class Walls:
         elif any(piece.self_intersects(self.side, thickness) for piece in self.pieces):
             findings.append(finding(WALLS_OVERLAP))
         elif self._instances_overlap(thickness):
-            findings.append(finding(INSTANCE_WALLS_UNCHECKED))
+            findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
         return findings
 
     def _unevenness(self) -> float:
@@ -202,7 +193,7 @@ class WallBody(Body):
 def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
     """Return the walls of an object measured as a thin shell, or raise MeasureError if a surface has no sides."""
     if body.mass is not None:
-        raise ReadError(WALL_NEEDS_ONE_DENSITY)
+        raise ReadError(WALL_UNSUPPORTED, quantity="A varying density")
     pieces, findings = [], []
     for part, (solid, matrices) in zip(reading.parts, body.solids):
         surface = _orient_outward(part.surface, solid, findings)
@@ -221,8 +212,7 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
     if solid.method in (Verdict.EXACT, Verdict.REORIENTED):
         area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
         if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has left something out
-            if solid.method == Verdict.REORIENTED:
-                findings.append(finding(WALL_FACES_REVERSED))
+            findings += [result for result in solid.findings if result.code in {FLIPPED_FACES, INVERTED_COMPONENTS}]
             return solid.repaired_surface
     findings.append(finding(WALL_UNORIENTED))
     return surface

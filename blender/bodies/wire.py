@@ -17,9 +17,9 @@ from ...core.nurbs.curve_moments import length_moments
 from ...core.verdict.finding import ReadError
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
+from ..read.findings import NO_CURVE
 from ..read.objects import read_lines
 from ..read.reading import Reading
-from .findings import NO_LENGTH
 from .request import Request
 
 MEASURED_AS = frozenset({"wire"})
@@ -56,7 +56,7 @@ def body(reading: Reading, request: Request) -> Body:
     curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
     length = length_moments(curves)
     if not length.total > 0.0:
-        raise ReadError(NO_LENGTH)
+        raise ReadError(NO_CURVE)
     nothing = Moments(np.zeros(monomial_count(3)), length.about, Measure.VOLUME)
     # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
@@ -73,10 +73,7 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: float) -> tuple[list[Curve], float]:
-    """Return the curves in the world, m, and by how much storing their points as float32 may have moved them.
-
-    `matrix` is (4, 4), world from their coordinates, Blender units; `unit` is in meters per Blender unit.
-    """
+    """Return the curves in the world, m, by their (4, 4) matrix in Blender units, and their points' float32 error."""
     largest = max(float(np.abs(curve.points).max()) for curve in curves)
     scaled = np.array(matrix, np.float64)
     scaled[:3] *= unit

@@ -71,10 +71,7 @@ class Member:
 
 
 def members_of(root: Root, depsgraph: Depsgraph) -> Member:
-    """Return an assembly, a collection or an empty with children, with all its members, as the scene has them.
-
-    The collection or empty is the original; the depsgraph must be up to date.
-    """
+    """Return an original collection, or an empty with children, as an assembly with all its members."""
     if isinstance(root, bpy.types.Collection):
         return _Walk(root.all_objects, depsgraph).collection(root)
     return _Walk((), depsgraph).empty(root)

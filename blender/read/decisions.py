@@ -14,56 +14,43 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from .findings import (
     COLLECTION_WITHOUT_SURFACE,
-    CURVES_DRAWN_AS_POLYGONS,
     DISPLAY_MESH_FOR_MODIFIERS,
     DISPLAY_MESH_FOR_WEIGHTS,
     DISPLAY_MESH_MEASURED,
-    EDIT_MODE_MESH,
-    EDIT_MODE_MODIFIERS,
-    EDIT_MODE_MODIFIERS_OFF,
-    EDIT_MODE_SHAPE_KEYS,
+    DRAWN_AS_POLYGONS,
     EDIT_MODE_SINGLE_SHAPE_KEY,
     EMPTY_TEXT,
     HIDDEN_OBJECT_MEASURED,
     INSTANCED_BY_PARENT,
     INSTANCER_HIDDEN,
     INSTANCES_VANISHED,
-    KIND_VOLUMES,
-    LINES_ONLY_CURVE,
-    LINES_ONLY_SURFACE,
-    LINES_ONLY_TEXT,
+    KIND_COUNT,
+    LINES_ONLY,
     METABALL_FAMILY,
     METABALL_OF_FAMILY,
     MODIFIER_ERROR,
+    MODIFIERS_LEFT_OUT,
     NO_GEOMETRY,
-    NO_SURFACE,
-    NO_VISIBLE_INSTANCES,
     ONLY_LOOSE_GEOMETRY,
     ONLY_VOLUME_INSTANCES,
     ONLY_WITHOUT_SURFACE,
+    READ_IN_MODE,
     RENDER_DIFFERS,
     RENDER_LEVELS_DIFFER,
-    RENDER_MODIFIER_OFF,
-    RENDER_MODIFIER_ONLY,
+    RENDER_MODIFIER_DIFFERS,
     RENDER_ONLY_MEMBERS,
-    RENDER_PARTICLES_DIFFER,
     RENDER_RESOLUTION_DIFFERS,
-    RENDER_RESOLUTION_U_DIFFERS,
-    RENDER_RESOLUTION_V_DIFFERS,
-    SCULPT_MODE_MODIFIERS,
+    SCALE_ZERO_AXIS,
     SPLINES_WITHOUT_SURFACE,
-    SURFACE_DRAWN_AS_POLYGONS,
     SURFACELESS_LEFT_OUT,
     VIEWPORT_ONLY_MEMBERS,
 )
-from .instances import InstanceCollector, shows_itself, visible_objects
+from .instances import VOLUMES, InstanceCollector, shows_itself, visible_objects
 from .nurbs.curves import is_round
 from .nurbs.deformation import spline_modifiers
 from .nurbs.splines import nonpositive_weights
 from .reading import attribute_to_source
-from .visibility import blends_keys, edit_modifiers, hidden_reason, instanced_by_parent, measurable, metaball_families
-
-LINES_ONLY = {"CURVE": LINES_ONLY_CURVE, "FONT": LINES_ONLY_TEXT}
+from .visibility import SURFACE_TYPES, blends_keys, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 
 def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
@@ -74,14 +61,14 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
         if mother != obj:
             return finding(METABALL_OF_FAMILY, object=mother.name)
     if gathered.vanished_count:
-        return finding(NO_VISIBLE_INSTANCES)
+        return finding(SCALE_ZERO_AXIS)
     if obj.type == "FONT" and not obj.data.body.strip():
         return finding(EMPTY_TEXT)
-    if obj.type in LINES_ONLY and not obj.modifiers:
-        return finding(LINES_ONLY[obj.type])
+    if obj.type in {"CURVE", "FONT"} and not obj.modifiers:
+        return finding(LINES_ONLY)
     if obj.type == "SURFACE" and not obj.modifiers and obj.instance_type == "NONE" and obj.data.splines:
-        return finding(LINES_ONLY_SURFACE if vertices else SPLINES_WITHOUT_SURFACE)
-    if set(gathered.left_out) == {KIND_VOLUMES} and (gathered.sources or obj.type != "VOLUME"):
+        return finding(LINES_ONLY if vertices else SPLINES_WITHOUT_SURFACE)
+    if set(gathered.left_out) == {VOLUMES} and (gathered.sources or obj.type != "VOLUME"):
         return finding(ONLY_VOLUME_INSTANCES)
     if gathered.left_out:
         return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out))
@@ -89,9 +76,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
         return finding(ONLY_LOOSE_GEOMETRY, vertices=vertices, edges=edges)
     if obj.instance_type == "COLLECTION":
         return finding(COLLECTION_WITHOUT_SURFACE)
-    if obj.type in {"CURVES", "POINTCLOUD", "VOLUME", "GREASEPENCIL"}:
-        return finding(NO_SURFACE)
-    if not shows_itself(obj, False):
+    if obj.type in SURFACE_TYPES and not shows_itself(obj, False):
         return finding(INSTANCER_HIDDEN)
     return finding(NO_GEOMETRY)
 
@@ -173,28 +158,20 @@ def _family(obj, depsgraph) -> list:
 def _polygons(obj, drawn) -> Iterator[Finding]:
     """Yield findings about the polygons of curves, text and metaballs."""
     for source in drawn:
-        if source.type == "META":
-            yield attribute_to_source(finding(SURFACE_DRAWN_AS_POLYGONS), source.name, obj.name)
-        elif source.type in {"CURVE", "FONT"} and is_round(source):
-            yield attribute_to_source(finding(CURVES_DRAWN_AS_POLYGONS), source.name, obj.name)
+        if source.type == "META" or (source.type in {"CURVE", "FONT"} and is_round(source)):
+            yield attribute_to_source(finding(DRAWN_AS_POLYGONS), source.name, obj.name)
 
 
 def _mode_findings(obj) -> Iterator[Finding]:
     if obj.type == "MESH" and obj.data.is_editmode:
-        acting = edit_modifiers(obj)
-        if acting:
-            yield finding(EDIT_MODE_MODIFIERS, modifiers=_names(acting))
-        elif blends_keys(obj):
-            yield finding(EDIT_MODE_SHAPE_KEYS)
-        else:
-            yield finding(EDIT_MODE_MESH)
+        yield finding(READ_IN_MODE, mode="Edit Mode")
         if obj.mode == "EDIT" and obj.active_shape_key and not blends_keys(obj):
             yield finding(EDIT_MODE_SINGLE_SHAPE_KEY, shape_key=obj.active_shape_key.name)
         idle = [modifier for modifier in obj.modifiers if modifier.show_viewport and not modifier.show_in_editmode]
         if idle:
-            yield finding(EDIT_MODE_MODIFIERS_OFF, modifiers=_names(idle))
+            yield finding(MODIFIERS_LEFT_OUT, modifiers=_names(idle))
     elif obj.mode == "SCULPT" and obj.modifiers:
-        yield finding(SCULPT_MODE_MODIFIERS)
+        yield finding(READ_IN_MODE, mode="Sculpt Mode")
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
@@ -212,32 +189,31 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    """Yield findings about differences in the render.
-
-    exact: the object is read without its display mesh, so that no resolution counts.
-    """
+    """Yield findings about differences in the render; no resolution counts for `exact` objects."""
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:
-            yield finding(RENDER_MODIFIER_OFF if shown else RENDER_MODIFIER_ONLY, modifier=modifier.name)
+            place = "viewport" if shown else "render"
+            yield finding(RENDER_MODIFIER_DIFFERS, modifier=modifier.name, place=place)
         elif shown:
             here, there = _levels(modifier, scene.render)
             if here != there:
                 yield finding(RENDER_LEVELS_DIFFER, modifier=modifier.name, viewport=here, render=there)
             system = getattr(modifier, "particle_system", None)
             if system is not None and system.settings.display_percentage < 100:
-                share = system.settings.display_percentage / 100.0
-                yield finding(RENDER_PARTICLES_DIFFER, modifier=modifier.name, share=share)
+                share = "{:d}%".format(system.settings.display_percentage)
+                yield finding(RENDER_LEVELS_DIFFER, modifier=modifier.name, viewport=share, render="100%")
     data = obj.data
     if not exact and obj.type in {"CURVE", "FONT", "SURFACE"}:
-        axes = (("u", RENDER_RESOLUTION_U_DIFFERS), ("v", RENDER_RESOLUTION_V_DIFFERS))
-        for axis, code in axes if obj.type == "SURFACE" else axes[:1]:
+        for axis in "uv" if obj.type == "SURFACE" else "u":
             shown, rendered = getattr(data, "resolution_" + axis), getattr(data, "render_resolution_" + axis)
             if rendered not in (0, shown):
-                yield finding(code, viewport=shown, render=rendered)
+                name = "Resolution " + axis.upper()
+                yield finding(RENDER_RESOLUTION_DIFFERS, name=name, viewport=shown, render=rendered)
     if obj.type == "META" and data.resolution != data.render_resolution:
         yield finding(
             RENDER_RESOLUTION_DIFFERS,
+            name="Resolution",
             viewport=shortest_decimal(data.resolution),
             render=shortest_decimal(data.render_resolution),
         )
@@ -263,4 +239,4 @@ def _names(items) -> list[str]:
 
 
 def _kinds(counts) -> list[dict]:
-    return [finding(code, count=count).as_record() for code, count in counts.items()]
+    return [finding(KIND_COUNT, kind=kind, count=count).as_record() for kind, count in counts.items()]

@@ -4,11 +4,10 @@
 
 from ...core.verdict.finding import error, note, warning
 
-NO_GEOMETRY = error("no_geometry", "No geometry. Add faces, or check whether a modifier removes them.")
+NO_GEOMETRY = error("no_geometry", "No surface. Add faces, or check whether a modifier removes them.")
 INSTANCES_VANISHED = note(
     "instances_vanished", "Left out: {count} instance scaled to zero.", "Left out: {count} instances scaled to zero."
 )
-NO_VISIBLE_INSTANCES = error("no_visible_instances", "All instances are scaled to zero. Set their scale.")
 NON_FINITE_INSTANCES = error(
     "non_finite_instances",
     "{count} of {total} instance transforms is not finite. Fix what makes NaN or infinity.",
@@ -17,9 +16,7 @@ NON_FINITE_INSTANCES = error(
 INSTANCES_OF_HIDDEN_OBJECT = error(
     "instances_of_hidden_object", "Blender makes no instances of a hidden object. Show it in the viewport."
 )
-INSTANCED_OBJECT_UNREADABLE = error(
-    "instanced_object_unreadable", "The instanced object “{object}” cannot be read: {cause}"
-)
+OBJECT_UNREADABLE = error("object_unreadable", "“{object}” cannot be read: {cause}")
 INSTANCED_BY_PARENT = note(
     "instanced_by_parent", "Shown only as instances of “{parent}”; measured once, at its own location."
 )
@@ -40,15 +37,8 @@ NOT_IN_SCENE = error("not_in_scene", "Not in the scene “{scene}”. Link the o
 DISABLED_IN_VIEWPORTS = error(
     "disabled_in_viewports", "Disabled in viewports. Turn on the monitor icon in the Outliner."
 )
-COLLECTION_EXCLUDED = error(
-    "collection_excluded", "The collection “{collection}” is excluded from the view layer. Enable it in the Outliner."
-)
-COLLECTION_DISABLED = error(
-    "collection_disabled",
-    "The collection “{collection}” is disabled in viewports. Turn on its monitor icon in the Outliner.",
-)
 COLLECTION_HIDDEN = error(
-    "collection_hidden", "The collection “{collection}” is hidden. Turn on its eye icon in the Outliner."
+    "collection_hidden", "The collection “{collection}” is not shown. Turn on its {switch:word} in the Outliner."
 )
 HIDDEN_IN_VIEWPORT = error("hidden_in_viewport", "Hidden in the viewport. Turn on the eye icon in the Outliner.")
 NOT_EVALUATED = error("not_evaluated", "Blender has not evaluated the object. Update the view layer.")
@@ -61,40 +51,25 @@ NON_FINITE_TRANSFORM = error(
 )
 NOT_RENDERED = note("not_rendered", "Not rendered. Turn on the camera icon in the Outliner, or use --all.")
 BOOLEAN_OPERAND = note("boolean_operand", "Only an operand of Boolean modifiers. Use --all to measure it.")
-EDIT_MODE_MODIFIERS = note("edit_mode_modifiers", "Read in Edit Mode with its modifiers: {modifiers}.")
-EDIT_MODE_SHAPE_KEYS = note("edit_mode_shape_keys", "Read in Edit Mode with shape keys.")
-EDIT_MODE_MESH = note("edit_mode_mesh", "Read from the mesh in Edit Mode.")
+READ_IN_MODE = note("read_in_mode", "Read as shown in {mode:word}.")
 EDIT_MODE_SINGLE_SHAPE_KEY = warning(
     "edit_mode_single_shape_key", "Only the edited shape key “{shape_key}” was read. Leave Edit Mode to blend all."
 )
-EDIT_MODE_MODIFIERS_OFF = warning(
-    "edit_mode_modifiers_off", "Modifiers off in Edit Mode were left out: {modifiers}. Leave Edit Mode."
+MODIFIERS_LEFT_OUT = warning(
+    "modifiers_left_out", "Modifiers were left out in Edit Mode: {modifiers}. Leave Edit Mode."
 )
-SCULPT_MODE_MODIFIERS = note("sculpt_mode_modifiers", "Read in Sculpt Mode with the modifiers that act there.")
-DYNAMIC_TOPOLOGY = error("dynamic_topology", "The mesh sculpted with Dyntopo cannot be read. Leave Sculpt Mode.")
-SCULPTED_MULTIRES = error(
-    "sculpted_multires", "The levels sculpted with “{modifier}” cannot be read. Leave Sculpt Mode."
-)
+SCULPTED_MESH = error("sculpted_mesh", "Dyntopo or sculpted levels cannot be read in Sculpt Mode. Leave it.")
 MODIFIER_ERROR = warning("modifier_error", "The modifier “{modifier}” reports an error: {error}")
 RENDER_DIFFERS = warning("render_differs", "Measured as in the viewport; the render differs: {differences}.")
 RENDER_ONLY_MEMBERS = warning("render_only_members", "Left out, as only the render shows them: {objects}.")
 VIEWPORT_ONLY_MEMBERS = warning("viewport_only_members", "Measured, although the render does not show them: {objects}.")
-RENDER_MODIFIER_OFF = note("render_modifier_off", "“{modifier}” is not rendered")
-RENDER_MODIFIER_ONLY = note("render_modifier_only", "“{modifier}” is only rendered")
+RENDER_MODIFIER_DIFFERS = note("render_modifier_differs", "“{modifier}” is only in the {place:word}")
 RENDER_LEVELS_DIFFER = note(
     "render_levels_differ", "“{modifier}” has {viewport} in the viewport and {render} in the render"
 )
-RENDER_PARTICLES_DIFFER = note("render_particles_differ", "“{modifier}” shows {share:percent} of its particles")
 RENDER_RESOLUTION_DIFFERS = note(
-    "render_resolution_differs", "resolution is {viewport:.3g} in the viewport and {render:.3g} in the render"
+    "render_resolution_differs", "{name:word} is {viewport:.3g} in the viewport and {render:.3g} in the render"
 )
-RENDER_RESOLUTION_U_DIFFERS = note(
-    "render_resolution_u_differs", "Resolution U is {viewport} in the viewport and {render} in the render"
-)
-RENDER_RESOLUTION_V_DIFFERS = note(
-    "render_resolution_v_differs", "Resolution V is {viewport} in the viewport and {render} in the render"
-)
-NO_SURFACE = error("no_surface", "No surface. Add one, for example with a modifier.")
 ONLY_WITHOUT_SURFACE = error(
     "only_without_surface", "No surface, only {kinds}. Add a surface, for example with a modifier."
 )
@@ -103,12 +78,8 @@ ONLY_LOOSE_GEOMETRY = error(
     "No faces, only {vertices} vertices and {edges} edges. Fill faces, or add thickness with a modifier.",
 )
 SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out, as without a surface: {kinds}.")
-LINES_ONLY_CURVE = error(
-    "lines_only_curve", "Lines without a surface. Add a bevel or extrusion, fill the curve, or set Kind to Wire."
-)
-LINES_ONLY_TEXT = error("lines_only_text", "Lines without a surface. Add a bevel or extrusion, or fill the text.")
-LINES_ONLY_SURFACE = error(
-    "lines_only_surface", "Lines without a surface. Extrude them in Edit Mode, or use a curve object."
+LINES_ONLY = error(
+    "lines_only", "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to Wire."
 )
 SPLINES_WITHOUT_SURFACE = error(
     "splines_without_surface",
@@ -121,21 +92,10 @@ METABALL_OF_FAMILY = error(
     "metaball_of_family", "“{object}” holds the polygons of this metaball family. Measure that object."
 )
 METABALL_FAMILY = note("metaball_family", "Holds the polygons of its metaball family: {objects}.")
-KIND_CURVES = note("kind_curves", "{count} curve without thickness", "{count} curves without thickness")
-KIND_POINTS = note("kind_points", "{count} point", "{count} points")
-KIND_VOLUMES = note("kind_volumes", "{count} volume", "{count} volumes")
-KIND_METABALLS = note(
-    "kind_metaballs",
-    "{count} metaball, which Blender cannot instance",
-    "{count} metaballs, which Blender cannot instance",
-)
-SURFACE_DRAWN_AS_POLYGONS = note(
-    "surface_drawn_as_polygons",
-    "The surface was measured as drawn polygons. Doubling the resolution makes the error four times smaller.",
-)
-CURVES_DRAWN_AS_POLYGONS = note(
-    "curves_drawn_as_polygons",
-    "The curves were measured as drawn polygons. Doubling the resolution makes the error four times smaller.",
+KIND_COUNT = note("kind_count", "{kind:word}: {count}")
+DRAWN_AS_POLYGONS = note(
+    "drawn_as_polygons",
+    "The round shape was measured as drawn polygons. Doubling the resolution makes the error four times smaller.",
 )
 CURVE_BEFORE_MODIFIERS = warning(
     "curve_before_modifiers", "The curve was measured without the modifiers that work on its mesh."
@@ -148,7 +108,7 @@ SPLINES_LEFT_OUT = warning(
     "{count} of {total} splines is left out: too few points for its order or for Bézier ends.",
     "{count} of {total} splines are left out: too few points for their order or for Bézier ends.",
 )
-NO_CURVE = error("no_curve", "No spline is a curve. Add points.")
+NO_CURVE = error("no_curve", "No spline has a length. Add points, or move them apart.")
 UNKNOWN_KNOTS = error(
     "unknown_knots",
     "Blender does not expose the imported knots. Turn Endpoint off and on in Active Spline to make known ones.",
@@ -183,19 +143,15 @@ VOLUME_WITHOUT_GRIDS = error(
     "volume_without_grids", "The volume has no grids. Choose a file, or add a modifier that makes grids."
 )
 VOLUME_FILE_UNREADABLE = error(
-    "volume_file_unreadable", "The volume's file cannot be read: {error}. Choose another file."
+    "volume_file_unreadable", "The volume's file is missing or cannot be read: {error}. Choose another file."
 )
-VOLUME_FILE_MISSING = error("volume_file_missing", "The volume's file is missing or damaged. Choose another file.")
 GRID_MISSING = error("grid_missing", "No grid “{grid}”; the volume has {grids}. Change Grid.")
 GRID_TYPE = error("grid_type", "The grid “{grid}” does not hold scalar numbers. Choose another grid.")
-GRID_VALUE_TYPE = error(
-    "grid_value_type", "The grid “{grid}” holds values of type {type}, not densities. Choose another grid."
-)
 NO_SCALAR_GRID = error("no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume.")
 GRID_UNREADABLE = error("grid_unreadable", "The grid “{grid}” cannot be read: {error}.")
 GRID_FRUSTUM = error("grid_frustum", "The grid “{grid}” has a frustum transform. Resample it with a linear transform.")
-GRID_TOO_SPARSE = error(
-    "grid_too_sparse", "The grid “{grid}” spans too many voxels, {samples:size}. Remove distant voxels."
+GRID_TOO_LARGE = error(
+    "grid_too_large", "The grid “{grid}” spans too many voxels, {samples:size}. Crop it, or use a coarser one."
 )
 GRID_FAR_FROM_ORIGIN = error(
     "grid_far_from_origin", "The voxel indices of the grid “{grid}” are too far from zero. Move its origin nearer."
@@ -210,17 +166,9 @@ GRID_SIMPLIFIED = warning(
 )
 GRID_NEEDS_OPENVDB = error(
     "grid_needs_openvdb",
-    "The grid “{grid}” can only be read with the openvdb module, which this Blender lacks. Convert it to floats.",
+    "The grid “{grid}” can only be read with the openvdb module, which this Blender lacks. Convert it to floats, or a "
+    "level set to a mesh by a Grid to Mesh node.",
 )
-GRID_TOO_LARGE_WITHOUT_OPENVDB = error(
-    "grid_too_large_without_openvdb",
-    "The grid “{grid}” has too many voxels, {samples:size}, to be read without the openvdb module.",
-)
-LEVEL_SET_NEEDS_OPENVDB = error(
-    "level_set_needs_openvdb",
-    "Level sets cannot be recognized without the openvdb module. Add a Grid to Mesh node and measure the mesh.",
-)
-GRID_NOT_SAMPLED = error("grid_not_sampled", "The grid “{grid}” cannot be sampled.")
 TEMPORARY_FOLDER_FULL = error(
     "temporary_folder_full", "Voxels cannot be written to the temporary folder. Free some disk space."
 )
@@ -228,40 +176,28 @@ FLAT_OF_TYPE = error(
     "flat_of_type", "Only meshes, 2D curves and texts can be flat shapes. Convert the object to a mesh."
 )
 SECTION_MODIFIED_FILL = note("section_modified_fill", "Blender's fill with its modifiers was measured.")
-SECTION_WITHOUT_MODIFIERS = warning(
-    "section_without_modifiers", "The faces in Edit Mode were measured without modifiers: {modifiers}."
-)
 SECTION_SPLINES_OPEN = warning(
     "section_splines_open",
     "{count} open spline encloses nothing and was left out. Use Toggle Cyclic.",
     "{count} open splines enclose nothing and were left out. Use Toggle Cyclic.",
 )
 SECTION_NOT_FILLED = note("section_not_filled", "The curve is not filled; its outlines were measured as if filled.")
-SECTION_DRAWN_AS_POLYGONS = note(
-    "section_drawn_as_polygons",
-    "Curves were measured as drawn polygons ({corners} corners, resolution {resolution}). Doubling the resolution "
-    "makes the error four times smaller.",
-)
-SECTION_RENDER_RESOLUTION = warning(
-    "section_render_resolution", "The viewport resolution was used; the render has {render}."
-)
 SECTION_NO_SELECTED_FACE = error("section_no_selected_face", "No face is selected. Select the faces of the section.")
-SECTION_NO_OUTLINE_TEXT = error("section_no_outline_text", "No closed outline. Type a text.")
-SECTION_NO_OUTLINE_CURVE = error("section_no_outline_curve", "No closed outline. Close the splines with Toggle Cyclic.")
+SECTION_NO_OUTLINE = error(
+    "section_no_outline", "No closed outline. Close the splines with Toggle Cyclic, or type a text."
+)
 SECTION_TEXT_ON_CURVE = error(
     "section_text_on_curve", "The text follows a curve and is not filled. Fill it, or use Object > Convert > Mesh."
 )
 SECTION_3D_CURVE = error(
     "section_3d_curve", "A 3D curve encloses no flat region. Set it to 2D in Object Data Properties > Shape."
 )
-SECTION_EXTRUDED = error("section_extruded", "The curve is extruded or beveled. Set Extrude and Bevel Depth to 0.")
-SECTION_OFFSET = error(
-    "section_offset", "The Offset moves the filled outline. Set it to 0, or use Object > Convert > Mesh."
+SECTION_EXTRUDED = error(
+    "section_extruded",
+    "The curve is extruded, beveled or offset. Set Extrude, Bevel Depth and Offset to 0, or use Object > Convert > "
+    "Mesh.",
 )
-SECTION_NON_FINITE = error(
-    "section_non_finite", "Some points have no finite coordinates. Delete them, or fix what made them."
-)
-SCALE_ZERO_AXIS = error("scale_zero_axis", "The scale is zero along an axis. Set the scale.")
+SCALE_ZERO_AXIS = error("scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it.")
 TOTAL_BOOLEAN_OPERANDS = warning(
     "total_boolean_operands", "Boolean operands count as bodies: {operands}. Leave out what is not a part."
 )

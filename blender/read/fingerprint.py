@@ -62,10 +62,7 @@ def has_transform(obj: bpy.types.Object, key: str) -> bool:
 
 
 def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
-    """Return the sign of the determinant and the lengths of the axes.
-
-    Return None if the object is sheared or flat, or a length is not finite.
-    """
+    """Return the sign of the determinant and the lengths of the axes; None if sheared, flat or not finite."""
     axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))  # in Python: a panel asks for many objects'
     lengths = [math.hypot(*axis) for axis in axes]
     if not all([0.0 < length < MAX_LENGTH for length in lengths]):

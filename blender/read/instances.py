@@ -25,10 +25,6 @@ from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
 from .findings import (
     INSTANCES_OF_HIDDEN_OBJECT,
-    KIND_CURVES,
-    KIND_METABALLS,
-    KIND_POINTS,
-    KIND_VOLUMES,
     NON_FINITE_INSTANCES,
 )
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
@@ -38,6 +34,7 @@ from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_g
 
 # Blender stops here too (MAX_DUPLI_RECUR - 1).
 MAX_DEPTH = 7
+VOLUMES = "volumes"
 
 
 class _NeedsInstanceList(Exception):
@@ -48,7 +45,7 @@ class InstanceCollector:
     """The surfaces found so far with all their places, and the omitted objects.
 
     faceless: (vertices, edges) of the meshes without a face.
-    left_out: number of objects without surface, by the code that names the kind.
+    left_out: number of objects without surface, by a word for the kind.
     sources: the original objects that were read, without the first.
     vanished_count: number of instances that are scaled to nothing.
     splines: the patches of each evaluated surface object that was read, None if its mesh has to do.
@@ -91,10 +88,7 @@ class InstanceCollector:
             self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
-        """Return one part for each surface, its matrices finite.
-
-        Raises ReadError if an instance's are not. Instances scaled to nothing are left out and counted.
-        """
+        """Return one part for each surface, its matrices finite; instances scaled to nothing are counted alone."""
         parts = []
         for key, matrix_blocks in self._matrices.items():
             surface = self._surfaces[key]
@@ -126,7 +120,7 @@ class InstanceCollector:
             raise _NeedsInstanceList
         if self._path:
             if original.type == "META":
-                self.left_out[KIND_METABALLS] += len(matrices)
+                self.left_out["metaballs, which Blender cannot instance"] += len(matrices)
                 return
             self.sources[original] = None
         self._path.append(original)
@@ -282,11 +276,11 @@ class InstanceCollector:
 
     def _count_surfaceless(self, geometry, count: int) -> None:
         if geometry.curves is not None and len(geometry.curves.curves):
-            self.left_out[KIND_CURVES] += count * len(geometry.curves.curves)
+            self.left_out["curves without thickness"] += count * len(geometry.curves.curves)
         if geometry.pointcloud is not None and len(geometry.pointcloud.points):
-            self.left_out[KIND_POINTS] += count * len(geometry.pointcloud.points)
+            self.left_out["points"] += count * len(geometry.pointcloud.points)
         if geometry.volume is not None:
-            self.left_out[KIND_VOLUMES] += count
+            self.left_out[VOLUMES] += count
 
 
 def _object_slots(owner) -> tuple:
@@ -324,10 +318,7 @@ def _needs_instance_list(obj) -> bool:
 
 
 def visible_objects(collection, switch: str = "hide_viewport") -> Iterator:
-    """Yield the enabled objects of a collection and its children, each once.
-
-    switch: the property that disables objects: in viewports, or in renders if it is `hide_render`.
-    """
+    """Yield each object of a collection and its children once, unless the property `switch` disables it."""
     visited = set()
     pending = [collection]
     while pending:

@@ -34,10 +34,7 @@ Read = TypeVar("Read")
 
 
 def plain_mesh(obj, depsgraph):
-    """Return the evaluated mesh of an object that shows only its own mesh, so that reading needs no decision.
-
-    `read_object` would give one part in one place and no findings. Return None if `read_object` has to look for itself.
-    """
+    """Return the evaluated mesh of an object that shows only its own mesh, else None: `read_object` has to look."""
     data, parent = obj.data, obj.parent
     if (
         obj.type != "MESH"
@@ -55,10 +52,7 @@ def plain_mesh(obj, depsgraph):
 
 
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
-    """Return the polygons of a `bpy.types.Mesh` as copied arrays, float32 points in the mesh's own coordinates.
-
-    edges: with the edge at each corner, which takes a fifth of the time.
-    """
+    """Return a `bpy.types.Mesh` as copied arrays, float32 points, own coordinates; edges take a fifth of the time."""
     points = _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
     corners = _attribute(mesh, ".corner_vert", "value", (len(mesh.loops),), np.int32)
     faces = _faces(mesh, corners)

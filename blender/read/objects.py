@@ -52,10 +52,7 @@ def read_object(
 
 
 def read_lines(obj, depsgraph) -> Reading:
-    """Read a curve object as `read_object` does, but its curves instead of its surface, if any.
-
-    Raises ReadError for objects of other kinds too.
-    """
+    """Read the curves of a curve object as `read_object` reads surfaces; ReadError for other kinds."""
     obj = obj.original
     if obj.type != "CURVE":
         raise ReadError(ONLY_CURVES_ARE_WIRES, subject=obj.name)
@@ -65,11 +62,7 @@ def read_lines(obj, depsgraph) -> Reading:
 
 
 def read_patches(obj, depsgraph) -> Reading | None:
-    """Read a surface object as `read_object` does, but its patches alone.
-
-    There is no display mesh, unless control points have to be compared with it, and no finding about the render. None
-    if it shows more, or has to be measured by its mesh.
-    """
+    """Read the patches alone of a surface object; None if it shows more, or has to be measured by its mesh."""
     obj = obj.original
     reading = locate(obj, depsgraph)
     if obj.instance_type != "NONE":
@@ -85,10 +78,7 @@ def read_patches(obj, depsgraph) -> Reading | None:
 
 
 def locate(obj, depsgraph) -> Reading:
-    """Return an evaluated object's name and place, with nothing read of it yet.
-
-    Raises ReadError if Blender has not evaluated it, or its transform is not finite.
-    """
+    """Return an evaluated object's name and place, with nothing read of it yet, or raise ReadError."""
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)

@@ -63,11 +63,7 @@ class ReferenceChoice:
             return None
 
     def resolve(self, owner: bpy.types.ID, scene: Scene, center: NDArray) -> Reference:
-        """Return the frame, SI, world axes.
-
-        `owner` is the measured object or collection, `center` its (3,) center of mass, m. Raise QueryError if there
-        is no such frame.
-        """
+        """Return the frame, SI, world axes, for an owner with its center of mass, m, or raise QueryError."""
         unit = shortest_decimal(scene.unit_settings.scale_length)
         if self.about == "CENTER":
             return Reference(np.asarray(center, np.float64))

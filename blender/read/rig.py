@@ -87,10 +87,7 @@ def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]
 
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
-    """Return the measurable objects parented to bones, with their children, and the bone of each.
-
-    Objects in `skinned` are skipped, under any parent.
-    """
+    """Return measurable objects parented to bones, with their children but for `skinned`, and the bone of each."""
     skinned, found = set(skinned), []
     for child in sorted(armature.children, key=lambda obj: obj.name):
         if child.parent_type == "BONE" and child.parent_bone:

@@ -36,10 +36,7 @@ def object_candidate(
 def link_surface(
     objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, pose: Pose, unit: float
 ) -> Surface | None:
-    """Return the surfaces of a link's objects as triangles in meters, in the link's frame; None if they show no faces.
-
-    `pose` is the link's in the world, m; `unit` is in meters per Blender unit.
-    """
+    """Return a link's surfaces as triangles in meters, in its frame `pose`; None if its objects show no faces."""
     pieces, to_link = [], pose.inverse()
     for obj in objects:
         try:
@@ -95,10 +92,7 @@ USD_ROOT = "root"  # Blender's exporter puts everything under it
 
 
 def usd_path(obj: bpy.types.Object, identifier: Callable[[str], str]) -> list[str]:
-    """Return the names of the prims from the top to an object's, as Blender's exporter writes them.
-
-    `identifier` makes the name of a prim from an object's name.
-    """
+    """Return the names of the prims from the top to an object's, as Blender's exporter writes them by `identifier`."""
     names, above = [], obj
     while above is not None:
         names.append(identifier(above.name))

@@ -20,23 +20,22 @@ from numpy.typing import NDArray
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation
 from ...core.nurbs.curve import Curve
+from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
+    DRAWN_AS_POLYGONS,
     FLAT_OF_TYPE,
+    MODIFIERS_LEFT_OUT,
+    RENDER_DIFFERS,
+    RENDER_RESOLUTION_DIFFERS,
     SECTION_3D_CURVE,
-    SECTION_DRAWN_AS_POLYGONS,
     SECTION_EXTRUDED,
     SECTION_MODIFIED_FILL,
-    SECTION_NO_OUTLINE_CURVE,
-    SECTION_NO_OUTLINE_TEXT,
+    SECTION_NO_OUTLINE,
     SECTION_NO_SELECTED_FACE,
-    SECTION_NON_FINITE,
     SECTION_NOT_FILLED,
-    SECTION_OFFSET,
-    SECTION_RENDER_RESOLUTION,
     SECTION_SPLINES_OPEN,
     SECTION_TEXT_ON_CURVE,
-    SECTION_WITHOUT_MODIFIERS,
 )
 from .mesh import from_edit_mesh, mesh_surface
 from .nurbs.curves import read_curves, text_curves
@@ -73,11 +72,7 @@ class SectionReading:
 
 
 def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
-    """Read one object: in Edit Mode of a mesh its currently selected faces, else its surface in the viewport.
-
-    selected: read only the selected faces in Edit Mode. resolution: of curves and text, in the place of their own.
-    Raises ReadError.
-    """
+    """Read the faces, in Edit Mode only the `selected` ones, or the outlines of an object, or raise ReadError."""
     obj = obj.original
     if obj.type not in SECTION_TYPES:
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)
@@ -105,12 +100,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
-    """Return the outlines of a flat curve or text as curves in its own coordinates, and its `matrix_world`.
-
-    The object has no modifiers, and follows no curve.
-
-    Raises ReadError if there are none.
-    """
+    """Return the outlines of a flat curve or text without modifiers in its own coordinates, and its `matrix_world`."""
     obj = obj.original
     place = locate(obj, depsgraph)
     curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]
@@ -142,7 +132,7 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     triangles = triangles[inside]
     _require_finite(obj, surface.points)  # all points bound the effect of float32 on any
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-    findings = [finding(SECTION_WITHOUT_MODIFIERS, modifiers=acting)] if acting else []
+    findings = [finding(MODIFIERS_LEFT_OUT, modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))
     return SectionReading(
         obj.name,
@@ -163,13 +153,12 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
         obj.update_from_editmode()
     local, loops, open_splines = _spline_outlines(obj, resolution)
     if not loops:
-        code = SECTION_NO_OUTLINE_TEXT if obj.type == "FONT" else SECTION_NO_OUTLINE_CURVE
-        raise ReadError(code, subject=obj.name)
+        raise ReadError(SECTION_NO_OUTLINE, subject=obj.name)
     place = locate(obj, depsgraph)
     linear = place.matrix[:3, :3]
     facing = np.cross(linear[:, 0], linear[:, 1]) * np.sign(np.linalg.det(linear) or 1.0)
     filled = _fill_area(obj, depsgraph)
-    findings = list(_outline_findings(obj, sum(map(len, loops)), open_splines))
+    findings = list(_outline_findings(obj, open_splines))
     drawn = None
     if obj.type == "FONT" and obj.data.follow_curve is not None:
         # Only the evaluated text follows its curve, and only its fill is there to be read.
@@ -203,27 +192,27 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
     )
 
 
-def _outline_findings(obj, corners: int, open_splines: int) -> Iterator[Finding]:
+def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
     if open_splines:
         yield finding(SECTION_SPLINES_OPEN, count=open_splines)
     if obj.data.fill_mode == "NONE":
         yield finding(SECTION_NOT_FILLED)
-    resolution = _resolution(obj)
-    if resolution:
-        yield finding(SECTION_DRAWN_AS_POLYGONS, corners=corners, resolution=resolution)
-    rendered = obj.data.render_resolution_u
-    if resolution and rendered not in (0, obj.data.resolution_u):
-        yield finding(SECTION_RENDER_RESOLUTION, render=rendered)
+    if not _is_curved(obj):
+        return
+    yield finding(DRAWN_AS_POLYGONS)
+    shown, rendered = obj.data.resolution_u, obj.data.render_resolution_u
+    if rendered not in (0, shown):
+        difference = finding(RENDER_RESOLUTION_DIFFERS, name="Resolution U", viewport=shown, render=rendered)
+        yield finding(RENDER_DIFFERS, differences=[difference.as_record()])
 
 
 def _require_flat_outlines(obj) -> None:
     curve = obj.data
     if obj.type == "CURVE" and curve.dimensions != "2D":
         raise ReadError(SECTION_3D_CURVE, subject=obj.name)
-    if curve.extrude or curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object):
+    has_bevel = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
+    if curve.extrude or curve.offset or has_bevel:
         raise ReadError(SECTION_EXTRUDED, subject=obj.name)
-    if curve.offset:
-        raise ReadError(SECTION_OFFSET, subject=obj.name)
 
 
 def _spline_outlines(obj, resolution: int | None) -> tuple[NDArray[np.float32], list[NDArray[np.intp]], int]:
@@ -265,16 +254,13 @@ def _fill_area(obj, depsgraph) -> Surface | None:
         evaluated.to_mesh_clear()
 
 
-def _resolution(obj) -> str:
-    """Return the resolution of curved splines, or the range of them; "" if all are straight."""
-    if obj.type == "FONT":
-        return str(obj.data.resolution_u)
-    used = sorted({spline.resolution_u for spline in obj.data.splines if spline.type != "POLY"})
-    if not used:
-        return ""
-    return str(used[0]) if len(used) == 1 else "{:d}–{:d}".format(used[0], used[-1])
+def _is_curved(obj) -> bool:
+    return obj.type == "FONT" or any(spline.type != "POLY" for spline in obj.data.splines)
 
 
 def _require_finite(obj, points: NDArray) -> None:
-    if not np.isfinite(points).all():
-        raise ReadError(SECTION_NON_FINITE, subject=obj.name)
+    misplaced = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if len(misplaced):
+        raise ReadError(
+            NON_FINITE_VERTICES, subject=obj.name, elements=misplaced, count=len(misplaced), total=len(points)
+        )

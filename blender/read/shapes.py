@@ -20,11 +20,7 @@ MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
-    """Return a digest of a mesh object's faces, independent of its transform.
-
-    Return None for other types, outside Object Mode, for large meshes, for objects that show instances, and for meshes
-    edited by way of another object.
-    """
+    """Return a digest of a mesh object's own faces; None for large meshes, instancers, node trees and Edit Mode."""
     if (
         obj.type != "MESH"
         or obj.mode != "OBJECT"

@@ -14,11 +14,7 @@ from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_BOOLEAN_OPERANDS, TOT
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
-    """Return the scene's objects that are no parts of the displayed body, each with the reason.
-
-    They are operands of Boolean modifiers that are drawn as mere wire or bounds, and objects that no view layer
-    renders.
-    """
+    """Return objects that are no parts of the displayed body, as operands or not rendered, each with the reason."""
     # One that is switched off renders nothing; the open one is all there is where all are.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
     rendered = {obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render}

@@ -16,18 +16,15 @@ from itertools import islice
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..settings.given import is_point_mass, shows_collection
 from .findings import (
-    COLLECTION_DISABLED,
-    COLLECTION_EXCLUDED,
     COLLECTION_HIDDEN,
     DISABLED_IN_VIEWPORTS,
-    DYNAMIC_TOPOLOGY,
     EMPTY_WITHOUT_INSTANCES,
     HIDDEN_IN_VIEWPORT,
-    INSTANCED_OBJECT_UNREADABLE,
     NOT_EVALUATED,
     NOT_IN_SCENE,
+    OBJECT_UNREADABLE,
     OBJECT_WITHOUT_GEOMETRY,
-    SCULPTED_MULTIRES,
+    SCULPTED_MESH,
     SHAPE_KEYS_OF_OTHER_POINTS,
 )
 
@@ -97,11 +94,7 @@ def instanced_by_parent(obj) -> bool:
 
 
 def metaball_families(view_layer) -> list[list]:
-    """Return the metaball objects by family, in each the one first that holds the polygons of all.
-
-    A family shares the name before its number, and the lowest number holds
-    (BKE_mball_basis_find).
-    """
+    """Return the metaballs by family (the name before a number); the lowest number first, which holds all polygons."""
     families: dict[str, list] = {}
     for obj in view_layer.objects:
         if obj.type == "META":
@@ -120,10 +113,7 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """Return the object's `GeometrySet`, which owns the meshes that it returns.
-
-    Raises ReadError about `reader`, the object for which `obj` is read, if Blender has not evaluated `obj` in full.
-    """
+    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError about `reader`."""
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
         reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)
@@ -133,15 +123,12 @@ def evaluated_geometry(obj, depsgraph, reader):
         except (TypeError, RuntimeError):
             reason = why_not_evaluated(obj, depsgraph)
     if obj != reader:
-        reason = finding(INSTANCED_OBJECT_UNREADABLE, object=obj.name, cause=reason.as_record())
+        reason = finding(OBJECT_UNREADABLE, object=obj.name, cause=reason.as_record())
     raise ReadError(reason, subject=reader.name)
 
 
 def _shape_keys_fit(curve) -> bool:
-    """Return whether a curve's shape keys have as many points as its splines.
-
-    Join adds splines and not to the keys: Blender then shows points from past their end.
-    """
+    """Return whether a curve's shape keys have as many points as its splines: joining curves adds no key points."""
     if curve.shape_keys is None or curve.is_editmode:
         return True
     count = sum(len(spline.bezier_points) + len(spline.points) for spline in curve.splines)
@@ -155,12 +142,9 @@ def why_not_evaluated(obj, depsgraph) -> Finding:
 
 def _sculpt_mode_reason(obj) -> Finding | None:
     """Return the reason why the viewport shows something else than the evaluated mesh in Sculpt Mode, or None."""
-    if obj.use_dynamic_topology_sculpting:
-        return finding(DYNAMIC_TOPOLOGY)
-    for modifier in obj.modifiers:
-        if modifier.type == "MULTIRES" and modifier.show_viewport and modifier.sculpt_levels:
-            return finding(SCULPTED_MULTIRES, modifier=modifier.name)
-    return None
+    levels = [modifier for modifier in obj.modifiers if modifier.type == "MULTIRES" and modifier.show_viewport]
+    is_sculpted = obj.use_dynamic_topology_sculpting or any([modifier.sculpt_levels for modifier in levels])
+    return finding(SCULPTED_MESH) if is_sculpted else None
 
 
 def hidden_reason(obj, depsgraph) -> Finding | None:
@@ -174,13 +158,15 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if obj.hide_viewport:
         return finding(DISABLED_IN_VIEWPORTS)
     reasons, barred = [], set()
-    for blocks, code in (
-        (lambda layer: layer.exclude, COLLECTION_EXCLUDED),
-        (lambda layer: layer.collection.hide_viewport, COLLECTION_DISABLED),
-        (lambda layer: layer.hide_viewport, COLLECTION_HIDDEN),
+    for blocks, switch in (
+        (lambda layer: layer.exclude, "check box"),
+        (lambda layer: layer.collection.hide_viewport, "monitor icon"),
+        (lambda layer: layer.hide_viewport, "eye icon"),
     ):
         blocking = {k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)}
-        named = [finding(code, collection=layer.collection.name) for layer in blocking.values()]
+        named = [
+            finding(COLLECTION_HIDDEN, collection=layer.collection.name, switch=switch) for layer in blocking.values()
+        ]
         if len(blocking) == len(branches):
             return named[0]
         reasons += named

@@ -81,10 +81,7 @@ def _advance(change: SceneChange, depsgraph: Depsgraph) -> bool:
 
 
 def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
-    """Return changes in rounds: each after all earlier changes of the same data, beside others.
-
-    changes: each with the data it may touch.
-    """
+    """Return changes, each with the data it may touch, in rounds: each after all earlier changes of the same data."""
     last: dict[ID, int] = {}
     by_round: dict[int, list[Planned]] = {}
     for change, touched in changes:

@@ -17,7 +17,7 @@ from ...core.verdict.finding import EditRefusedError, Finding, ReadError, findin
 from ..read.objects import read_object
 from ..read.visibility import measurable
 from .changes import LINKING_TYPES, users_of
-from .findings import CHILD_LINKED, CHILD_NOT_HELD, DEPENDENT_CURVE_CHANGES, DEPENDENT_SHAPE_CHANGES, FOLLOWER_MOVED
+from .findings import CHILD_NOT_HELD, DEPENDENT_SHAPE_CHANGES, FOLLOWER_MOVED
 from .transforms import FLOAT32, Matrix4, world
 
 # Relative to the size: more than the rounding in a chain of modifiers, and far less than anyone can see.
@@ -47,10 +47,7 @@ def referring(objects: set[Object]) -> dict[Object, set[Object]]:
 
 
 def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
-    """Return the evaluated surfaces of an object in the world, or None if there is nothing to see.
-
-    For each part, all points of the first place and some points of all others.
-    """
+    """Return the points of an object's evaluated surfaces in the world, of instances a sample; None if it has none."""
     try:
         reading = read_object(obj, depsgraph, edges=False)
     except ReadError:
@@ -67,10 +64,7 @@ def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
 
 
 def transform_shape(before: Shape | None, was: Matrix4, now: Matrix4) -> Shape | None:
-    """Return the shape after a rigid move with all of its object.
-
-    was, now: (4, 4) the object's matrices.
-    """
+    """Return the shape after a rigid move of its object from one (4, 4) matrix to another."""
     way = now @ np.linalg.pinv(was)
     if before is None:
         return None
@@ -91,10 +85,7 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
-    """Return a few points of each place, of any part: for each number of points (k, few, 3).
-
-    They are in the order of their centers along a line.
-    """
+    """Return a few points of each place by number of points, (k, few, 3), ordered by centers along a line."""
     by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
         sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
@@ -134,7 +125,7 @@ class DependentsGuard:
             dependent for dependent in dependents if dependent.library is not None and dependent.parent in self.changed
         ]
         if linked:
-            raise EditRefusedError(CHILD_LINKED, object=linked[0].name)
+            raise EditRefusedError(CHILD_NOT_HELD, object=linked[0].name)
         self.children = {
             dependent: np.array(dependent.matrix_parent_inverse, np.float64)
             for dependent in dependents
@@ -154,10 +145,7 @@ class DependentsGuard:
         }
 
     def compensate(self) -> None:
-        """Set inverses of children and of Child Of constraints so that the children keep their old places.
-
-        The matrices of the changed objects must be evaluated.
-        """
+        """Set inverses of children and Child Of constraints that keep the children's places, by evaluated matrices."""
         held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
         for child, inverse in self.children.items():
             child.matrix_parent_inverse = Matrix(held[child.parent] @ inverse)
@@ -176,8 +164,7 @@ class DependentsGuard:
             if self._moved(self.places[dependent], world(dependent), size):
                 continue
             if not same_shape(before, shape(dependent, depsgraph), size):
-                code = DEPENDENT_SHAPE_CHANGES if dependent.modifiers else DEPENDENT_CURVE_CHANGES
-                raise EditRefusedError(code, object=dependent.name)
+                raise EditRefusedError(DEPENDENT_SHAPE_CHANGES, object=dependent.name)
 
     def _moved(self, before: NDArray, now: NDArray, size: float) -> bool:
         changed = [np.abs(was[:3, 3]).max() for was in self.changed.values()]

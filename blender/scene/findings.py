@@ -4,12 +4,11 @@
 
 from ...core.verdict.finding import error, note, warning
 
-LINKED_OBJECT = error("linked_object", "Linked from another file. Use Object > Relations > Make Local.")
+LINKED_OBJECT = error(
+    "linked_object", "Linked from another file. Use Object > Relations > Make Local for the object and its data."
+)
 LIBRARY_OVERRIDE = error(
     "library_override", "A library override, which would lose the change. Use Object > Relations > Make Local."
-)
-LINKED_OBJECT_DATA = error(
-    "linked_object_data", "Linked from another file. Use Object > Relations > Make Local for the object and its data."
 )
 OPEN_OBJECT = error(
     "open_object",
@@ -54,78 +53,49 @@ ACTIVE_IS_CHILD = error(
     "active_is_child", "The active object is a child of this one and would move along. Clear the parent."
 )
 SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
-PARENT_SCALE_ZERO = error("parent_scale_zero", "The parent has a zero scale. Set it.")
-PARENT_OR_DELTA_SCALE_ZERO = error(
-    "parent_or_delta_scale_zero", "The parent's scale or the delta scale is zero. Clear it."
-)
 PARENT_SHEARS = error("parent_shears", "The parent shears the object. Clear the parent, or apply its scale.")
-CHANNEL_LOCKED = error("channel_locked", "The {channel:word} is locked. Unlock it in Object Properties > Transform.")
-CHANNEL_ANIMATED = error("channel_animated", "The {channel:word} is animated or driven. Remove the animation.")
-LOCATION_CONSTRAINED = error(
-    "location_constrained", "A constraint or the parent holds the location. Apply or remove it."
+CHANNEL_LOCKED = error(
+    "channel_locked",
+    "The {channel:word} is locked, animated or driven. Unlock it in Object Properties > Transform, or remove the "
+    "animation.",
 )
-ROTATION_CONSTRAINED = error(
-    "rotation_constrained", "A constraint or the parent holds the rotation or scale. Apply or remove it."
+TRANSFORM_CONSTRAINED = error(
+    "transform_constrained", "A constraint or the parent holds the {channel:word}. Apply or remove it."
 )
-COLLECTION_INSTANCE = error(
-    "collection_instance", "A collection instance has no geometry of its own. Use Object > Apply > Make Instances Real."
-)
-VOLUME_NOT_REFRAMED = error(
-    "volume_not_reframed",
-    "The voxels of a volume cannot be moved inside the object. Use Add Empty or Align Object to World.",
+SHOWS_INSTANCES = error(
+    "shows_instances", "It shows instances in place of its own geometry. Use Object > Apply > Make Instances Real."
 )
 DATA_WITHOUT_TRANSFORM = error(
-    "data_without_transform", "Geometry of this type cannot be transformed. Use Object > Convert > Mesh."
-)
-INSTANCES_ON_OWN_GEOMETRY = error(
-    "instances_on_own_geometry",
-    "Children are instanced on its vertices or faces. Use Object > Apply > Make Instances Real.",
+    "data_without_transform",
+    "Geometry of this type cannot be moved inside its object. Use Object > Convert > Mesh, Add Empty, or Align Object "
+    "to World.",
 )
 RENDER_ONLY_MODIFIER = error(
     "render_only_modifier",
     "The modifier “{modifier}” is not shown in viewports and may depend on the origin. Show or remove it.",
 )
-DENSITY_IN_OBJECT_COORDINATES = error(
-    "density_in_object_coordinates",
-    "The density polynomial uses object coordinates, which would change. Set Coordinates to World.",
-)
-DENSITY_IN_WORLD_COORDINATES = error(
-    "density_in_world_coordinates",
-    "The density polynomial uses world coordinates and does not move along. Set Coordinates to Object.",
+DENSITY_COORDINATES = error(
+    "density_coordinates",
+    "The density polynomial uses {frame:word} coordinates, so the density would change. Change Coordinates.",
 )
 BOUND_TO_ARMATURE = error(
     "bound_to_armature",
     "Bound to the armature “{armature}”, which would not move along. Rotate the armature, or apply its modifier.",
 )
-SHAPE_DEPENDS_ON_LOCATION = error(
-    "shape_depends_on_location",
-    "The shape would change, as it depends on the location through {modifiers}. Apply them.",
+SHAPE_WOULD_CHANGE = error(
+    "shape_would_change", "The shape would change. Apply the scale, or use Object > Convert > Mesh."
 )
-SHAPE_DEPENDS_ON_LOCATION_UNKNOWN = error(
-    "shape_depends_on_location_unknown",
-    "The shape would change, as it depends on the location. Use Object > Convert > Mesh.",
-)
-SHAPE_DEPENDS_ON_ORIGIN = error(
-    "shape_depends_on_origin",
-    "The shape would change, as it depends on the origin or axes through {modifiers}. Apply or remove them.",
-)
-SHAPE_DEPENDS_ON_ORIGIN_UNKNOWN = error(
-    "shape_depends_on_origin_unknown", "The shape would change. Apply the scale, or use Object > Convert > Mesh."
+MODIFIERS_CHANGE_SHAPE = error(
+    "modifiers_change_shape", "The shape would change, by {modifiers}. Apply or remove these modifiers."
 )
 TEXT_OFF_PLANE = error("text_off_plane", "Text can only move in its own plane. Use Object > Convert > Mesh.")
-CHILD_LINKED = error(
-    "child_linked", "The child “{object}” is linked from another file and cannot be held in place. Make it local."
-)
 CHILD_NOT_HELD = error(
-    "child_not_held", "The child “{object}” cannot be held in place. Use Object > Parent > Clear Parent on it."
+    "child_not_held",
+    "The child “{object}” cannot be held in place. Use Object > Parent > Clear Parent on it, or make it local.",
 )
 DEPENDENT_SHAPE_CHANGES = error(
     "dependent_shape_changes",
-    "“{object}” would change shape, as a modifier refers to this object. Apply that modifier.",
-)
-DEPENDENT_CURVE_CHANGES = error(
-    "dependent_curve_changes",
-    "“{object}” would change shape, as it uses this object. Use Object > Convert > Mesh on it.",
+    "“{object}” would change shape, as it uses this object. Apply its modifier, or use Object > Convert > Mesh on it.",
 )
 DATA_COPIED = note("data_copied", "The data was copied, as other objects use it.")
 FOLLOWER_MOVED = warning("follower_moved", "“{object}” follows by a constraint and moved along.")

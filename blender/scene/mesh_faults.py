@@ -14,7 +14,7 @@ from bpy.types import Object
 
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import EditRefusedError
-from .findings import LINKED_OBJECT_DATA, MODIFIED_MESH
+from .findings import LINKED_OBJECT, MODIFIED_MESH
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
 DEFORMING_MODIFIERS = {
@@ -49,7 +49,7 @@ DEFORMING_MODIFIERS = {
 def require_editable_mesh(obj: Object) -> None:
     """Raise EditRefusedError if the measured mesh is not the editable one."""
     if not obj.data.is_editable:  # nor is it then of a linked object
-        raise EditRefusedError(LINKED_OBJECT_DATA)
+        raise EditRefusedError(LINKED_OBJECT)
     changing = [
         modifier.name
         for modifier in obj.modifiers

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ...core.verdict.finding import EditRefusedError
 from ..read.tracking import tracking_paused
 from .changes import require_editable
-from .findings import CHILD_NOT_HELD, LOCATION_CONSTRAINED
+from .findings import CHILD_NOT_HELD, TRANSFORM_CONSTRAINED
 from .transforms import TransformChannels, world
 
 PLACE_RTOL = 4e-6  # rounding of places in float32 matrices
@@ -42,7 +42,7 @@ def move_parent(context: Context, empty: Object, center: Sequence[float]) -> Non
             context.view_layer.update()
             moved = [child for child, place in places.items() if not _is_at(child, place, tolerance)]
             if np.abs(world(empty)[:3, 3] - center).max() > tolerance:
-                raise EditRefusedError(LOCATION_CONSTRAINED, subject=empty.name)
+                raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", subject=empty.name)
             if moved:
                 raise EditRefusedError(CHILD_NOT_HELD, subject=empty.name, object=moved[0].name)
         except BaseException:

@@ -33,24 +33,16 @@ from .changes import SceneChange, ancestors, dependents, independent_rounds, run
 from .dependents import SAME_SHAPE_RTOL, DependentsGuard, referring, same_shape, shape, transform_shape
 from .findings import (
     BOUND_TO_ARMATURE,
-    COLLECTION_INSTANCE,
     DATA_COPIED,
     DATA_WITHOUT_TRANSFORM,
-    DENSITY_IN_OBJECT_COORDINATES,
-    DENSITY_IN_WORLD_COORDINATES,
-    INSTANCES_ON_OWN_GEOMETRY,
+    DENSITY_COORDINATES,
     LINKED_OBJECT,
-    LINKED_OBJECT_DATA,
-    LOCATION_CONSTRAINED,
-    PARENT_SCALE_ZERO,
+    MODIFIERS_CHANGE_SHAPE,
     RENDER_ONLY_MODIFIER,
-    ROTATION_CONSTRAINED,
-    SHAPE_DEPENDS_ON_LOCATION,
-    SHAPE_DEPENDS_ON_LOCATION_UNKNOWN,
-    SHAPE_DEPENDS_ON_ORIGIN,
-    SHAPE_DEPENDS_ON_ORIGIN_UNKNOWN,
+    SHAPE_WOULD_CHANGE,
+    SHOWS_INSTANCES,
     TEXT_OFF_PLANE,
-    VOLUME_NOT_REFRAMED,
+    TRANSFORM_CONSTRAINED,
 )
 from .reframe_meshes import Plan, data_change, location_tolerance, reframe_own_meshes, shows_own_mesh
 from .transforms import (
@@ -87,15 +79,13 @@ FRAME_INDEPENDENT_MODIFIERS = {
 def check(obj: Object) -> None:
     """Raise EditRefusedError if the object's data cannot be re-expressed at all."""
     if obj.library is not None or (obj.data is not None and obj.data.library is not None):
-        raise EditRefusedError(LINKED_OBJECT_DATA)
+        raise EditRefusedError(LINKED_OBJECT)
     if obj.data is None:
-        raise EditRefusedError(COLLECTION_INSTANCE)
-    if obj.type == "VOLUME":
-        raise EditRefusedError(VOLUME_NOT_REFRAMED)
+        raise EditRefusedError(SHOWS_INSTANCES)
     if obj.type not in {"MESH", "CURVE", "SURFACE", "META", "FONT"}:
         raise EditRefusedError(DATA_WITHOUT_TRANSFORM)
     if obj.instance_type in {"VERTS", "FACES"} and obj.children:
-        raise EditRefusedError(INSTANCES_ON_OWN_GEOMETRY)
+        raise EditRefusedError(SHOWS_INSTANCES)
     unseen = [
         modifier.name
         for modifier in obj.modifiers
@@ -104,7 +94,7 @@ def check(obj: Object) -> None:
     if unseen:
         raise EditRefusedError(RENDER_ONLY_MODIFIER, modifier=unseen[0])
     if density_anchor(obj) == "own":
-        raise EditRefusedError(DENSITY_IN_OBJECT_COORDINATES)
+        raise EditRefusedError(DENSITY_COORDINATES, frame="object")
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
         raise EditRefusedError(SCALE_ZERO_AXIS)
 
@@ -147,10 +137,7 @@ def reframe(
 
 
 def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
-    """Return plans in groups that share data and want the same change of it.
-
-    A group never has a parent and its child, for the child is placed after its parent.
-    """
+    """Return plans in groups that share data and want the same change of it, a child never with its parent."""
     groups: list[list[Plan]] = []
     sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
     for plan in plans:
@@ -197,7 +184,7 @@ def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> Scene
         depsgraph = yield
         for plan in group:
             if not same_shape(before[plan.obj], shape(plan.obj, depsgraph), plan.size):
-                raise EditRefusedError(_overriding_cause(plan.obj))
+                raise EditRefusedError(_reason_of_change(plan.obj, FRAME_INDEPENDENT_MODIFIERS))
         around.verify(depsgraph, min(plan.size for plan in group))
         group[0].findings += around.findings
         succeeded = True
@@ -224,7 +211,7 @@ def check_movable(obj: Object) -> None:
     if obj.library is not None:
         raise EditRefusedError(LINKED_OBJECT)
     if density_anchor(obj) == "world":
-        raise EditRefusedError(DENSITY_IN_WORLD_COORDINATES)
+        raise EditRefusedError(DENSITY_COORDINATES, frame="world")
     bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
     if obj.parent_type == "ARMATURE":
         bound.append(obj.parent)
@@ -242,12 +229,7 @@ def move(context: Context, plan: Plan) -> None:
         if not same_shape(
             transform_shape(before, was, world(obj)), shape(obj, context.evaluated_depsgraph_get()), plan.size
         ):
-            names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-            raise (
-                EditRefusedError(SHAPE_DEPENDS_ON_LOCATION, modifiers=names)
-                if names
-                else EditRefusedError(SHAPE_DEPENDS_ON_LOCATION_UNKNOWN)
-            )
+            raise EditRefusedError(_reason_of_change(obj, set()))
     except BaseException:
         saved.restore()
         context.view_layer.update()
@@ -260,7 +242,7 @@ def set_world_matrix(plan: Plan) -> SceneChange:
     obj = plan.obj
     outer = _parent_matrix(obj)
     if not abs(np.linalg.det(outer[:3, :3])) > 0.0:
-        raise EditRefusedError(PARENT_SCALE_ZERO)
+        raise EditRefusedError(SCALE_ZERO_AXIS)
     tolerance = location_tolerance(obj, plan.size) / np.cbrt(abs(np.linalg.det(outer[:3, :3])))
     target = plan.target
     for _ in range(3):  # rounding of the parents' float32 matrices is corrected once it is known
@@ -276,10 +258,10 @@ def set_world_matrix(plan: Plan) -> SceneChange:
         target[:3, 3] += off
     now = world(obj)
     if np.abs(now[:3, 3] - plan.target[:3, 3]).max() > location_tolerance(obj, plan.size):
-        raise EditRefusedError(LOCATION_CONSTRAINED)
+        raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location")
     scale = np.abs(plan.target[:3, :3]).max()
     if np.abs(now[:3, :3] - plan.target[:3, :3]).max() > MAX_SHEAR * scale:
-        raise EditRefusedError(ROTATION_CONSTRAINED)
+        raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="rotation")
 
 
 def _parent_matrix(obj: Object) -> Matrix4:
@@ -298,10 +280,7 @@ def _parent_matrix(obj: Object) -> Matrix4:
 
 
 def transform_data(data: ID, change: Matrix4) -> None:
-    """Map every control point of the data and its shape keys, p → change · p.
-
-    EditRefusedError if the data cannot.
-    """
+    """Map every control point of the data and its shape keys, p → change · p, or raise EditRefusedError."""
     if isinstance(data, bpy.types.Mesh):
         _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):
@@ -343,12 +322,6 @@ def _translate_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     text.offset_y += offset[1]
 
 
-def _overriding_cause(obj: Object) -> Finding:
-    names = [
-        modifier.name
-        for modifier in obj.modifiers
-        if modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
-    ]
-    if names:
-        return finding(SHAPE_DEPENDS_ON_ORIGIN, modifiers=names)
-    return finding(SHAPE_DEPENDS_ON_ORIGIN_UNKNOWN)
+def _reason_of_change(obj: Object, harmless: set[str]) -> Finding:
+    names = [modifier.name for modifier in obj.modifiers if modifier.show_viewport and modifier.type not in harmless]
+    return finding(MODIFIERS_CHANGE_SHAPE, modifiers=names) if names else finding(SHAPE_WOULD_CHANGE)

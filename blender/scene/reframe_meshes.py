@@ -70,10 +70,7 @@ def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float
 
 
 def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
-    """Return whether an object shows just its unmodified mesh, has no users and is free to change.
-
-    Its location, rotation and scale alone must place it.
-    """
+    """Return whether an object shows just its unmodified mesh, has no users, and its own channels alone place it."""
     data = obj.data
     return (
         obj.type == "MESH"
@@ -93,10 +90,7 @@ def shows_own_mesh(obj: Object, users: dict[Object, set[Object]]) -> bool:
 
 
 def reframe_own_meshes(context: Context, plans: Sequence[Plan]) -> list[Object]:
-    """Carry out plans for objects that pass `shows_own_mesh`; return the finished objects.
-
-    The others are unchanged.
-    """
+    """Carry out plans for objects that pass `shows_own_mesh`; return the finished ones and leave the others."""
     done: list[Object] = []
     for move_only in (True, False):
         some = [plan for plan in plans if plan.move_only == move_only]
@@ -155,10 +149,7 @@ def _reframe_alike(
 
 
 def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> list[int]:
-    """Copy meshes for objects that share them and want different changes; return the first plan of each.
-
-    These meshes have to be changed then. changes: (n, 4, 4). reach: the distance of the points farthest out.
-    """
+    """Copy meshes for objects that share them and want different changes; return the first plan of each."""
     sharing: dict[Mesh, list[int]] = {}
     for i, plan in enumerate(plans):
         sharing.setdefault(plan.obj.data, []).append(i)
@@ -177,11 +168,7 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 
 def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
-    """Return groups of changes that move no point farther apart than is allowed.
-
-    The first of each is compared only with changes of a similar sorted sum of entries: of 10,000 changes that all
-    differ, with none.
-    """
+    """Return groups of changes that move no point farther apart than allowed, compared after a sort by sums."""
     limit, weights = np.array(within), np.cos(np.arange(12.0)).reshape(3, 4)  # for entries no larger than 1
     weights[:, :3] *= reach.min()
     weights[:, 3] /= 3.0
@@ -250,10 +237,7 @@ def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
 def _change_mesh(
     mesh: Mesh, change: NDArray, points: NDArray[np.float32], is_flipped: bool, put_back: ExitStack
 ) -> None:
-    """Give a mesh its mapped points.
-
-    put_back: gets functions that undo all but the points.
-    """
+    """Give a mesh its mapped points; `put_back` gets functions that undo all but the points."""
     if mesh.has_custom_normals:
         mesh.transform(Matrix(change))  # turns them, too
         put_back.callback(mesh.transform, Matrix(np.linalg.inv(change)))

@@ -41,7 +41,7 @@ from .findings import (
     BALANCE_UNCLEAN,
     BALANCE_VARYING_DENSITY,
     BALANCE_WALL,
-    LINKED_OBJECT_DATA,
+    LINKED_OBJECT,
 )
 from .transforms import FLOAT32
 
@@ -201,7 +201,7 @@ def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> It
 def _require_balanceable(obj: Object) -> None:
     """Raise EditRefusedError if the mesh cannot be changed, or its change is not the object's."""
     if not obj.data.is_editable:
-        raise EditRefusedError(LINKED_OBJECT_DATA)
+        raise EditRefusedError(LINKED_OBJECT)
     if obj.data.shape_keys is not None:
         raise EditRefusedError(BALANCE_SHAPE_KEYS)
     if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":

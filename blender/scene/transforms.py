@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 
 from ...core.numerics.rotations import quaternion, rotation_matrix
 from ...core.verdict.finding import EditRefusedError
-from .findings import CHANNEL_ANIMATED, CHANNEL_LOCKED, PARENT_OR_DELTA_SCALE_ZERO, PARENT_SHEARS
+from ..read.findings import SCALE_ZERO_AXIS
+from .findings import CHANNEL_LOCKED, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
 MAX_SHEAR = 2e-6  # found in float32 products of a rotation and a scale
@@ -62,10 +63,7 @@ def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
 
 
 def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) angles by axis x, y, z of rotations (..., 3, 3).
-
-    Of all equal angles they are the nearest to `near`, (..., 3).
-    """
+    """Return (..., 3) angles by axis x, y, z of rotations (..., 3, 3): of all equal ones the nearest to `near`."""
     i, j, k, s = _order(mode)
     locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
     first = np.where(locked, near[..., i], np.arctan2(s * rotation[..., k, j], rotation[..., k, k]))
@@ -118,11 +116,7 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
-    """Return rotations (..., 3, 3) and scales (..., 3) of linear maps, and a (...,) mask of maps that have them.
-
-    Scales have the signs of the present ones as far as the maps' hand allows. The mask excludes sheared maps and zero
-    scales.
-    """
+    """Return rotations and scales, with signs as now, of (..., 3, 3) maps, and a mask without sheared or zero ones."""
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)
@@ -138,7 +132,7 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
     """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError if it is sheared."""
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
-        raise EditRefusedError(PARENT_OR_DELTA_SCALE_ZERO)
+        raise EditRefusedError(SCALE_ZERO_AXIS)
     turn, scale, is_even = rotation_and_scale(linear, np.array(obj.scale, np.float64) * delta_scale)
     if not is_even:
         raise EditRefusedError(PARENT_SHEARS)
@@ -164,10 +158,8 @@ def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
 def _assign(obj: Object, channel: str, value: NDArray, locks: Sequence[bool], tolerance: float = 1e-6) -> None:
     before = np.array(getattr(obj, channel), np.float64)
     moved = np.abs(value - before) > max(tolerance, 1e-6 * np.abs(before).max())
-    if np.any(moved & np.array(locks, bool)):
+    if np.any(moved & np.array(locks, bool)) or (np.any(moved) and channel in driven_channels(obj)):
         raise EditRefusedError(CHANNEL_LOCKED, channel=channel.split("_")[0])
-    if np.any(moved) and channel in driven_channels(obj):
-        raise EditRefusedError(CHANNEL_ANIMATED, channel=channel.split("_")[0])
     setattr(obj, channel, value)
 
 

@@ -27,7 +27,8 @@ VALUES_NON_FINITE_FOR_TABLE = error(
 )
 VALUES_NEGATIVE = error(
     "values_negative",
-    "Negative densities, down to {density:.6g} kg/m³. Set Values to Table, or Measure As to Solid for a level set.",
+    "Negative densities, down to {density:.6g} kg/m³. Convert the samples, set Values to Table, or Measure As to Solid "
+    "for a level set.",
 )
 POSITIONS_DAMAGED = error(
     "positions_damaged",
@@ -37,5 +38,5 @@ POSITIONS_DAMAGED = error(
 POSITIONS_ONLY_AS_DENSITY = error(
     "positions_only_as_density",
     "The samples of the grid “{grid}” do not stand evenly, and can be measured as a density only. Set Measure As "
-    "to Density, or import the scan without positions.",
+    "to Density, or import or measure the scan without positions.",
 )

@@ -11,7 +11,6 @@ from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
     POSITIONS_ONLY_AS_DENSITY,
     VALUES_BY_TABLE,
-    VALUES_NEGATIVE,
     VALUES_SCALED,
 )
 
@@ -23,8 +22,7 @@ class GridOptions:
     grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: smallest value inside
     the body, None for all of the grid; filled: with the grid's own density, not with one material. value_density: kg/m³
     of a value of 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4 cubic.
-    sample_positions: of uneven samples, as `positions_text` writes it. negative: the code of the refusal of negative
-    densities, by their source.
+    sample_positions: of uneven samples, as `positions_text` writes it.
     """
 
     grid: str = ""
@@ -35,7 +33,6 @@ class GridOptions:
     table: str = ""
     spline_order: int = 1
     sample_positions: str = ""
-    negative: str = VALUES_NEGATIVE
 
     @classmethod
     def from_settings(cls, settings, density: float | None = None) -> GridOptions:

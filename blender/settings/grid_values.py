@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...core.density.transfer_function import parse_table
 from ...core.scans.positions import AXES, EVEN, Positions
 from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, VALUES_NON_FINITE_FOR_TABLE
+from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, VALUES_NEGATIVE, VALUES_NON_FINITE_FOR_TABLE
 from .grid import GridOptions
 
 
@@ -49,7 +49,7 @@ def density_function(options: GridOptions, background: float | None) -> Callable
         if background is not None:
             densities[values == background] = 0.0
         if densities.min() < 0.0:
-            raise ReadError(options.negative, density=float(densities.min()))
+            raise ReadError(VALUES_NEGATIVE, density=float(densities.min()))
         return densities
 
     return weighed

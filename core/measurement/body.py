@@ -10,12 +10,11 @@ from typing import ClassVar
 
 from ..inertia.principal_frames import OwnMoments
 from ..mesh.surface import Surface
-from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Moments
 from ..verdict.finding import Finding, ReadError
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method
-from .findings import WALL_ORDER
+from .findings import WALL_UNSUPPORTED
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,11 +50,8 @@ class Body:
     face_count: int = 0
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the volume's and the area's moments to another order; the area's may be None unless `area` is true.
-
-        Raise ReadError if they are not known.
-        """
-        raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
+        """Return the volume's and the area's moments to another order, or raise ReadError if they are not known."""
+        raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
 
     def third_order(self) -> Moments:
         """Return the moments behind the principal frame of a solid or a wire, with exact third order."""

@@ -28,7 +28,7 @@ from .findings import (
     DENSITY_FROM_MEMBERS,
     NO_THICKNESS,
     NO_VOLUME,
-    WALL_ORDER,
+    WALL_UNSUPPORTED,
     ZERO_DENSITY,
     ZERO_MASS,
 )
@@ -49,10 +49,7 @@ def build_measurement(
     estimated: bool = False,
     **fields: Any,
 ) -> Measurement:
-    """Return a measurement: its extents and bounds by these moments and properties, the other fields as given.
-
-    estimated: the bounds of rounding are estimates.
-    """
+    """Return a measurement: extents and bounds by moments and properties, the other fields as given."""
     rounding, moved = mass_properties.rounding_error, mass_properties.input_error
     known = {"volume_moments": volume, "area_moments": area}
     return Measurement(
@@ -166,10 +163,7 @@ def add_extents(extents: list[Extent]) -> Extent:
 
 
 def find_extent(body: Body, settings: Settings) -> Moments:
-    """Return the moments that the density multiplies: of the volume, a shell's sheet or wall, or a wire's length.
-
-    Raise ReadError if that volume is not positive.
-    """
+    """Return the moments of volume, sheet, wall or length that the density multiplies, or raise ReadError."""
     if body.length is not None:
         return body.length
     volume = body.area * settings.thickness if _is_thin(body, settings) else body.wall or body.volume
@@ -221,7 +215,7 @@ def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | Non
         return None
     if not body.any_order:
         if order > KNOWN_ORDER or (settings.surface and not shell):
-            raise ReadError(WALL_ORDER, order=KNOWN_ORDER)
+            raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
         return None
     with np.errstate(over="ignore", invalid="ignore"):
         volume, area = body.moments(order, shell or settings.surface)

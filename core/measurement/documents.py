@@ -133,10 +133,7 @@ def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 
 
 def table(header: Sequence[str], rows: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield CSV with these columns, a row for each mapping; missing entries stay empty.
-
-    Text is escaped as in `to_csv`.
-    """
+    """Yield CSV with these columns, a row for each mapping, escaped as in `to_csv`; missing entries stay empty."""
     yield _line(header)
     for row in rows:
         yield _line(_cell(row.get(name, "")) for name in header)

@@ -13,9 +13,8 @@ NO_VOLUME = error(
 NO_THICKNESS = error("no_thickness", "The shell has no thickness. Set Thickness.")
 ZERO_DENSITY = error("zero_density", "The density is zero. Set Density.")
 ZERO_MASS = error("zero_mass", "The mass is zero. Set Mass.")
-WALL_ORDER = error(
-    "wall_order",
-    "Of a wall of real thickness, moments above order {order} and area moments are not known. Set Wall to Thin.",
+WALL_UNSUPPORTED = error(
+    "wall_unsupported", "{quantity:word} is not available for walls of real thickness. Set Wall to Thin."
 )
 AXES_FROM_THIRD_ORDER = warning(
     "axes_from_third_order",

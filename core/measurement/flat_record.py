@@ -89,10 +89,7 @@ def flat_record(
 
 
 def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
-    """Return bounds of the area, of each coordinate of the centroid and of each second moment.
-
-    bounds: of the central moments.
-    """
+    """Return bounds of the area, each coordinate of the centroid and each second moment, by central moments."""
     first, second = (
         float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows])) for rows in (_FIRST, _SECOND)
     )
@@ -106,10 +103,7 @@ def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict
 def _point(
     about: str | Sequence[float] | None, centroid: NDArray, axes: NDArray, location: NDArray, own: NDArray
 ) -> NDArray[np.float64]:
-    """Return (3,) in the world the point that moments are about, before it is projected.
-
-    own: the object's origin.
-    """
+    """Return (3,) in the world the point that moments are about, before it is projected; `own`: the object's origin."""
     if about == "center":
         return centroid
     if about in ("origin", "world"):

@@ -82,10 +82,7 @@ text.addEventListener("input",filter);status.addEventListener("change",filter);f
 
 
 def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield the page in pieces.
-
-    documents: gone through twice.
-    """
+    """Yield the page in pieces; the documents are gone through twice."""
     statuses = Counter(document["status"] for document in documents)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
     policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(digest)

@@ -100,10 +100,7 @@ def record(
 
 
 def described(findings: Iterable[Finding]) -> dict[str, list]:
-    """Return a record's entries about findings: `findings` as data with their messages, `warnings` and `notes`.
-
-    `warnings` has the messages alone from that severity on, `notes` those below it.
-    """
+    """Return a record's `findings` as data, `warnings` with their messages from that severity on, and other `notes`."""
     entry = {"findings": [], "warnings": [], "notes": []}
     add_findings(entry, findings)
     return entry
@@ -131,10 +128,7 @@ def _finding_record(finding: Finding) -> dict[str, Any]:
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
-    """Return the entry of all objects as one body, in the world frame.
-
-    Masses add, and inertia by the parallel-axis theorem. findings: about the total.
-    """
+    """Return the entry of all objects as one body, in the world frame, with findings about the total."""
     entry = {
         "mass": math.fsum(measurement.mass_properties.mass for measurement in measurements),
         "volume": math.fsum(measurement.volume for measurement in measurements),

@@ -62,17 +62,19 @@ def extend_small_moments(
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
     """Return (K, t) the S_α of triangles with corners (3, t)."""
-    levels = np.zeros((3, 2, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
-    levels[:, 0] = 1.0
-    vectors, out = np.stack([a, c, b]), np.empty((monomial_count(order), a.shape[1]))
+    levels = np.zeros((2, 3, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
+    levels[0] = 1.0
+    vectors, out = np.stack([a, c, b], axis=1), np.empty((monomial_count(order), a.shape[1]))
     out[0] = 1.0
     for degree in range(1, order + 1):
         below, count = count_of_degree(degree - 1), count_of_degree(degree)
-        grown = np.zeros((3, count + 1, a.shape[1]))
-        for axis, quotients in enumerate(quotient_indices(degree, below)):
-            grown[:, :-1] += levels.take(quotients, axis=1) * vectors[:, axis, None]
-        grown[1] += grown[0]
-        grown[2] += grown[1]
-        out[monomial_count(degree - 1) : monomial_count(degree)] = grown[2, :-1]
+        grown = np.zeros((count + 1, 3, a.shape[1]))
+        for quotients, vector in zip(quotient_indices(degree, below), vectors):
+            terms = levels.take(quotients, axis=0)
+            terms *= vector
+            grown[:-1] += terms
+        grown[:, 1] += grown[:, 0]
+        grown[:, 2] += grown[:, 1]
+        out[monomial_count(degree - 1) : monomial_count(degree)] = grown[:-1, 2]
         levels = grown
     return out

@@ -88,7 +88,7 @@ def damaged(file: str, code: str, **values) -> str:
     "data, options, reason",
     [
         (b"nonsense", (), sentence("file_unrecognized", format="NRRD")),
-        (nrrd(-box()), (), sentence("array_negative", density=-1.0)),
+        (nrrd(-box()), (), sentence("values_negative", density=-1.0)),
         (nrrd(box("f4", 0.0)), (), sentence("grid_empty")),
         (nrrd(box("f4", np.nan)), (), sentence("density_non_finite")),
         (nrrd(box()), ("--kind", "shell"), sentence("grid_as_shell")),

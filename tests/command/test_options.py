@@ -66,7 +66,7 @@ def test_object_without_surface_is_measured_only_by_name():
     found = document()
     assert names(found) == ["Text"] and found["errors"] == []
     assert errors(document("--object", "Circle", "--object", "Light", "--object", "Empty")) == {
-        "Circle": sentence("lines_only_curve"),
+        "Circle": sentence("lines_only"),
         "Light": sentence("object_without_geometry", type="Light"),
         "Empty": sentence("empty_without_instances"),
     }
@@ -151,7 +151,7 @@ def test_objects_rendered_by_another_view_layer_count():
     assert left_out(document()) == {"hidden": sentence("not_rendered")}
     second = bpy.context.scene.view_layers.new("Second")
     found = document()
-    assert errors(found) == {"hidden": sentence("collection_excluded", collection="Away")}
+    assert errors(found) == {"hidden": sentence("collection_hidden", collection="Away", switch="check box")}
     assert found["left_out"] == []
     second.use = False
     assert left_out(document()) == {"hidden": sentence("not_rendered")}

@@ -86,7 +86,7 @@ def test_open_and_inside_out_meshes_are_said_to_be(tmp_path):
     assert entry["method"] == "open" and not entry["health"]["closed"] and "streamed_open" in codes(entry)
     _, document = run(tmp_path, written(tmp_path, body=inverted(part())), "--stream", "always", "--order", "3")
     (entry,) = document["objects"]
-    assert entry["method"] == "reoriented" and "streamed_inside_out" in codes(entry)
+    assert entry["method"] == "reoriented" and "inverted_components" in codes(entry)
     assert close(entry["volume"], run(tmp_path, written(tmp_path))[1]["objects"][0]["volume"], rel=1e-12)
     assert min(entry["moments"]["volume"][key] for key in ("0,0,0", "2,0,0", "0,2,0")) > 0.0
 

@@ -145,7 +145,7 @@ def test_curve_polygons_are_a_note(kind, capfd):
     bpy.ops.object.body_moments_measure()
     obj = bpy.context.object
     out = capfd.readouterr().out
-    assert {"surface_drawn_as_polygons", "curves_drawn_as_polygons"} & {*findings_of(obj, "note")}
+    assert {"drawn_as_polygons"} & {*findings_of(obj, "note")}
     assert not findings_of(obj, "warning") and obj["body_warnings"] == ""
     assert "Info: Measured {:s}\n".format(obj.name) in out and "Warning" not in out
     found = labels(shown())

@@ -56,7 +56,7 @@ def test_dynamic_topology_is_refused_as_its_mesh_cannot_be_seen(window):
     window.wait(f"{SPHERE}.use_dynamic_topology_sculpting")
     stroke(window)
     window.wait(f"{LIVE}.current_numbers({SPHERE}).refusal is not None")
-    assert window.get(f"{LIVE}.current_numbers({SPHERE}).refusal.code") == "dynamic_topology"
+    assert window.get(f"{LIVE}.current_numbers({SPHERE}).refusal.code") == "sculpted_mesh"
     window.press("object.body_moments_measure")
     window.wait(f"{RESULTS}.failure({SPHERE}) is not None")
     assert "Dyntopo" in window.get(f"str({RESULTS}.failure({SPHERE}))")

@@ -26,7 +26,13 @@ from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...read.assembly import Member, MemberKind, Root, members_of, settings_of
-from ...read.findings import BOOLEAN_OPERAND, HIDDEN_OBJECT_MEASURED, MEMBER_COUNTED_BEFORE, NOT_RENDERED
+from ...read.findings import (
+    BOOLEAN_OPERAND,
+    HIDDEN_OBJECT_MEASURED,
+    MEMBER_COUNTED_BEFORE,
+    NOT_RENDERED,
+    SCALE_ZERO_AXIS,
+)
 from ...read.fingerprint import digest, fingerprint, matrix_hash
 from ...read.objects import locate
 from ...read.reading import to_si
@@ -39,13 +45,11 @@ from ..findings import (
     ASSEMBLY_WITHOUT_MEMBERS,
     GIVEN_CENTER_MISSING,
     INSTANCE_STRETCHES_SHEETS,
-    INSTANCE_WITHOUT_SCALE,
     MEMBERS_COUNTED_BEFORE,
     MEMBERS_DENSITY_UNSET,
     MEMBERS_EXCLUDED,
     MEMBERS_HIDDEN,
     MEMBERS_LEFT_OUT,
-    MEMBERS_MASS_GIVEN,
     MEMBERS_NOT_MEASURED,
 )
 from ..measure_object import Measured
@@ -100,10 +104,7 @@ class Assembly:
 
 
 def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions = AS_SET) -> Assembly:
-    """Measure a collection, or an empty with its children, as one body.
-
-    The depsgraph must be up to date; `options` override the members' settings. Raise MeasureError if there is no mass.
-    """
+    """Measure a collection, or an empty with its children, as one body; MeasureError if it has no mass."""
     member = members_of(root, depsgraph)
     results: Results = {}
     for _ in measure_members(member, depsgraph, results, options):
@@ -221,9 +222,8 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     if unset:
         yield finding(MEMBERS_DENSITY_UNSET, count=len(unset), names=unset)
     yield from open_body_caveats((member.name, measured.method) for member, measured in objects)
-    given = [part.member.name for part in members[1:] if _has_code(part.findings, ASSEMBLY_MASS_GIVEN)]
-    if given:
-        yield finding(MEMBERS_MASS_GIVEN, count=len(given), names=given)
+    for part in members[1:]:
+        yield from (each.of_sources([part.member.name]) for each in part.findings if each.code == ASSEMBLY_MASS_GIVEN)
 
 
 _LEFT_OUT: dict[str, str] = {
@@ -309,7 +309,7 @@ def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBo
     scale = abs(np.linalg.det(matrix[:3, :3]))
     nothing = replace(whole, masses={}, volume=NOTHING, area=NOTHING)
     if not scale > 0.0:
-        return replace(nothing, refusal=finding(INSTANCE_WITHOUT_SCALE))
+        return replace(nothing, refusal=finding(SCALE_ZERO_AXIS))
     sheared = _is_sheared(member)
     if sheared and not {0, 3}.issuperset(whole.masses):
         return replace(nothing, refusal=finding(INSTANCE_STRETCHES_SHEETS))

@@ -28,7 +28,7 @@ from ....core.verdict.method import Verdict
 from ...read.reading import Reading, to_si
 from ...settings.density import DensityField
 from ..body import MeshBody
-from ..findings import DENSITY_NEGATIVE, DENSITY_OF_UNITED_INSTANCES, DENSITY_POSSIBLY_NEGATIVE, SHEARED_DENSITY_AXES
+from ..findings import DENSITY_NEGATIVE, DENSITY_POSSIBLY_NEGATIVE, SHEARED_DENSITY_AXES, UNION_LACKS
 from ..mesh.instances import group_by_similarity
 
 MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by one
@@ -50,10 +50,7 @@ class _Piece:
 def polynomial_mass_result(
     reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
 ) -> tuple[list[Moments], list[Finding]]:
-    """Return the mass moments of all parts to an order (of a shell for a thickness of one meter), and the findings.
-
-    ReadError if the density is negative.
-    """
+    """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
     polynomial, findings = _polynomial(density), []
     pieces = list(
         _sheet_pieces(reading, density.in_world, unit)
@@ -84,7 +81,7 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
     """Yield the repaired surfaces that enclose the body."""
     if body.method.verdict == Verdict.UNION:
         if reading.instance_count > 1 and not in_world:
-            raise ReadError(DENSITY_OF_UNITED_INSTANCES)
+            raise ReadError(UNION_LACKS, data="object coordinates")
         solid, matrices = body.solids[0]
         place = to_si(reading.parts[0].matrices, unit)
         yield _Piece(

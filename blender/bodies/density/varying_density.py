@@ -33,22 +33,19 @@ from ...settings.density import DensityField, density_key, material_density
 from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
 from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
-    ATTRIBUTE_NEGATIVE,
-    ATTRIBUTE_NON_FINITE,
+    ATTRIBUTE_VALUES,
     CAVITY_MATERIAL_IGNORED,
     DENSITY_ATTRIBUTE_OF_SOLID,
     DENSITY_FROM_ATTRIBUTE,
     DENSITY_FROM_MATERIALS,
-    DENSITY_MIXED_BY_AREA,
     DENSITY_OF_MATERIAL,
     DENSITY_OF_OTHERS,
-    DENSITY_VOLUME_OF_SHELL,
+    GRID_AS_SHELL,
     MASS_OVERFLOW,
     MATERIAL_WITHOUT_DENSITY,
-    MATERIALS_OF_UNION,
-    MIXED_MATERIAL_COMPONENT,
-    MIXED_MATERIAL_COMPONENTS,
+    MIXED_MATERIALS,
     OVERLAPPING_DENSITIES,
+    UNION_LACKS,
 )
 from ..mesh.instances import area_of_instances, findings_by_part
 from ..request import Request
@@ -73,15 +70,12 @@ class _Weighed:
 
 
 def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
-    """Return the body with the mass that its density gives it, and its moments to the order that is asked for.
-
-    Raise MeasureError if the density is missing or negative anywhere.
-    """
+    """Return the body with its mass and moments to the requested order; MeasureError if a density is impossible."""
     find_extent(body, request.settings)  # refused before it is weighed
     order = request.settings.order
     if _field(request).kind == "volume":
         if request.settings.kind == "shell":
-            raise ReadError(DENSITY_VOLUME_OF_SHELL)
+            raise ReadError(GRID_AS_SHELL)
         filled = filled_by_volume(body, request, KNOWN_ORDER)
         higher = filled_by_volume(body, request, order).mass if order is not None and order > KNOWN_ORDER else None
         return replace(filled, higher_mass=higher, density_key=density_key(request.obj, (), request.scene))
@@ -145,11 +139,10 @@ def _by_attribute(reading: Reading, request: Request, order: int) -> _Weighed:
 def _by_material(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
     shell = request.settings.kind == "shell"
     if body.method.verdict == Verdict.UNION:
-        raise ReadError(MATERIALS_OF_UNION)
+        raise ReadError(UNION_LACKS, data="materials")
     face_densities = _FaceDensities(reading, request.settings.density or 0.0)
     parts: list[Moments] = []
     by_part: list[tuple[str, list[Finding]]] = []
-    mixed = False
     if shell:
         for i, values in enumerate(face_densities.values):
             parts.extend(_sheet_moments(reading, i, values, request, order))
@@ -164,17 +157,16 @@ def _by_material(reading: Reading, body: MeshBody, request: Request, order: int)
                     threads=request.settings.threads,
                     allow_open=True,
                 )[0]
-            weighed, findings, by_area = _solid_moments(solid, volume, matrices, values, names)
+            weighed, findings = _solid_moments(solid, volume, matrices, values, names)
             parts += weighed
             by_part.append((reading.parts[i].source_object_name, findings))
-            mixed = mixed or by_area
     findings = [*face_densities.missing_note(), *findings_by_part(by_part, reading.name)]
     health = body.health
     if not shell and health.nested_components + health.overlapping_components and face_densities.has_several:
         findings.append(finding(OVERLAPPING_DENSITIES))
     return _Weighed(
         to_mass_moments(sum_moments(parts), _thickness(request)),
-        face_densities.source(mixed),
+        face_densities.source(),
         findings,
         face_densities.names,
     )
@@ -225,16 +217,14 @@ class _FaceDensities:
         else:
             yield finding(OBJECT_DENSITY_USED, **values)
 
-    def source(self, by_area: bool) -> Finding:
-        """Return the source of the densities; if `by_area`, components of several materials took their mean by area."""
+    def source(self) -> Finding:
+        """Return the source of the densities."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
         parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
         parts = truncate_findings(parts, MAX_NAMED)
         if self.faces_without_density:
             parts.append(finding(DENSITY_OF_OTHERS, density=self.default_density))
-        if by_area:
-            parts.append(finding(DENSITY_MIXED_BY_AREA))
         return finding(DENSITY_FROM_MATERIALS, materials=[part.as_record() for part in parts])
 
     def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
@@ -246,11 +236,8 @@ class _FaceDensities:
 
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
-) -> tuple[list[Moments], list[Finding], bool]:
-    """Return ∫ρ dV of a surface's places, findings about its components, and whether any takes a mean by area.
-
-    volume: the surface's volume moments, to the wanted order. values, names: of its mesh faces.
-    """
+) -> tuple[list[Moments], list[Finding]]:
+    """Return ∫ρ dV of a surface's places by the values of its mesh faces, and findings about its components."""
     components = solid.parts()
     moments, findings = [], []
     has_foreign_material = is_slight = False
@@ -268,7 +255,7 @@ def _solid_moments(
         is_slight = bool(part_density.most_by_area[foreign].sum() < negligible)
     if has_foreign_material:
         findings.append(finding(CAVITY_MATERIAL_IGNORED, slight=is_slight))
-    return moments, findings, mixed
+    return moments, findings
 
 
 def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
@@ -284,21 +271,15 @@ def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
 def _mixed_parts_notes(
     parts: ClosedParts, part_density: PartDensities, names: NDArray, negligible: float
 ) -> list[Finding]:
-    """Return a finding about components whose faces have several materials, with the first face of each.
-
-    negligible: a negligible density times area, anywhere in the body.
-    """
+    """Return a finding about components of several materials, with the first face of each."""
     which = np.flatnonzero(part_density.has_several_materials)
     if not len(which):
         return []
     first = np.sort(part_density.first_face[which])
     slight = bool(part_density.range_by_area[which].sum() < negligible)
-    if slight or len(which) > 1:
-        return [finding(MIXED_MATERIAL_COMPONENTS, first, slight=slight, count=len(which), total=parts.number)]
-    component = int(which[0])
-    faces = np.unique(parts.face[(parts.part == component) & (parts.face >= 0)])
-    materials, density = sorted(set(names[faces].tolist())), float(part_density.density[component])
-    return [finding(MIXED_MATERIAL_COMPONENT, first, materials=materials, density=density)]
+    faces = np.unique(parts.face[np.isin(parts.part, which) & (parts.face >= 0)])
+    values = {"count": len(which), "total": parts.number, "materials": sorted(set(names[faces].tolist()))}
+    return [finding(MIXED_MATERIALS, first, slight=slight, **values)]
 
 
 def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
@@ -306,13 +287,10 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
     part = reading.parts[i]
     values = part.attributes.vertex_values
     used = np.unique(part.surface.all_triangles()[0])
-    for wrong, code in (
-        (~np.isfinite(values[used]), ATTRIBUTE_NON_FINITE),
-        (values[used] < 0.0, ATTRIBUTE_NEGATIVE),
-    ):
-        if wrong.any():
-            found = finding(code, used[wrong], attribute=name, count=int(wrong.sum()))
-            raise ReadError(attribute_to_source(found, part.source_object_name, reading.name))
+    wrong = ~((values[used] >= 0.0) & (values[used] < np.inf))
+    if wrong.any():
+        found = finding(ATTRIBUTE_VALUES, used[wrong], attribute=name, count=int(wrong.sum()))
+        raise ReadError(attribute_to_source(found, part.source_object_name, reading.name))
     return values
 
 

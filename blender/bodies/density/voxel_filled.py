@@ -15,6 +15,7 @@ from ....core.solid.measure import SolidIntegrals
 from ....core.verdict.finding import MeasureError, ReadError, finding
 from ....core.verdict.method import Method, Source, Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
+from ...read.findings import GRID_TOO_LARGE, OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
 from ...read.grids.volume import VolumeReading, volume_reading
 from ...read.reading import attribute_to_source, to_si
 from ...read.tracking import tracking_paused
@@ -22,15 +23,12 @@ from ...settings.grid import GridOptions
 from ...settings.grid_values import density_function, empty_background_note
 from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
-    DENSITY_FROM_GRID_OF,
+    DENSITY_FROM_GRID,
     DENSITY_GRID_ELSEWHERE,
-    DENSITY_GRID_EMPTY,
-    DENSITY_GRID_IS_LEVEL_SET,
-    DENSITY_GRID_TOO_FINE,
-    DENSITY_VOLUME_UNREADABLE,
-    GRID_DENSITY_OF,
+    GRID_DENSITY,
+    GRID_EMPTY,
+    GRID_IS_LEVEL_SET,
     MASS_OVERFLOW,
-    OBJECT_WITHOUT_GRID,
     OPEN_SURFACE_OF_GRID,
     OUTSIDE_GRID,
 )
@@ -40,45 +38,37 @@ MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: below this, rounding
 
 
 def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
-    """Return the solid with the density of the Volume object that its settings name.
-
-    Raise MeasureError if the Volume object has no readable grid, or does not reach the solid.
-    """
+    """Return the solid with the density of the Volume object that its settings name, or raise MeasureError."""
     name, source = request.obj.name, request.obj.body_moments.density_volume
     grid = GridOptions.from_settings(source.body_moments)
     try:
         with tracking_paused(), volume_reading(source, request.depsgraph, grid.grid) as volume:
             if volume is None:
-                raise ReadError(OBJECT_WITHOUT_GRID)
+                raise ReadError(VOLUME_WITHOUT_GRIDS)
             filled = voxel_filled_body(body, volume, grid, request.settings.unit, name, order)
-            origin = finding(DENSITY_FROM_GRID_OF, grid=volume.grid, object=source.name)
+            origin = finding(DENSITY_FROM_GRID, grid=volume.grid).of_sources([source.name])
             return replace(filled, density_from=origin)
     except MeasureError as error:
         if error.subject == name:  # about both together
             raise
-        raise ReadError(
-            DENSITY_VOLUME_UNREADABLE, subject=name, object=source.name, cause=error.finding.as_record()
-        ) from error
+        raise ReadError(OBJECT_UNREADABLE, subject=name, object=source.name, cause=error.finding.as_record()) from error
 
 
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
-    """Return the body with the mass that the grid gives its inside, to an order; `unit` is in meters per Blender unit.
-
-    name: of the object, which MeasureErrors are about that are not about the grid alone.
-    """
+    """Return the body of the object `name` with the mass moments that the grid gives its inside, to an order."""
     names = {"grid": reading.grid, "object": reading.name}
     options.needs_even_samples(reading.grid)
     if body.method.verdict == Verdict.OPEN:
         raise ReadError(OPEN_SURFACE_OF_GRID, subject=name)
     if reading.level_set:
-        raise ReadError(DENSITY_GRID_IS_LEVEL_SET, subject=name, **names)
+        raise ReadError(GRID_IS_LEVEL_SET, subject=name, **names)
     shift = np.eye(4)
     shift[:3, 3] = reading.low - 0.5  # from corners of voxels, not from their centers
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ shift
     if min(reading.shape) < 1 or not abs(np.linalg.det(matrix[:3, :3])) > 0.0:
-        raise ReadError(DENSITY_GRID_EMPTY, subject=name, **names)
+        raise ReadError(GRID_EMPTY, subject=name, **names)
     inverse = np.linalg.inv(matrix)
     triangles = np.concatenate(
         [_corners(solid, inverse @ place) for solid, matrices in body.solids for place in matrices]
@@ -86,7 +76,7 @@ def voxel_filled_body(
     low = np.clip(np.floor(triangles.min(axis=(0, 1))), 0, np.array(reading.shape) - 1).astype(np.int64)
     high = np.clip(np.ceil(triangles.max(axis=(0, 1))), low + 1, reading.shape).astype(np.int64)
     if np.prod((high - low).astype(float)) > MAX_VOXELS:
-        raise ReadError(DENSITY_GRID_TOO_FINE, subject=name, **names, samples=(high - low).tolist())
+        raise ReadError(GRID_TOO_LARGE, subject=name, **names, samples=(high - low).tolist())
     moments, volume = inside_moments(triangles - low, _box_densities(reading, options, low, high), order)
     volume *= abs(np.linalg.det(matrix[:3, :3]))
     shift[:3, 3] = low
@@ -98,7 +88,7 @@ def voxel_filled_body(
         raise ReadError(DENSITY_GRID_ELSEWHERE, subject=name, **names)
     meaning = replace(options, spline_order=1).meaning()
     findings = [
-        finding(GRID_DENSITY_OF, **names, cause=meaning.as_record()),
+        finding(GRID_DENSITY, samples=list(reading.shape), cause=meaning.as_record()).of_sources([reading.name]),
         *empty_background_note(options, reading.background),
     ]
     outside = float(1.0 - volume / body.volume.total)

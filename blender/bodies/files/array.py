@@ -18,18 +18,17 @@ from ....core.scans.findings import SCAN_WITHOUT_SPACING
 from ....core.scans.limits import DEFAULT_LIMITS, Limits
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.verdict.finding import Finding, ReadError, finding
+from ...read.findings import GRID_TOO_LARGE
+from ...settings.findings import POSITIONS_ONLY_AS_DENSITY
 from ...settings.grid import GridOptions
 from ...settings.options import MeasureOptions
 from ...settings.resolve import with_options
 from ..findings import (
-    ARRAY_DENSITY,
-    ARRAY_NEGATIVE,
     DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,
+    GRID_DENSITY,
     SAMPLES_POSITIONED,
-    THRESHOLD_POSITIONS,
-    THRESHOLD_TOO_LARGE,
 )
 from ..grids.grid import density_body
 from ..grids.threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
@@ -64,10 +63,7 @@ def measure_array(
     options: MeasureOptions,
     progress: Callable[[int], None] = lambda samples: None,
 ) -> Measurement:
-    """Return the mass properties of the samples in a file.
-
-    progress: called with the number of samples read since the last call. Raises MeasureError.
-    """
+    """Return the mass properties of the samples in a file; `progress` gets the number of samples just read."""
     if options.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):
@@ -77,8 +73,11 @@ def measure_array(
         matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
         if array.positions:
             findings = _with_positions(findings, array.positions)
-        measure = _threshold_body if array.threshold is not None else _density_body
-        made = measure(name, scan, matrix, positions, array, options, (*scan.findings, *findings), progress)
+        findings = (*scan.findings, *findings)
+        if array.threshold is None:
+            made = _density_body(scan, matrix, positions, array, options, findings, progress)
+        else:
+            made = _threshold_body(name, scan, matrix, array, options, findings, progress)
         reading = bare_reading(name, "ARRAY")
         density = None if made.mass is not None else options.density
         return measurement_of(reading, made, Request(with_options(options, density=density, mass=options.mass)))
@@ -91,7 +90,6 @@ def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tu
 
 
 def _density_body(
-    name: str,
     scan: Scan,
     matrix: NDArray[np.float64],
     positions: Positions,
@@ -101,9 +99,9 @@ def _density_body(
     progress: Callable[[int], None],
 ) -> Body:
     """Return the body of all samples, as densities."""
-    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order, negative=ARRAY_NEGATIVE)
+    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
     shape = scan.samples.shape
-    findings += (finding(ARRAY_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
+    findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
     if options.density is not None:
         findings += (finding(GIVEN_DENSITY_IGNORED),)
     scale = scan.slope, scan.intercept
@@ -117,7 +115,6 @@ def _threshold_body(
     name: str,
     scan: Scan,
     matrix: NDArray[np.float64],
-    positions: Positions,
     array: ArrayOptions,
     options: MeasureOptions,
     findings: tuple[Finding, ...],
@@ -125,14 +122,14 @@ def _threshold_body(
 ) -> Body:
     """Return the body of samples at or above a threshold, of the given density, else of the samples' own."""
     if array.positions:
-        raise ReadError(THRESHOLD_POSITIONS)
+        raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
     filled = options.density is None
     spline_order = max(array.spline_order, TRILINEAR)
     grid = GridOptions(
         threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
     )
     if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
-        raise ReadError(THRESHOLD_TOO_LARGE, grid=name, samples=scan.samples.size)
+        raise ReadError(GRID_TOO_LARGE, grid=name, samples=list(scan.samples.shape))
     slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
     turned = np.eye(4)
     turned[:3, :3] = np.eye(3)[:, slowest]

@@ -15,6 +15,7 @@ from ....core.measurement.findings import NO_VOLUME
 from ....core.measurement.measurement import Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Moments
+from ....core.solid.findings import INVERTED_COMPONENTS
 from ....core.streams.measure import StreamIntegrals, measure_stream
 from ....core.streams.mesh_file import MeshFile, open_mesh_file
 from ....core.verdict.finding import Finding, ReadError, finding
@@ -23,7 +24,7 @@ from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict
 from ...settings.options import MeasureOptions
 from ...settings.resolve import with_options
-from ..findings import MESH_STREAMED, STREAMED_INSIDE_OUT, STREAMED_OPEN
+from ..findings import MESH_STREAMED, STREAMED_OPEN
 from ..measurement import measurement_of
 from ..request import Request
 from .bare_file import about_file, bare_reading
@@ -66,11 +67,7 @@ def measure_mesh_file(
     findings: tuple[Finding, ...] = (),
     progress: Callable[[int], None] | None = None,
 ) -> Measurement:
-    """Return the mass properties of the faces in an .stl or .ply file, one body of that name.
-
-    findings: about the file. progress: called with how many faces have been read since the last time. Raises
-    MeasureError.
-    """
+    """Return the mass properties of an .stl or .ply file as one body; `progress` gets the number of faces just read."""
     kind = options.kind or "solid"
     used = with_options(
         options,
@@ -122,5 +119,5 @@ def _findings(found: StreamIntegrals, kind: str) -> list[Finding]:
     if kind == "solid" and not found.closed:
         findings.append(finding(STREAMED_OPEN))
     elif kind == "solid" and found.volume.total < 0.0:
-        findings.append(finding(STREAMED_INSIDE_OUT))
+        findings.append(finding(INVERTED_COMPONENTS, count=1, total=1))
     return findings

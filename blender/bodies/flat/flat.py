@@ -30,18 +30,16 @@ from ....core.nurbs.planar_regions import planar_region
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import (
+    DRAWN_AS_POLYGONS,
     FLAT_OF_TYPE,
     NO_GEOMETRY,
+    RENDER_DIFFERS,
     SECTION_3D_CURVE,
-    SECTION_DRAWN_AS_POLYGONS,
     SECTION_EXTRUDED,
-    SECTION_OFFSET,
-    SECTION_RENDER_RESOLUTION,
 )
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ..findings import (
     OUTLINES_CROSS,
-    OUTLINES_CROSS_AT,
     SECTION_FACE_CROSSES_ITSELF,
     SECTION_FACES_OVERLAP,
     SECTION_FACES_REVERSED,
@@ -55,7 +53,7 @@ from ..wire import curves_in_world
 FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
 # why an object is no body, and why it is no flat shape either: the first of them is what its user has to hear
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
-NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, SECTION_3D_CURVE, SECTION_OFFSET, FLAT_OF_TYPE}
+NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, SECTION_3D_CURVE, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
 
 
@@ -98,10 +96,7 @@ class FlatRegion:
         return self.points[np.unique(self.edges)]
 
     def moments(self, order: int) -> Moments:
-        """Return ∫ x^p y^q dA about the centroid, along the plane's axes from its origin.
-
-        Raise MeasureError if nothing is enclosed, or a moment leaves the range of numbers.
-        """
+        """Return ∫ x^p y^q dA about the centroid, along the plane's axes from its origin, or raise MeasureError."""
         with np.errstate(over="ignore", invalid="ignore"):
             if self.curves:
                 moments = _curve_moments(self.curves, order, self.rounded, self.stored)
@@ -142,7 +137,7 @@ def flat_region(
     if outlines is None:
         return found
     curves, stored = outlines
-    drawn = {SECTION_DRAWN_AS_POLYGONS, SECTION_RENDER_RESOLUTION}
+    drawn = {DRAWN_AS_POLYGONS, RENDER_DIFFERS}
     kept = [one for one in found.findings if one.code not in drawn]
     return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
 
@@ -164,9 +159,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
         if flipped:
             findings.append(finding(SECTION_FACES_REVERSED, count=flipped))
     defects = find_defects(flat, edges, error)
-    if reading.loops is not None and defects.crossings:
-        raise ReadError(OUTLINES_CROSS_AT, count=defects.crossings)
-    if reading.loops is not None and defects.overlapping:
+    if reading.loops is not None and (defects.crossings or defects.overlapping):
         raise ReadError(OUTLINES_CROSS)
     if defects.negative:
         raise ReadError(SECTION_FACE_CROSSES_ITSELF)
@@ -207,10 +200,7 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 def _curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
 ) -> tuple[tuple[Curve, ...], float] | None:
-    """Return the outlines as curves along the plane's axes, and the largest float32 error of their control points.
-
-    Return None if Blender gives no outlines, or if they touch.
-    """
+    """Return the outlines along the plane's axes and their largest float32 error; None if they touch or are missing."""
     if reading.loops is None:
         return None
     try:

@@ -174,10 +174,7 @@ BodyShape = TypeVar("BodyShape")
 
 
 def comparable_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False) -> Shape | FlatShape:
-    """Return the shape of an object's body, or of a flat object without one.
-
-    flat: it is compared with a flat shape, so that a sheet counts as flat, too. Raises MeasureError.
-    """
+    """Return the shape of an object's body, or of a flat object if it has none or is compared with a `flat` one."""
     return body_or_flat(obj, depsgraph, partial(surface_shape_of, depsgraph=depsgraph), flat)
 
 

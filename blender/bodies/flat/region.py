@@ -18,11 +18,12 @@ from ....core.nurbs.planar_regions import planar_region
 from ....core.verdict.finding import MeasureError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict
+from ...read.findings import SECTION_NOT_FILLED
 from ...read.objects import read_lines
 from ...read.reading import Reading
 from ...read.visibility import shows_flat_region
 from ..body import extend_input_error
-from ..findings import CURVE_FILL_MEASURED, CURVE_NOT_FILLED
+from ..findings import CURVE_FILL_MEASURED
 from ..request import Request
 from ..wire import DEGREE, curves_in_world
 
@@ -59,10 +60,7 @@ class RegionBody(Body):
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the region that a curve object bounds, if it is a thin shell of one density and shows nothing else.
-
-    Return None if its curves bound no region, but Blender fills them. Raises MeasureError if nothing is filled.
-    """
+    """Return the region that curves bound as a thin shell of one density; None if only Blender's fill shows one."""
     obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None
@@ -71,7 +69,7 @@ def read(request: Request) -> RegionReading | None:
     reading = read_lines(obj, request.depsgraph)
     is_filled = obj.data.dimensions == "2D" and obj.data.fill_mode != "NONE"
     if not is_filled:
-        reading.findings.append(finding(CURVE_NOT_FILLED))
+        reading.findings.append(finding(SECTION_NOT_FILLED))
     try:
         curves, stored = curves_in_world(reading.curves, reading.matrix, request.settings.unit)
         boundary, normal = planar_region(curves, stored)

@@ -35,7 +35,6 @@ from ..findings import (
     GRID_IS_LEVEL_SET,
     GRID_IS_NOT_LEVEL_SET,
     GRID_WITHOUT_SURFACE,
-    LEVEL_SET_EMPTY,
     LEVEL_SET_MEASURED,
     MASS_OVERFLOW,
     SAMPLES_POSITIONED,
@@ -98,10 +97,7 @@ def _occupied(
 
 
 def read(request: Request) -> VolumeReading | None:
-    """Return the grid that an object shows; None if it shows polygons, or no volume.
-
-    Raises MeasureError if the grid cannot be read, or is to be anything but a solid.
-    """
+    """Return the grid that an object shows; None if it shows polygons, or no volume."""
     obj = request.obj
     if obj.type != "VOLUME" and "NODES" not in [modifier.type for modifier in obj.modifiers]:
         return None
@@ -147,7 +143,7 @@ def grid_body(
     first[:3, 3] = [low if row is None else 0.0 for low, row in zip(reading.low, positions)]
     shape = [count if row is None else len(row) for count, row in zip(reading.shape, positions)]
     matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
-    density = finding(GRID_DENSITY, grid=reading.grid, samples=list(reading.shape), cause=options.meaning().as_record())
+    density = finding(GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record())
     axes = [axis for axis, row in zip(AXES, positions) if row is not None]
     findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
     return density_body(
@@ -237,7 +233,7 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
         raise ReadError(GRID_IS_NOT_LEVEL_SET, grid=reading.grid)
     surface = reading.polygons()
     if not len(surface.quads):
-        raise ReadError(LEVEL_SET_EMPTY, grid=reading.grid)
+        raise ReadError(GRID_EMPTY, grid=reading.grid)
     shown = Reading(
         reading.name,
         reading.type,

@@ -19,6 +19,7 @@ from ....core.moments.moments import Moments
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict
+from ...read.findings import GRID_TOO_LARGE
 from ...read.grids.volume import VolumeReading
 from ...read.reading import to_si
 from ...settings.grid import GridOptions
@@ -32,7 +33,6 @@ from ..findings import (
     THRESHOLD_MEASURED,
     THRESHOLD_NEEDS_FACTOR,
     THRESHOLD_NOT_REACHED,
-    THRESHOLD_TOO_LARGE,
 )
 
 MAX_SAMPLES = 1 << 29  # in the box that holds the grid
@@ -99,15 +99,11 @@ class ThresholdGridBody(Body):
 
 
 def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
-    """Return the values of a grid as one array; `unit` is in meters per Blender unit.
-
-    Raise ReadError if the grid is a level set, or has too many values.
-    """
+    """Return the values of a grid as one array, or raise ReadError if it is a level set or too large."""
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
-    samples = int(np.prod(reading.shape, dtype=np.float64))
-    if samples > MAX_SAMPLES:
-        raise ReadError(THRESHOLD_TOO_LARGE, grid=reading.grid, samples=samples)
+    if np.prod(reading.shape, dtype=np.float64) > MAX_SAMPLES:
+        raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=list(reading.shape))
     values = np.full(reading.shape, reading.background, np.float32)
     for (i, j, k), block in reading.blocks():
         if block.dtype.itemsize > 4:
@@ -122,10 +118,7 @@ def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
 def threshold_grid_body(
     grid: ThresholdGrid, options: GridOptions, preview: bool = False, order: int = KNOWN_ORDER
 ) -> ThresholdGridBody:
-    """Return the body of grid values at or above a threshold; `order` is that of the wanted mass moments.
-
-    Raise MeasureError if no value reaches the threshold, or the density is not known.
-    """
+    """Return the body of grid values at or above a threshold, with mass moments to `order`, or raise MeasureError."""
     if options.filled and options.table:
         raise ReadError(THRESHOLD_NEEDS_FACTOR)
     above = grid.set_above(options, KNOWN_ORDER, preview)

@@ -20,10 +20,7 @@ MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
 def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
-    """Return the convex hull of an evaluated object with its instances, in its coordinates before `matrix_world`.
-
-    Raise MeasureError if the object shows no surface, an axis is scaled to zero, or all points are on a line.
-    """
+    """Return the convex hull of an object with its instances, in its own coordinates, or raise MeasureError."""
     reading = read_object(obj, depsgraph, edges=False)
     if reading.is_singular:
         raise EditRefusedError(SCALE_ZERO_AXIS)

@@ -23,27 +23,12 @@ from ....core.verdict.finding import Finding, finding
 from ....core.verdict.findings import SELF_INTERSECTION
 from ....core.verdict.health import DefectiveElements, Intersection, MeshHealth
 from ...read.reading import Reading
-from ..findings import (
-    ALL_INSTANCES_ZERO_SCALE,
-    INSTANCE_OVERLAP_UNCHECKED,
-    INSTANCES_ZERO_SCALE,
-    ZERO_SCALE,
-)
+from ..findings import FLAT_SURFACES
 
 
-def singular_reason(reading: Reading) -> Finding:
-    """Return the reason why nothing of a singular reading encloses anything."""
-    return finding(ZERO_SCALE if reading.is_singular else ALL_INSTANCES_ZERO_SCALE)
-
-
-def singular_instances_message(count: int) -> Finding:
-    """Return the finding that so many instances enclose nothing."""
-    return finding(INSTANCES_ZERO_SCALE, count=count)
-
-
-def not_compared(reading: Reading) -> Finding:
-    """Return the finding that overlap between the instances was not checked."""
-    return finding(INSTANCE_OVERLAP_UNCHECKED, count=reading.instance_count)
+def singular_instances_message(reading: Reading) -> Finding:
+    """Return the finding that some instances enclose nothing."""
+    return finding(FLAT_SURFACES, count=reading.singular_instance_count, total=reading.instance_count)
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
@@ -158,10 +143,7 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """Return one verdict for all parts, each with the number of its instances and the area of all of them.
-
-    Counts add; faults are named only if there is a single part.
-    """
+    """Return the added health of parts, each with its number of instances and area; faults of a single part only."""
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:

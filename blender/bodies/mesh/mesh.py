@@ -15,30 +15,30 @@ from ....core.mesh.surface import Surface, join_surfaces, normals
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
 from ....core.polyhedron import polyhedron_moments
-from ....core.solid.findings import HOLES_CAPPED, NON_PLANAR_FACES
+from ....core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS, NON_PLANAR_FACES
 from ....core.solid.instance_overlaps import compare_places
 from ....core.solid.measure import SolidIntegrals, measure_solid
 from ....core.verdict.finding import Finding, ReadError, finding
+from ....core.verdict.findings import FLIPPED_FACES
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Verdict, least_trusted
 from ....core.verdict.tolerances import NEGLIGIBLE
-from ...read.findings import CURVES_DRAWN_AS_POLYGONS, SURFACE_DRAWN_AS_POLYGONS
+from ...read.findings import DRAWN_AS_POLYGONS
 from ...read.reading import Part, Reading, to_si
 from ...read.union import union_surface
 from ...read.visibility import shows_flat_region
 from ..body import MeshBody, triangle_count
 from ..density.varying_density import weigh
 from ..findings import (
-    CURVE_FILL_FOR_DENSITY,
-    DISPLAY_MESH_FOR_DENSITY,
+    DISPLAY_MESH_NEEDED,
     DUPLICATE_FACES_OF_SHELL,
-    FACES_REVERSED_BEFORE_UNION,
-    FLAT_INSTANCE_SOURCES,
-    HOLES_CAPPED_BEFORE_UNION,
+    FLAT_SURFACES,
+    INSTANCE_OVERLAP_UNCHECKED,
     NON_PLANAR_FACES_OF_DISPLAY_MESH,
     OPEN_COMPONENTS_UNITED,
     UNION_BY_BOOLEAN,
     UNION_FAILED,
+    ZERO_SCALE,
 )
 from ..request import Request
 from ..wall import find_walls
@@ -48,39 +48,31 @@ from .instances import (
     instances_overlap,
     instances_size,
     merge_health,
-    not_compared,
     overlap_findings,
     singular_instances_message,
-    singular_reason,
     with_overlaps,
 )
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
+REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # reported of bodies before they are united
 MAX_COMPARED_TRIANGLES = 200_000  # triangles up to which instances are compared with each other
-DRAWN_CODES = (SURFACE_DRAWN_AS_POLYGONS, CURVES_DRAWN_AS_POLYGONS)
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows, or None if it has patches of one density, which are better.
-
-    Raises MeasureError if the object shows no polygons.
-    """
+    """Return the polygons that an object shows, or None if it has patches of one density, which are better."""
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
         if density is None:
             return None
-        reading.findings.append(finding(DISPLAY_MESH_FOR_DENSITY))
+        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
     elif density is not None and request.settings.kind == "shell" and obj.type == "CURVE" and shows_flat_region(obj):
-        reading.findings.append(finding(CURVE_FILL_FOR_DENSITY))
+        reading.findings.append(finding(DISPLAY_MESH_NEEDED, purpose="a varying density"))
     return reading
 
 
 def body(reading: Reading, request: Request) -> Body:
-    """Return the body that polygons bound, weighed and with walls as set.
-
-    Raises MeasureError if there is nothing to measure.
-    """
+    """Return the body that polygons bound, weighed and with walls as set, or raise MeasureError."""
     settings = request.settings
     shell = settings.kind == "shell"
     made = mesh_body(reading, settings.unit, shell=shell, union=settings.overlap == "union", threads=settings.threads)
@@ -92,18 +84,14 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
-    """Return the body that an object's surfaces bound, or with `shell` their sheets.
-
-    unit: meters per Blender unit. union: shells that overlap are united first. MeasureError if there is nothing to
-    measure.
-    """
+    """Return the body that an object's surfaces bound, united first if `union`, or with `shell` their sheets."""
     if shell:
         return _sum_of_instances(reading, unit, True, threads)
     flat = reading.singular_instance_count
     if flat == reading.instance_count:
-        raise ReadError(singular_reason(reading))
+        raise ReadError(ZERO_SCALE)
     made = _boolean_union(reading, unit, threads) if union else _sum_of_instances(reading, unit, False, threads)
-    return replace(made, findings=(singular_instances_message(flat), *made.findings)) if flat else made
+    return replace(made, findings=(singular_instances_message(reading), *made.findings)) if flat else made
 
 
 def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -> MeshBody:
@@ -137,12 +125,12 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
             findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
             health = with_overlaps(health, comparison)
         else:
-            findings.append(not_compared(reading))
+            findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
     of_solids = [verdict for verdict in verdicts if verdict]
     if of_solids and len(of_solids) < len(verdicts):
         flat_area = sum([area for (_, _, area), verdict in zip(healths, verdicts) if verdict is None])
         slight = flat_area * unit * instances_size(reading) < NEGLIGIBLE * float(sum_moments(volumes).total)
-        findings.append(finding(FLAT_INSTANCE_SOURCES, slight=slight, count=verdicts.count(None), total=len(verdicts)))
+        findings.append(finding(FLAT_SURFACES, slight=slight, count=verdicts.count(None), total=len(verdicts)))
     return MeshBody(
         sum_moments(volumes),
         sum_moments(areas),
@@ -210,7 +198,7 @@ def _single_surface_body(
 
 def _drawn(reading: Reading) -> set[str]:
     """Return the names of the sources of round shapes that Blender draws as polygons."""
-    results = [result for result in reading.findings if result.code in DRAWN_CODES]
+    results = [result for result in reading.findings if result.code == DRAWN_AS_POLYGONS]
     return {name for result in results for name in result.values.get("sources", ["", reading.name])}
 
 
@@ -238,12 +226,9 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         raise ReadError(UNION_FAILED)
     findings = [finding(UNION_BY_BOOLEAN)]
     verdict = before.method.verdict
-    if verdict == Verdict.CAPPED:
-        slight = all(result.values.get("slight") for result in before.findings if result.code == HOLES_CAPPED)
-        findings.append(finding(HOLES_CAPPED_BEFORE_UNION, slight=slight, share=before.health.cap_area_share))
-    elif verdict != Verdict.EXACT:
-        reoriented = verdict == Verdict.REORIENTED
-        findings.append(finding(FACES_REVERSED_BEFORE_UNION if reoriented else OPEN_COMPONENTS_UNITED))
+    if verdict == Verdict.OPEN:
+        findings.append(finding(OPEN_COMPONENTS_UNITED))
+    findings += [result for result in before.findings if result.code in REPAIRS]
     return _single_surface_body(
         solid.volume,
         solid.area,

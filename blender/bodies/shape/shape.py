@@ -23,6 +23,7 @@ from ....core.inertia.axial_harmonics import axial_harmonics, axis_last, turn_by
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
 from ....core.measurement.body import Body
+from ....core.measurement.findings import WALL_UNSUPPORTED
 from ....core.measurement.measurement import Measurement
 from ....core.mesh.point_triangle import triangle_distances
 from ....core.mesh.surface import Surface, join_surfaces
@@ -32,7 +33,7 @@ from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
 from ....core.shape.symmetries import Symmetry, confirm, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
-from ....core.verdict.finding import ReadError
+from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
@@ -41,8 +42,8 @@ from ..findings import (
     SHAPE_FAR_FROM_ORIGIN,
     SHAPE_OF_GRID,
     SHAPE_OF_OPEN_SURFACE,
-    SHAPE_OF_WIRE_OR_WALL,
     SIGNATURE_NEEDS_POLYGONS,
+    WIRE_UNSUPPORTED,
 )
 from ..measure_object import THREADS, Measured, measure_body
 
@@ -145,10 +146,7 @@ class Shape:
         return self.body.has_surface
 
     def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
-        """Return Zernike descriptors to `order`, by quadrature above 20 and if raw moments lose too many digits.
-
-        The shape needs a surface.
-        """
+        """Return Zernike descriptors of polygons to `order`, by quadrature above 20 and if raw moments lose digits."""
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
         # About the center at about unit size, for high powers of a length are soon beyond the range of numbers.
@@ -207,8 +205,8 @@ def is_display_mesh(measurement: Measurement) -> bool:
 class NoShapeError(ReadError):
     """Refusal of an object that can be measured, but has no shape of its own."""
 
-    def __init__(self, code: str, measurement: Measurement):
-        super().__init__(code, subject=measurement.name)
+    def __init__(self, reason: str | Finding, measurement: Measurement):
+        super().__init__(reason, subject=measurement.name)
         self.measurement = measurement
 
 
@@ -237,7 +235,8 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
     if body.mass is not None and not body.has_surface:
         raise NoShapeError(SHAPE_OF_GRID, measurement)
     if body.wall is not None or body.length is not None:
-        raise NoShapeError(SHAPE_OF_WIRE_OR_WALL, measurement)
+        code = WALL_UNSUPPORTED if body.length is None else WIRE_UNSUPPORTED
+        raise NoShapeError(finding(code, quantity="A pose or signature"), measurement)
     if measurement.method.verdict == Verdict.OPEN:
         raise NoShapeError(SHAPE_OF_OPEN_SURFACE, measurement)
     shape = Shape(measurement, body, threads)
@@ -326,10 +325,7 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a shape onto another one, about their centers, and the residual of the surfaces.
-
-    source_skin, target_skin: the surfaces of the shapes. scale: applied to the source first.
-    """
+    """Return the motion that lays a scaled shape onto another one, by the distances of their surfaces (skins)."""
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
         source_points, target_points = (

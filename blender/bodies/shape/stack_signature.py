@@ -26,11 +26,7 @@ from .shape import EXACT_DISTANCE, SURFACE_OPTIONS, Shape, surface_shape, surfac
 def signed_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
 ) -> Callable[[bpy.types.Object], Signature | Shape]:
-    """Return a function that finds the signatures, to an order, of objects one after the other.
-
-    The objects are measured as by `measured_in_turn`. For an object that was measured by itself, the function returns
-    its shape instead. The function raises MeasureError.
-    """
+    """Return a function that finds objects' signatures to an order one by one, or the shape of one measured alone."""
     measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
     known: dict[MeasuredStack, list[Signature | None]] = {}
 
@@ -47,11 +43,7 @@ def signed_in_turn(
 
 
 def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]:
-    """Return the signatures of objects that were measured together, to an order.
-
-    None for objects that need care alone: repaired ones, ones far from the origin for their size, and ones whose
-    moments lose too many digits.
-    """
+    """Return signatures of objects measured together; None for repaired, distant or ill-conditioned ones."""
     found: list[Signature | None] = [None] * len(stack.members)
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even, determinant = are_similarities(linear), np.linalg.det(linear)

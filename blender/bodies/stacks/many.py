@@ -33,10 +33,7 @@ Outcome = Measured | Stacked | Exception
 def measure_many(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-    """Measure original objects, some at a time: yield the next ones in their order, each with its outcome.
-
-    An outcome is the measurement, or the exception that tells why there is none.
-    """
+    """Measure original objects in batches; yield pairs of an object and its measurement or exception, in order."""
     pending: list[tuple[bpy.types.Object, StackMember | None]] = []
     collector = _Collector(depsgraph, options)
     for obj in objects:
@@ -51,11 +48,7 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function that measures ahead in batches and yields one object's measurement at a time.
-
-    The function raises the reason if there is no measurement. Call it once for each object, in their order; some may be
-    left out. The scene must not change meanwhile.
-    """
+    """Return a function that measures ahead in batches and yields one object's measurement at a time, in order."""
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 

@@ -243,10 +243,7 @@ class Stacked:
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
-    """Measure objects of one unit together if their shapes can be measured and their numbers are certain.
-
-    Return None if there are no such objects.
-    """
+    """Measure objects of one unit together if shapes and numbers are certain; None if there are no such objects."""
     unit, axes = members[0].settings.unit, members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])

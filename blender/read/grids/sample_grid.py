@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ....core.density.findings import GRID_TRANSFORM_SINGULAR
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import ReadError
-from ..findings import GRID_NEEDS_OPENVDB, GRID_NOT_SAMPLED, GRID_TOO_LARGE_WITHOUT_OPENVDB, LEVEL_SET_NEEDS_OPENVDB
+from ..findings import GRID_NEEDS_OPENVDB, GRID_TOO_LARGE, GRID_UNREADABLE
 from ..reading import float64_matrix
 
 VOXELS_PER_BLOCK = 1 << 21  # voxels that are sampled at a time
@@ -51,7 +51,7 @@ class SampledGrid:
         low, high = np.floor(index.min(axis=0)).astype(np.int64) - 1, np.ceil(index.max(axis=0)).astype(np.int64) + 1
         self.low, self.shape = low, high - low + 1
         if np.prod(self.shape.astype(float)) > MAX_VOXELS:
-            raise ReadError(GRID_TOO_LARGE_WITHOUT_OPENVDB, grid=grid.name, samples=self.shape.tolist())
+            raise ReadError(GRID_TOO_LARGE, grid=grid.name, samples=self.shape.tolist())
         with self._sampler() as sample:
             self.background = float(sample(low - 2, (1, 1, 1))[0, 0, 0])
 
@@ -64,7 +64,7 @@ class SampledGrid:
                 yield (start, 0, 0), sample(self.low + (start, 0, 0), shape)
 
     def polygons(self) -> Surface:
-        raise ReadError(LEVEL_SET_NEEDS_OPENVDB)
+        raise ReadError(GRID_NEEDS_OPENVDB, grid=self._name)
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
@@ -100,7 +100,7 @@ class SampledGrid:
                 values = np.zeros(count, self._dtype)
                 evaluated = probe.evaluated_get(layer.depsgraph).data
                 if "value" not in evaluated.attributes:
-                    raise ReadError(GRID_NOT_SAMPLED, grid=self._name)
+                    raise ReadError(GRID_UNREADABLE, grid=self._name, error="Sample Grid")
                 evaluated.attributes["value"].data.foreach_get("value", values)
                 return values.reshape(shape)
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import ReadError
-from ..findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TOO_SPARSE, GRID_UNREADABLE, GRID_VALUE_TYPE
+from ..findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TOO_LARGE, GRID_TYPE, GRID_UNREADABLE
 
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes
@@ -56,7 +56,7 @@ class VdbGrid:
             raise ReadError(GRID_UNREADABLE, grid=name, error=str(error).rstrip(".")) from error
         dtype = DTYPES.get(self._grid.valueTypeName)
         if dtype is None:
-            raise ReadError(GRID_VALUE_TYPE, grid=name, type=self._grid.valueTypeName)
+            raise ReadError(GRID_TYPE, grid=name)
         self._dtype = dtype
         transform = self._grid.transform
         if not transform.isLinear:
@@ -75,7 +75,7 @@ class VdbGrid:
             low, high = np.zeros(3, np.int64), np.full(3, -1)
         self.low, self.shape = low, high - low + 1
         if np.prod(high // ROOT_VOXELS - low // ROOT_VOXELS + 1.0) > MAX_ROOTS:
-            raise ReadError(GRID_TOO_SPARSE, grid=name, samples=self.shape.tolist())
+            raise ReadError(GRID_TOO_LARGE, grid=name, samples=self.shape.tolist())
         if np.abs([low, high]).max() > MAX_INDEX:
             raise ReadError(GRID_FAR_FROM_ORIGIN, grid=name)
 

@@ -13,7 +13,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from ....core.mesh.surface import Surface
 from ....core.numerics.float32 import shortest_decimal
-from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ..decisions import modifier_findings
 from ..findings import (
@@ -33,13 +32,12 @@ from ..findings import (
     HIDDEN_OBJECT_MEASURED,
     INSTANCES_BESIDE_VOLUME,
     NO_SCALAR_GRID,
-    NON_FINITE_TRANSFORM,
     TEMPORARY_FOLDER_FULL,
-    VOLUME_FILE_MISSING,
     VOLUME_FILE_UNREADABLE,
     VOLUME_WITHOUT_GRIDS,
 )
-from ..reading import float64_matrix
+from ..objects import locate
+from ..reading import Reading
 from ..visibility import hidden_reason, why_not_evaluated
 from .sample_grid import SampledGrid
 from .vdb import VdbGrid, openvdb
@@ -48,22 +46,16 @@ SCALARS = {"BOOLEAN", "MASK", "FLOAT", "DOUBLE", "INT", "INT64"}
 PREFERRED = "density"
 
 
-@dataclass
-class VolumeReading:
+@dataclass(kw_only=True)
+class VolumeReading(Reading):
     """One grid, and its place.
 
-    name, type, matrix, rotation, location, findings: as in `Reading`.
     grid: its name. level_set: True if it is marked as one, None if unknown.
     to_object: (4, 4) float64 from voxels to the object.
     shape: (3,) of the box that holds its voxels; low: (3,) its offset. background: value outside all voxels.
     blocks: yields the stored voxels, (offset in the box, array). polygons: gives the surface of a level set.
     """
 
-    name: str
-    type: str
-    matrix: NDArray[np.float64]
-    rotation: NDArray[np.float64]
-    location: NDArray[np.float64]
     grid: str
     level_set: bool | None
     to_object: NDArray[np.float64]
@@ -72,27 +64,18 @@ class VolumeReading:
     background: float
     blocks: Callable[[], Iterable[tuple[tuple[int, int, int], NDArray]]]
     polygons: Callable[[], Surface]
-    findings: list[Finding] = field(default_factory=list)
 
 
 @contextmanager
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
-    """Yield one grid of the object, as long as the context lasts; None if the object shows polygons or no volume.
-
-    The default grid is "density", or else the first possible one.
-
-    Raises ReadError, and attaches the object's name to errors inside the context.
-    """
+    """Yield the named grid, else “density” or the first possible; None if the object shows polygons or no volume."""
     obj = obj.original
     volume = _volume(obj, depsgraph)
     if volume is None:
         yield None
         return
-    evaluated = obj.evaluated_get(depsgraph)
-    matrix = float64_matrix(evaluated.matrix_world)
-    if not np.isfinite(matrix).all():
-        raise ReadError(NON_FINITE_TRANSFORM, subject=obj.name)
-    findings: list[Finding] = []
+    place = locate(obj, depsgraph)
+    findings = place.findings
     chosen = _choose_grid(obj, volume, grid, findings)
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
@@ -102,22 +85,16 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
         findings.append(finding(INSTANCES_BESIDE_VOLUME))
     try:
         with _open_grid(obj, volume, chosen, depsgraph, findings) as source:
-            location, rotation, _ = evaluated.matrix_world.decompose()
             yield VolumeReading(
-                obj.name,
-                obj.type,
-                matrix,
-                rotation_matrix(rotation),
-                np.array(location[:], np.float64),
-                chosen.name,
-                source.level_set,
-                source.to_object,
-                source.low,
-                tuple(source.shape.tolist()),
-                source.background,
-                source.blocks,
-                source.polygons,
-                findings,
+                **vars(place),
+                grid=chosen.name,
+                level_set=source.level_set,
+                to_object=source.to_object,
+                low=source.low,
+                shape=tuple(source.shape.tolist()),
+                background=source.background,
+                blocks=source.blocks,
+                polygons=source.polygons,
             )
     except MeasureError as error:
         error.about(obj.name)
@@ -142,9 +119,8 @@ def _volume(obj, depsgraph):
     # A saved file turns an empty path into that of a folder.
     folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
     if not volume.grids.load() and not folder:
-        error = volume.grids.error_message.rstrip(".")
-        reason = finding(VOLUME_FILE_UNREADABLE, error=error) if error else finding(VOLUME_FILE_MISSING)
-        raise ReadError(reason, subject=obj.name)
+        error = volume.grids.error_message.rstrip(".") or bpy.path.basename(volume.filepath)
+        raise ReadError(VOLUME_FILE_UNREADABLE, subject=obj.name, error=error)
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None

@@ -31,10 +31,7 @@ STEPS_PER_POINT, SAME_LENGTH_RTOL, AGREEMENT_RTOL = 8, 1e-4, 1e-7
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
-    """Return the curves of an evaluated curve object in its own coordinates, and the decisions.
-
-    Raises ReadError if there is none, or Blender has not evaluated it.
-    """
+    """Return the curves of an evaluated curve object in its own coordinates, and the decisions, or raise ReadError."""
     obj = obj.original
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
     shown = geometry.curves
@@ -57,10 +54,7 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
 
 
 def text_curves(obj, depsgraph) -> list[Curve]:
-    """Return the outlines of a text object in its own coordinates, as its font has them.
-
-    Raises ReadError if it has none.
-    """
+    """Return the outlines of a text object in its own coordinates, as its font has them, or raise ReadError."""
     try:
         curves = [_curve(*_kind(spline), _control_points(spline), None) for spline in obj.to_curve(depsgraph).splines]
     finally:

@@ -75,10 +75,7 @@ def is_deformed(evaluated) -> bool:
 
 
 def deform(evaluated, points: NDArray, depsgraph) -> NDArray[np.float64]:
-    """Return (n, 3) control points of all splines of an evaluated object, moved by shape keys and hooks.
-
-    The splines come in turn; other modifiers are left out. Raises ReadError if a hook cannot be followed.
-    """
+    """Return (n, 3) control points of all splines in turn, moved by shape keys and hooks, or raise ReadError."""
     points = np.asarray(points, np.float64)
     keys = evaluated.data.shape_keys
     if keys is not None and evaluated.original.mode != "EDIT":

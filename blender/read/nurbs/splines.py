@@ -30,10 +30,7 @@ MAX_CONDITION = 1e4  # condition of a direction's samples
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
-    """Return the patches of an evaluated surface object, None if its display mesh has to be measured.
-
-    mesh: its mesh as Blender displays it, or None to believe the control points.
-    """
+    """Return the patches of a surface object, compared with its displayed mesh if given; None if they differ."""
     original = evaluated.original
     if spline_modifiers(original)[1]:
         return None

@@ -122,7 +122,7 @@ def test_the_region_of_a_bezier_circle_is_that_of_its_curve(dimensions):
     assert str(disc.method) == "NURBS shell"
     assert disc.area == pytest.approx(bezier_area(obj), rel=1e-6)
     assert disc.area / np.pi == pytest.approx(1.000191785, rel=1e-8)
-    assert ("curve_not_filled" in said(disc)) == (dimensions == "3D")
+    assert ("section_not_filled" in said(disc)) == (dimensions == "3D")
     assert disc.mass_properties.inertia[0, 1] == pytest.approx(0.0, abs=1e-9)
 
 
@@ -289,7 +289,7 @@ def test_flat_region_takes_varying_density():
     assert found.density_from.code == "density_from_polynomial"
     assert found.mass_properties.mass == pytest.approx(100.0 * np.pi, rel=5e-3)  # Blender's polygon is smaller
     assert found.mass_properties.center[0] == pytest.approx(0.125, rel=5e-3)
-    assert "curve_fill_for_density" in said(found)
+    assert "display_mesh_needed" in said(found)
 
 
 @pytest.mark.parametrize("source", ["POLYNOMIAL", "MATERIALS"])

@@ -33,5 +33,5 @@ def test_curve_transform_is_that_of_its_polygon():
             spectrum, findings = work.result()
             assert close(spectrum.values[0].real, polygon * length**2, 1e-6)
             assert abs(np.angle(spectrum.values[1] / turned)) < 1e-6
-            assert "section_drawn_as_polygons" in said(findings)
+            assert "drawn_as_polygons" in said(findings)
             assert 0.0 < spectrum.input_error < 1e-5

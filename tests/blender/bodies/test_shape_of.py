@@ -46,7 +46,7 @@ def test_grid_wire_and_wall_have_no_shape(tmp_path):
     wire.body_moments.kind = "WIRE"
     wall = add(box_mesh(1, 2, 3))
     wall.body_moments.kind, wall.body_moments.wall, wall.body_moments.thickness = "SHELL", "INWARD", 0.1
-    for obj, code in ((cloud, "shape_of_grid"), (wire, "shape_of_wire_or_wall"), (wall, "shape_of_wire_or_wall")):
+    for obj, code in ((cloud, "shape_of_grid"), (wire, "wire_unsupported"), (wall, "wall_unsupported")):
         with pytest.raises(NoShapeError) as caught:
             shape(obj)
         assert (caught.value.finding.code, caught.value.subject) == (code, obj.name)

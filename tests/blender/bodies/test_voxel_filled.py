@@ -60,10 +60,10 @@ def test_a_box_around_whole_voxels_weighs_them(tmp_path, mirror):
     assert found.density == pytest.approx(part.mean(), rel=1e-12)
     assert found.error_bound["estimated"]
     meaning = finding("values_scaled", density=1.0, order=1).as_record()
-    assert said(found) == {"grid_density_of": {"grid": "density", "object": volume.name, "cause": meaning}}
+    assert said(found) == {"grid_density": {"samples": [6, 6, 6], "cause": meaning, "sources": [volume.name]}}
     volume.body_moments.spline_order = 4  # voxels fill what is inside of them whatever a grid by itself is taken for
     assert said(measure(box)) == said(found) and measure(box).mass_properties.mass == found.mass_properties.mass
-    assert found.density_from == finding("density_from_grid_of", grid="density", object=volume.name)
+    assert found.density_from == finding("density_from_grid", grid="density").of_sources([volume.name])
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.25])
@@ -106,7 +106,7 @@ def test_space_outside_the_grid_is_empty_and_reported(tmp_path):
     box.location.x = 0.5 - 2.0**-22
     assert close(said(measure(box))["outside_grid"]["share"], 2.0**-23, rel=1e-3)
     box.location.x = 0.5
-    assert said(measure(box)).keys() == {"grid_density_of"}
+    assert said(measure(box)).keys() == {"grid_density"}
     box.location.x = -0.5
     assert measure(box, mass=3.0).mass_properties.mass == pytest.approx(3.0)
     assert measure(box, density=2.0).mass_properties.mass == pytest.approx(16.0)
@@ -119,7 +119,7 @@ def test_space_outside_the_grid_is_empty_and_reported(tmp_path):
         with refused("density_grid_elsewhere", box.name, object=volume.name, grid="density"):
             measure(box)
     volume.scale = (0, 1, 1)
-    with refused("density_grid_empty", box.name):
+    with refused("grid_empty", box.name):
         measure(box)
 
 
@@ -209,7 +209,7 @@ def test_source_of_refused_values_is_named(tmp_path):
     box = cube(location=(1.5, 1.5, 1.5))
     box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
     cause = finding("values_negative", density=-1.0).as_record()
-    with refused("density_volume_unreadable", box.name, object=volume.name, cause=cause):
+    with refused("object_unreadable", box.name, object=volume.name, cause=cause):
         measure(box)
     box.data = strip_mesh()
     with refused("open_surface_of_grid", box.name):
@@ -220,7 +220,7 @@ def test_overflowing_grid_density_is_refused(tmp_path):
     volume = cloud(tmp_path, np.full((9, 9, 9), 1e300))
     box = cube(location=(2.5, 3.5, 4.5))
     box.body_moments.density_from, box.body_moments.density_volume = "VOLUME", volume
-    with refused("density_volume_unreadable", box.name, cause=finding("mass_overflow").as_record()):
+    with refused("object_unreadable", box.name, cause=finding("mass_overflow").as_record()):
         measure(box)
 
 

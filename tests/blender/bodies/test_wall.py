@@ -102,7 +102,7 @@ def test_a_flipped_face_is_turned_before_and_said():
     obj.data.update()
     found = measured(obj)
     assert abs(found.volume - (1 - 0.75**3)) < 1e-14
-    assert "wall_faces_reversed" in said(found)
+    assert "flipped_faces" in said(found)
 
 
 def test_open_surface_of_opposed_faces_is_refused():
@@ -270,7 +270,7 @@ def test_face_without_area_is_counted_in_wall():
 def test_wall_of_varying_density_is_refused(wall):
     obj = box(wall=wall)
     obj.body_moments.density_from, obj.body_moments.density_polynomial = "POLYNOMIAL", "1000 + x"
-    with refused("wall_needs_one_density", obj.name):
+    with refused("wall_unsupported", obj.name):
         measured(obj)
 
 
@@ -318,7 +318,7 @@ def test_meeting_walls_of_instances_are_reported(first, second, edge):
     for gap, expected in ((0.27, False), (0.23, True)):
         shown = shown_together(box(), (0.0, first), (edge + gap, second))
         shown.body_moments.wall, shown.body_moments.thickness = "OUTWARD", 0.125
-        assert ("instance_walls_unchecked" in said(measured(shown))) == expected
+        assert ("instance_overlap_unchecked" in said(measured(shown))) == expected
 
 
 def test_instances_of_nearly_one_size_have_each_its_wall():

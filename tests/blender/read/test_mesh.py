@@ -126,7 +126,7 @@ def test_edit_mode_reads_edits_that_nothing_has_told_blender_of():
     surface = reading.parts[0].surface
     assert surface.points[0].tolist() == [-7.0, -1.0, -1.0]
     assert (len(surface.triangles), len(surface.quads)) == (2, 5)
-    assert said(reading) == {"edit_mode_mesh": {}}
+    assert said(reading) == {"read_in_mode": {"mode": "Edit Mode"}}
     assert set(bpy.data.meshes) == blocks
     assert obj.mode == "EDIT"
     assert bm.is_valid
@@ -147,8 +147,8 @@ def test_edit_mode_reads_the_modifiers_that_act_there():
     assert len(part.surface.quads) == 18
     assert part.surface.points.min() == -7.0
     findings = said(reading)
-    assert findings["edit_mode_modifiers"] == {"modifiers": ["Array"]}
-    assert findings["edit_mode_modifiers_off"] == {"modifiers": ["Idle"]}
+    assert findings["read_in_mode"] == {"mode": "Edit Mode"}
+    assert findings["modifiers_left_out"] == {"modifiers": ["Idle"]}
 
 
 def test_other_user_of_edited_mesh_has_the_edits():

@@ -161,7 +161,7 @@ def test_object_shaping_another_by_its_data_is_refused(made_with, reported):
     assert other in side_by_side.dependents([obj])[obj]
     only(obj)
     assert run("origin_to_center") == {"CANCELLED"}
-    code = "dependent_shape_changes" if other.modifiers else "dependent_curve_changes"
+    code = "dependent_shape_changes" if other.modifiers else "dependent_shape_changes"
     assert reported.values(code) == {"object": other.name}
     assert np.abs(seen(other) - before).max() < 1e-6 and np.abs(place(obj) - was).max() == 0.0
 
@@ -177,7 +177,7 @@ def test_refused_object_leaves_others_to_be_changed(reported):
     assert run("origin_to_center") == {"FINISHED"}
     assert reported.codes.count("failure") == 2
     failures = {finding.values["object"]: finding.values["cause"] for finding in reported if finding.code == "failure"}
-    assert failures["Body 1"] == {"code": "shape_depends_on_origin", "values": {"modifiers": ["Bend"]}}
+    assert failures["Body 1"] == {"code": "modifiers_change_shape", "values": {"modifiers": ["Bend"]}}
     assert failures["Body 2"] == {"code": "channel_locked", "values": {"channel": "location"}}
     moved = [np.abs(place(obj) - matrix).max() > 0.1 for obj, matrix in zip(objects, matrices)]
     assert moved == [True, False, False, True]

@@ -89,7 +89,7 @@ def test_a_shell_is_its_area_times_its_thickness():
 def test_a_wall_of_real_thickness_is_refused_with_the_remedy():
     box = files.add_box(center=(0, 0, 0))
     thick = MeasureOptions(kind="shell", thickness=0.1, wall="inward")
-    with refused("fourier_of_wall", box.name):
+    with refused("wall_unsupported", box.name):
         transform(box, options=thick)
     assert close(transform(box, np.zeros((1, 3)), thick, area=True)[0].values[0], 22.0, rel=1e-14)
 

@@ -245,7 +245,7 @@ def test_modifier_bound_to_place_refuses_motion_unchanged(name, kind, reported):
     before, points = state(obj), seen(obj)
     assert run(name) == {"CANCELLED"}
     assert state(obj) == before and (seen(obj) == points).all()
-    assert reported.values("shape_depends_on_location") == {"modifiers": ["Bent"]}
+    assert reported.values("modifiers_change_shape") == {"modifiers": ["Bent"]}
 
 
 def test_body_bent_by_its_child_is_aligned():
