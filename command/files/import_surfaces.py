@@ -18,7 +18,7 @@ from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
 from ...core.verdict.finding import FileError, Finding, finding
-from .opened import Opened
+from .references import Opened
 
 _MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
 
