@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Registration of a wing's modules.
 
-A module has `register` and `unregister`, or tables: CLASSES in their order, and POINTERS, the groups of settings by
-Blender's type and the name of their property.
+A module has `register` and `unregister`, or tables: CLASSES in their order, POINTERS, the groups of settings by
+Blender's type and the name of their property, and MENUS, Blender's menus with the functions that draw in them.
 """
 
 from collections.abc import Iterable
@@ -41,6 +41,8 @@ def _register(module: ModuleType) -> None:
             undo.callback(bpy.utils.unregister_class, cls)
         for (owner, name), group in getattr(module, "POINTERS", {}).items():
             setattr(owner, name, PointerProperty(name=name.replace("_", " ").title(), type=group))
+        for menu, draw in getattr(module, "MENUS", ()):
+            menu.append(draw)
         undo.pop_all()
 
 
@@ -48,6 +50,8 @@ def _unregister(module: ModuleType) -> None:
     if hasattr(module, "unregister"):
         module.unregister()
         return
+    for menu, draw in getattr(module, "MENUS", ()):
+        menu.remove(draw)
     for owner, name in getattr(module, "POINTERS", {}):
         delattr(owner, name)
     for cls in reversed(module.CLASSES):

@@ -84,11 +84,5 @@ def _menu(menu: Menu, _context: Context) -> None:
     menu.layout.operator(IMPORT_SCENE_OT_body_moments_audit.bl_idname, text=text)
 
 
-def register() -> None:
-    bpy.utils.register_class(IMPORT_SCENE_OT_body_moments_audit)
-    bpy.types.TOPBAR_MT_file_import.append(_menu)
-
-
-def unregister() -> None:
-    bpy.types.TOPBAR_MT_file_import.remove(_menu)
-    bpy.utils.unregister_class(IMPORT_SCENE_OT_body_moments_audit)
+CLASSES = (IMPORT_SCENE_OT_body_moments_audit,)
+MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)

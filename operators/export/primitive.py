@@ -77,11 +77,5 @@ def _menu(menu: Menu, _context: Context) -> None:
     menu.layout.operator(OBJECT_OT_body_moments_equal_inertia.bl_idname, icon="MESH_CUBE")
 
 
-def register() -> None:
-    bpy.utils.register_class(OBJECT_OT_body_moments_equal_inertia)
-    bpy.types.VIEW3D_MT_object_rigid_body.append(_menu)
-
-
-def unregister() -> None:
-    bpy.types.VIEW3D_MT_object_rigid_body.remove(_menu)
-    bpy.utils.unregister_class(OBJECT_OT_body_moments_equal_inertia)
+CLASSES = (OBJECT_OT_body_moments_equal_inertia,)
+MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, _menu),)

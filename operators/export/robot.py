@@ -230,15 +230,4 @@ CLASSES = (
     *map(_file_handler, FORMATS.values()),
     TOPBAR_MT_body_moments_export,
 )
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    bpy.types.TOPBAR_MT_file_export.append(_menu)
-
-
-def unregister() -> None:
-    bpy.types.TOPBAR_MT_file_export.remove(_menu)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+MENUS = ((bpy.types.TOPBAR_MT_file_export, _menu),)

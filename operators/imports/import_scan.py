@@ -139,11 +139,5 @@ def _menu(menu: Menu, _context: Context) -> None:
     menu.layout.operator(OBJECT_OT_body_moments_import_scan.bl_idname, text="Scan of Densities (.nii/.nrrd/.npy)")
 
 
-def register() -> None:
-    bpy.utils.register_class(OBJECT_OT_body_moments_import_scan)
-    bpy.types.TOPBAR_MT_file_import.append(_menu)
-
-
-def unregister() -> None:
-    bpy.types.TOPBAR_MT_file_import.remove(_menu)
-    bpy.utils.unregister_class(OBJECT_OT_body_moments_import_scan)
+CLASSES = (OBJECT_OT_body_moments_import_scan,)
+MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)

@@ -96,11 +96,5 @@ def _menu(menu: Menu, _context: Context) -> None:
     )
 
 
-def register() -> None:
-    bpy.utils.register_class(OBJECT_OT_body_moments_import_surfaces)
-    bpy.types.TOPBAR_MT_file_import.append(_menu)
-
-
-def unregister() -> None:
-    bpy.types.TOPBAR_MT_file_import.remove(_menu)
-    bpy.utils.unregister_class(OBJECT_OT_body_moments_import_surfaces)
+CLASSES = (OBJECT_OT_body_moments_import_surfaces,)
+MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)

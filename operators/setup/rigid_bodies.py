@@ -130,11 +130,5 @@ def _menu(menu: Menu, _context: Context) -> None:
     menu.layout.operator(OBJECT_OT_body_moments_rigid_bodies.bl_idname, icon="RIGID_BODY")
 
 
-def register() -> None:
-    bpy.utils.register_class(OBJECT_OT_body_moments_rigid_bodies)
-    bpy.types.VIEW3D_MT_object_rigid_body.append(_menu)
-
-
-def unregister() -> None:
-    bpy.types.VIEW3D_MT_object_rigid_body.remove(_menu)
-    bpy.utils.unregister_class(OBJECT_OT_body_moments_rigid_bodies)
+CLASSES = (OBJECT_OT_body_moments_rigid_bodies,)
+MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, _menu),)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, FloatProperty, PointerProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, FloatProperty, StringProperty
 from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 
 from ...blender import session
@@ -211,15 +211,4 @@ CLASSES = (
     OBJECT_OT_body_moments_find_in_library,
     OBJECT_OT_body_moments_select_found,
 )
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    Scene.body_moments_search = PointerProperty(name="Similar Shapes", type=BodyMomentsSearch)
-
-
-def unregister() -> None:
-    del Scene.body_moments_search
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+POINTERS = {(Scene, "body_moments_search"): BodyMomentsSearch}

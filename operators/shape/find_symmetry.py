@@ -8,7 +8,6 @@ They are found by the moments and confirmed on the surfaces, and kept with each 
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import bpy
 from bpy.props import (
     BoolProperty,
     CollectionProperty,
@@ -16,7 +15,6 @@ from bpy.props import (
     FloatProperty,
     FloatVectorProperty,
     IntProperty,
-    PointerProperty,
     StringProperty,
 )
 from bpy.types import Context, Object, Operator, PropertyGroup
@@ -150,15 +148,4 @@ def describe(symmetry: "Symmetry") -> list[str]:
 
 
 CLASSES = (BodyMomentsElement, BodyMomentsSymmetry, OBJECT_OT_body_moments_find_symmetry)
-
-
-def register() -> None:
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-    Object.body_moments_symmetry = PointerProperty(name="Symmetry", type=BodyMomentsSymmetry)
-
-
-def unregister() -> None:
-    del Object.body_moments_symmetry
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+POINTERS = {(Object, "body_moments_symmetry"): BodyMomentsSymmetry}
