@@ -11,7 +11,7 @@ import bpy
 from tests.blender.objects import add, mesh_body
 
 ROOT = Path(__file__).resolve().parents[2]
-MAX_MODULES = 170
+MAX_MODULES = 150
 # The module of Blender loads numpy by itself, which is hidden here: an import fails.
 CODE = """
 import importlib.util, os, sys, types
