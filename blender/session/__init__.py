@@ -2,12 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Session state while a file is open: staleness, results, live numbers, walls, moments."""
 
-from typing import TYPE_CHECKING
-
 from ...core.lazy import lazy_names
-
-if TYPE_CHECKING:
-    from . import robots as robots
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
@@ -19,6 +14,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     make_rigid_bodies="rigid_bodies",
     reframe_objects="snapping",
     remeasure="snapping",
-    robots="robots",
     store_measured="snapping",
 )

@@ -5,11 +5,6 @@
 Nothing is measured here: everything drawn comes from `blender/session/`. In background mode nothing is registered.
 """
 
-from typing import TYPE_CHECKING
-
 from ...core.lazy import lazy_names
 
-if TYPE_CHECKING:
-    from . import batches as batches
-
-__getattr__, __dir__, __all__ = lazy_names(__name__, batches="batches")
+__getattr__, __dir__, __all__ = lazy_names(__name__)

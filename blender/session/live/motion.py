@@ -78,7 +78,7 @@ class Motion:
             followed.change = change
             return _measured(obj, followed, depsgraph, matrix, unit)
         moments = followed.moments.transform(_in_si(matrix, unit))
-        return _weight(moments, followed.given_mass), moments.center / unit
+        return moments.total if followed.given_mass is None else followed.given_mass, moments.center / unit
 
     def hull_points(self, obj: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
         """Return the corners of an object's convex hull, (k, 3) in Blender's units and the world."""
@@ -176,10 +176,6 @@ def _can_map(moments: Moments, matrix: NDArray) -> bool:
 def _given_mass(obj: Object) -> float | None:
     settings = obj.body_moments
     return shortest_decimal(settings.mass) if settings.mass_from == "MASS" else None
-
-
-def _weight(moments: Moments, given_mass: float | None) -> float:
-    return moments.total if given_mass is None else given_mass
 
 
 def _in_si(matrix: NDArray, unit: float) -> NDArray[np.float64]:

@@ -21,6 +21,7 @@ from ..tracking.cache import SessionCache
 PAIRS = "boundary_edges", "non_manifold_edges", "inconsistent_edges"
 FACES = FLIPPED_FACES, "duplicate_faces", "degenerate_faces"
 MAX_DRAWN = 20000  # edges, and triangles, of an object
+OWN_PLACE = np.eye(4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,37 +43,27 @@ forget = _faults.forget
 
 def remember(obj: Object, measured: Measured) -> None:
     """Keep the places of the faults of a freshly measured object, or forget them if it has none."""
-    _faults.forget(obj)
-    reading, elements = measured.reading, measured.measurement.health.defective_elements
-    if not isinstance(reading, Reading) or not _any_faults(elements):
-        return
-    if len(reading.parts) != 1 or reading.is_singular:  # with several surfaces the faulty one is unknown
+    reading = measured.reading
+    if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:
+        forget(obj)  # of several surfaces the faulty one is unknown
         return
     (part,) = reading.parts
-    _remember(obj, part.surface, np.linalg.inv(reading.matrix) @ part.matrices[0], elements)
+    place = np.linalg.inv(reading.matrix) @ part.matrices[0]
+    remember_surface(obj, part.surface, measured.measurement.health.defective_elements, place)
 
 
-def remember_own(obj: Object, surface: Surface, elements: DefectiveElements) -> None:
-    """Do as `remember` for an object that shows its own mesh alone, this surface."""
-    _faults.forget(obj)
-    if _any_faults(elements):
-        _remember(obj, surface, np.eye(4), elements)
-
-
-def _any_faults(elements: DefectiveElements) -> bool:
-    return any([len(getattr(elements, name)) for name in (*PAIRS, *FACES)])
-
-
-def _remember(obj: Object, surface: Surface, place: NDArray, elements: DefectiveElements) -> None:
-    pairs, faces = ([getattr(elements, name) for name in names] for names in (PAIRS, FACES))
+def remember_surface(obj: Object, surface: Surface, elements: DefectiveElements, place: NDArray = OWN_PLACE) -> None:
+    """Keep the places of the faults of an object's surface, by default in its own coordinates."""
+    forget(obj)
+    pairs, faces = (np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES))
+    if not len(pairs) and not len(faces):
+        return
     points = surface.points.astype(np.float64) @ place[:3, :3].T + place[:3, 3]
-    triangles, faulty = surface.triangles[:0], np.concatenate(faces)
-    if len(faulty):
+    triangles = surface.triangles[:0]
+    if len(faces):
         triangles, face = surface.all_triangles()
-        triangles = triangles[np.isin(face, faulty)][:MAX_DRAWN]
-    _faults[obj] = Faults(
-        points[np.concatenate(pairs)[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj)
-    )
+        triangles = triangles[np.isin(face, faces)][:MAX_DRAWN]
+    _faults[obj] = Faults(points[pairs[:MAX_DRAWN]], points[triangles], updates.last_change_of_geometry(obj))
 
 
 def of_object(obj: Object) -> Faults | None:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from enum import StrEnum
 
 from bpy.types import Object, Scene, ViewLayer
@@ -65,7 +64,6 @@ def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, wa
 def _rank(obj: Object, body: Displayed | None, sort_by: SortBy, warnings_first: bool) -> tuple:
     if body is None:
         return (True,)
-    doubt = -RANKS[body.trust]
-    by: dict[SortBy, Callable[[], float]] = {SortBy.MASS: lambda: -body.world.mass, SortBy.VERDICT: lambda: doubt}
+    by = {SortBy.MASS: -body.world.mass, SortBy.VERDICT: -RANKS[body.trust]}
     is_first = warnings_first and body.trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
-    return (False, not is_first, by[sort_by]() if sort_by in by else 0.0, obj.name.lower(), obj.name)
+    return (False, not is_first, by.get(sort_by, 0.0), obj.name.lower(), obj.name)

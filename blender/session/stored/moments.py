@@ -12,10 +12,10 @@ import csv
 import io
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from bpy.types import Depsgraph, Object, Scene
+from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.flat.regions import plane_positions
@@ -24,12 +24,15 @@ from ....core.inertia.findings import MOMENTS_OVERFLOW
 from ....core.inertia.reference import Reference
 from ....core.measurement.plain_text import visible
 from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants
-from ....core.moments.moments import Moments, monomial_count, monomials
+from ....core.moments.moments import Measure, Moments, monomial_count, monomials
 from ....core.moments.normalized import normalize
 from ....core.polyhedron.n_dimensions import multi_indices
 from ....core.verdict.finding import Finding, MeasureError, ReadError
+from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
+from ...bodies.measure_object import THREADS, measure_object
 from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.reference import ReferenceChoice
+from ...settings.options import MeasureOptions
 from ...write.units import number
 from ..findings import (
     INVARIANTS_ORDER,
@@ -110,6 +113,36 @@ class Degree:
 Display = tuple[tuple[Degree, ...], Finding | None]  # a panel's degrees, and the reason if there are none
 
 _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
+
+
+def compute_moments(context: Context, obj: Object, order: int) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
+    """Return the moments of a body, of a flat shape, or of both, or None for a wire that bounds nothing.
+
+    Raises MeasureError if the object is neither.
+    """
+    depsgraph = context.evaluated_depsgraph_get()
+    region, flat, not_flat = None, None, None
+    try:
+        region = flat_region(obj, depsgraph)
+        flat = FlatMoments(region.moments(order), region.plane)
+    except MeasureError as error:
+        not_flat = error
+    try:
+        measurement = measure_object(obj, depsgraph, MeasureOptions(order=order, surface=True, threads=THREADS))
+    except MeasureError as refusal:
+        if not_flat is not None:
+            raise clearer_refusal(refusal, not_flat) from None
+        measurement = None
+    if measurement is None or measurement.length is not None:
+        if region is None or flat is None:
+            return None, ()
+        computed = ComputedMoments(obj.name, None, None, None, region.rotation, region.location, flat)
+        return computed, (*region.findings, *area_findings(region, flat.moments.total))
+    area = measurement.area_moments.truncate(order)
+    volume = measurement.volume_moments or replace(area * measurement.thickness, measure=Measure.VOLUME)
+    known = volume.truncate(order), area, measurement.moments_of_mass(order)
+    place = measurement.rotation, measurement.location
+    return ComputedMoments(obj.name, *known, *place, flat, not_flat and not_flat.finding), measurement.findings
 
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:

@@ -86,7 +86,7 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
             if (defects := member.shape.defects) is None:
                 faults.forget(obj)
             else:
-                faults.remember_own(obj, member.shape.surface, defects)
+                faults.remember_surface(obj, member.shape.surface, defects)
             if obj in about:
                 reference.follow(obj, scene, about[obj])
         yield obj, refusal

@@ -75,7 +75,7 @@ def _has_settings(obj: Object, stamp: Stamp, scene: Scene) -> bool:
     return stamp.settings == settings_hash(obj, scene)
 
 
-def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene) -> bool:
+def _has_geometry(obj: Object, stamp: Stamp, _scene: Scene | None = None) -> bool:
     note_edits(obj)
     return _is_unedited(obj, stamp)
 
@@ -154,7 +154,7 @@ CHECKS = {
 def is_edited(obj: Object) -> bool:
     """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
     stamp = stamps.of_results(obj)
-    return stamp is None or not (_has_geometry(obj, stamp, None) and has_transform(obj, stamp.transform))
+    return stamp is None or not (_has_geometry(obj, stamp) and has_transform(obj, stamp.transform))
 
 
 # ---------------------------------------------------------------- What was stored just now
