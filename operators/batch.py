@@ -78,10 +78,12 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
 
 def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
     """Measure files by way of children, or in this process."""
-    from ..command.measure import supervised
     from ..command.options import arguments
 
     options = arguments.parse(argv, file_needed)
+
+    from ..command.measure import supervised
+
     if (options.files or options.manifest) and not options.no_supervisor:
         bpy = sys.modules.get("bpy")
         return supervised.measure(options, channel, bpy.data.filepath if bpy else None)

@@ -39,8 +39,7 @@ def serve(line: Lifeline) -> None:
         with suppress(OSError):
             os.ftruncate(2, 0)  # output about the file before
             os.lseek(2, 0, os.SEEK_SET)  # needed if it is not opened for appending, as on Windows
-        with line.limited(setup["seconds"]):
-            _measure(run, message["measure"], line)
+        _measure(run, message["measure"], line)
 
 
 def _measure(run: Run, path: str, line: Lifeline) -> None:

@@ -3,14 +3,12 @@
 """A child's end of the pipes to its supervisor.
 
 The child ends when the supervisor does, however that ended. On Linux the system itself sees to that, also within a
-file that Blender never comes back from. Elsewhere a thread waits for the end of the pipe, and a file that takes longer
-than it may ends the process.
+file that Blender never comes back from. Elsewhere a thread waits for the end of the pipe.
 """
 
 from __future__ import annotations
 
 import ctypes
-import faulthandler
 import json
 import os
 import queue
@@ -18,12 +16,11 @@ import signal
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from typing import Any
 
 MARK = b"\x1e"  # begins an answer; what Blender prints before it comes to us does not
 WINDOW = "BODY_MOMENTS_WINDOW"  # a variable of the environment: set in a run that ends with the process that started it
-_LATE = 5.0  # seconds after which a child ends itself whose supervisor should have ended it
 _PR_SET_PDEATHSIG = 1  # of Linux: the signal that a process gets when the one that started it ends
 
 
@@ -67,12 +64,3 @@ class Lifeline:
         view = memoryview(MARK + json.dumps(head).encode() + b"\n" + data)
         while view:
             view = view[os.write(self._channel, view) :]
-
-    @contextmanager
-    def limited(self, seconds: float) -> Iterator[None]:
-        """Within the block the process ends when that time is over."""
-        faulthandler.dump_traceback_later(seconds + _LATE, exit=True, file=2)
-        try:
-            yield
-        finally:
-            faulthandler.cancel_dump_traceback_later()

@@ -188,7 +188,7 @@ class Pool:
         child = _Child(process, name, log, now, now + START_LIMIT)
         self._children.append(child)
         self._readers.submit(self._read, child)
-        self._send(child, {**self._setup, "seconds": self._limits.seconds})
+        self._send(child, self._setup)
 
     def _send(self, child: _Child, message: dict[str, Any]) -> None:
         with suppress(OSError):  # it has died, which its reader finds out
