@@ -110,5 +110,5 @@ def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path, reported):
         bpy.ops.import_scene.body_moments_audit(**options)
     assert reported.codes[-1] == "file_exists"
     path.write_text("<robot", encoding="utf-8")
-    with pytest.raises(RuntimeError, match="r.urdf: .*not XML"):
+    with pytest.raises(RuntimeError, match="“r.urdf”: .*not XML"):
         bpy.ops.import_scene.body_moments_audit(filepath=str(path))

@@ -89,13 +89,13 @@ def test_refused_import_leaves_no_data(tmp_path, reported):
 
     before = len(bpy.data.objects), len(bpy.data.volumes)
     assert refusal(written(tmp_path / "a.nrrd", b"nonsense")) == "file_unrecognized"
-    assert reported[-2].values["object"] == "a.nrrd"
+    assert reported[-1].values["sources"] == ["a.nrrd"]
     with pytest.raises(RuntimeError, match="No file"):
         bpy.ops.object.body_moments_import_scan(filepath=str(tmp_path))
     assert refusal(written(tmp_path / "a.txt", b"nonsense")) == "file_type"
     good = written(tmp_path / "b.nrrd", nrrd(samples()))
     written(tmp_path / "b.vdb", b"mine")
-    assert refusal(good) == "file_exists" and reported[-1].values == {"file": "b.vdb"}
+    assert refusal(good) == "file_exists" and reported[-1].values["file"] == "b.vdb"
     assert (tmp_path / "b.vdb").read_bytes() == b"mine"
     for value in (np.inf, -np.inf, np.nan):
         bad = samples()
@@ -132,7 +132,7 @@ def test_a_volume_is_written_whole_or_not_at_all(error, tmp_path, monkeypatch, c
     monkeypatch.setattr(vdb, "openvdb", Failing)
     with pytest.raises(RuntimeError, match="no space left"):
         bpy.ops.object.body_moments_import_scan(filepath=str(path), overwrite=True)
-    assert reported.values("file_not_written") == {"error": "no space left"}
+    assert reported.values("file_not_written")["error"] == "no space left"
     assert (tmp_path / "a.vdb").read_bytes() == kept
     assert sorted(one.name for one in tmp_path.iterdir()) == ["a.nii", "a.vdb"]
 
