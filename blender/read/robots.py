@@ -36,7 +36,7 @@ def object_candidate(
 def link_surface(
     objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, pose: Pose, unit: float
 ) -> Surface | None:
-    """Return a link's surfaces as triangles in meters, in its frame `pose`; None if its objects show no faces."""
+    """Return the surfaces of a link's objects as triangles in m, in the link's frame; None if they show no faces."""
     pieces, to_link = [], pose.inverse()
     for obj in objects:
         try:
@@ -57,10 +57,10 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
 
 
 def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
-    """Return how a bone may turn in its parent, about its own axes.
+    """Return how a bone may turn in its parent, about its own axes, the last of Blender's XYZ angles first.
 
-    The axis about which Blender's XYZ angles turn last comes first; a locked axis, or one without room, is left out.
-    The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics.
+    The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics. Axes that are
+    locked, or without room, are left out.
     """
     limits: dict[str, tuple[float | None, float | None]] = {}
     for axis in "xyz":

@@ -31,11 +31,9 @@ from .findings import LEFT_OUT_OF_ROBOT, ROBOT_WITHOUT_BONES
 
 @dataclass(frozen=True)
 class SceneLinks:
-    """A robot made from the scene.
+    """A robot made from the scene, with findings about the omitted parts. unit: meters per Blender unit.
 
-    robot, findings: the robot, and notes on the omitted parts. unit: meters per Blender unit, for the inertials and for
-    `surface`. members: the objects of each link. pieces: of each bone, the surfaces and the maps that put them into the
-    world, m.
+    members: the objects of each link. pieces: of each bone, the surfaces and the maps that put them into the world, m.
     """
 
     robot: Robot
@@ -73,10 +71,7 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
 def object_links(
     context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
-    """Return a robot with a link for each object that can be measured.
-
-    step: called with the number of finished objects. Raises MeasureError if no object can be measured.
-    """
+    """Return a robot with a link for each object that can be measured. step: called with the count of finished ones."""
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
@@ -100,9 +95,9 @@ def object_links(
 def collection_links(
     context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
 ) -> SceneLinks:
-    """Return a robot with a link for each child collection of `root`, or for `root` itself if it has none.
+    """Return a robot with a link, along the world's axes, for each child collection of `root`, or for `root` itself.
 
-    Links are assemblies, along the world's axes, with all that they hold. objects: of the displayed meshes.
+    Links are assemblies. objects: of the displayed meshes.
     """
     depsgraph = context.evaluated_depsgraph_get()
     made, failures, members = [], [], {}
@@ -125,10 +120,7 @@ def collection_links(
 
 
 def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
-    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with bone limits.
-
-    Raises MeasureError if there is no character.
-    """
+    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with bone limits."""
     made, findings, pieces = [], [], {}
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:
