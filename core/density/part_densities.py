@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..solid.closed_parts import ClosedParts
+from ..solid.orientation import ClosedParts
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.winding import winding_number
+from ..mesh.point_triangle import winding_number
 from .polynomial import Polynomial
 
 NEGLIGIBLE_RTOL = 1e-6  # Relative to the largest density: the effect of float32 coordinates.

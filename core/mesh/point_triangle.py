@@ -1,17 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Distances of points from triangles, in double precision.
+"""Distances of points from triangles, in double precision, and generalized winding numbers about points.
 
 Trees that find the nearest triangle work in single precision, and go wrong on triangles that are long and thin by as
 much as their width.
+
+Winding numbers are sums of solid angles, which open surfaces have, too, unlike the counts of `bvh.Bvh`.
 """
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.vectors import cross, dot, subtract
+
+TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
@@ -37,3 +43,18 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
     nearest = np.sqrt(nearest)
     height = np.abs(dot(normal, to[0])) / np.where(real, size, 1.0)
     return np.where(inside, np.minimum(height, nearest), nearest)
+
+
+def winding_number(points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray) -> float:
+    """Return how often (m, 3) triangles over (n, 3) points surround a point: their solid angles divided by 4 π.
+
+    A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983. The triangles need not close.
+    """
+    total = 0.0
+    for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
+        a, b, c = (points[triangles[start : start + TRIANGLES_PER_BLOCK, k]] - point for k in range(3))
+        la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
+        volume = (a * np.cross(b, c)).sum(axis=1)
+        below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+        total += float(np.arctan2(volume, below).sum())
+    return total / (2.0 * math.pi)

@@ -26,7 +26,7 @@ from ..numerics.arrays import indices_in_range
 from ..verdict.finding import MeasureError
 from . import third_order
 from .any_order import StreamIntegrator
-from .findings import SURFACE_NOT_CLOSED
+from .findings import BOUNDARY_OPEN
 from .third_order import box_center, finite_box, nothing
 from .third_order_kernel import NO_VERTEX
 
@@ -134,7 +134,7 @@ def polyhedron_moments(
             highest, area_order is not None, max(1, threads), progress, about, reach
         ).integrate(stream)
     if not boundary.is_zero:
-        raise MeasureError(SURFACE_NOT_CLOSED)
+        raise MeasureError(BOUNDARY_OPEN)
     if area_order is None or area is None:
         return _to_order(volume, order), None
     return _to_order(volume, order), _to_order(area, area_order)

@@ -11,13 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
-from ..mesh.surface import Surface
+from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, sum_moments
 from ..numerics.arrays import PerBody
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.health import MeshHealth
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
-from .closed_parts import ClosedParts
 from .closedness import CheckedSurface, GivenIntegrals
 from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
 from .repaired_mesh import RepairedMesh
@@ -74,6 +73,29 @@ class ComponentComparison:
             cavities=int(self.cavities.sum()),
             overlapping_components=int(self.intersecting.sum()),
         )
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedParts:
+    """Triangles, (t, 3), with the body as signed sum, turned and with caps; and the closed part that each bounds.
+
+    face: (t,) the mesh face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part that a
+    part's volume counts with: itself, or for a cavity the part it is cut from.
+    """
+
+    points: NDArray[np.floating]
+    triangles: NDArray[np.integer]
+    face: NDArray[np.integer]
+    part: NDArray[np.integer]
+    number: int
+    host_part: NDArray[np.integer]
+
+    def areas(self, linear: NDArray | None = None) -> NDArray[np.float64]:
+        """Return (t,) areas of the triangles under a (3, 3) map, by default as they are."""
+        points = self.points.astype(np.float64)
+        if linear is not None:
+            points = points @ np.asarray(linear).T
+        return np.linalg.norm(normals(points, self.triangles), axis=1) / 2.0
 
 
 @dataclass(frozen=True, eq=False)

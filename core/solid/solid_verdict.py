@@ -20,7 +20,6 @@ from ..verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
 from ..verdict.method import Verdict
 from ..verdict.tolerances import NEGLIGIBLE
-from .closed_parts import ClosedParts
 from .closedness import CheckedSurface, GivenIntegrals
 from .findings import (
     CAVITIES_BREAK_THROUGH,
@@ -37,7 +36,7 @@ from .findings import (
     SELF_INTERSECTION_UNCHECKED,
     VERTICES_WELDED,
 )
-from .orientation import ComponentComparison, OrientedSolid
+from .orientation import ClosedParts, ComponentComparison, OrientedSolid
 from .repaired_mesh import RepairedMesh
 from .self_intersection import SelfIntersection
 

@@ -23,8 +23,8 @@ from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
 from ....core.polyhedron import polyhedron_moments
-from ....core.solid.closed_parts import ClosedParts
 from ....core.solid.measure import SolidIntegrals
+from ....core.solid.orientation import ClosedParts
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ....core.verdict.method import Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.winding import winding_number
+from body_moments.core.mesh.point_triangle import winding_number
 
 from tests.close import close
 from tests.core.bodies import moved, rotation, sphere

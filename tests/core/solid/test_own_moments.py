@@ -58,11 +58,11 @@ def test_nearly_flat_body_has_no_moments_within_bounds(order):
 @pytest.mark.parametrize("order", [0, 3, 8])
 def test_open_faces_are_refused_unless_intended(part, order):
     """The README's example measured a repaired copy and took the moments of the input: 0.333 beside a mass of 1."""
-    with refused("surface_not_closed"):
+    with refused("boundary_open"):
         polyhedron_moments(surface(part), order)
-    with refused("surface_not_closed"):
+    with refused("boundary_open"):
         polyhedron_moments([part[0][part[1][:5]], part[0][part[1][5:]]], order)
-    with refused("surface_not_closed"):
+    with refused("boundary_open"):
         polyhedron_moments(iter([surface(part)]), order, about=(0, 0, 0), reach=4.0)
     assert polyhedron_moments(surface(part), order, allow_open=True)[0].order == order
     assert measure_solid(surface(part)).moments(order)[0].total > 0.0
