@@ -12,8 +12,9 @@ from bpy.types import Context, Depsgraph, Object
 from mathutils import Matrix
 
 from ...core.verdict.finding import EditRefusedError
+from ..read.findings import SCALE_ZERO_AXIS
 from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
-from .findings import EMPTY_CONSTRAINED, EMPTY_FOLLOWED, PARENT_TARGET_SCALE_ZERO
+from .findings import EMPTY_CONSTRAINED, EMPTY_FOLLOWED
 from .snap_targets import SnapTarget, targets_in_turn
 from .transforms import TransformChannels, basis, world
 
@@ -46,7 +47,7 @@ def place_empties(
         yield
         try:
             if is_parent and abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:
-                raise EditRefusedError(PARENT_TARGET_SCALE_ZERO)
+                raise EditRefusedError(SCALE_ZERO_AXIS)
             body = target_in_turn(obj)
             count += 1
             progress(count)

@@ -15,14 +15,12 @@ OPEN_OBJECT = error(
     "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
 )
 BALANCE_NO_VERTICES = error(
-    "balance_no_vertices", "No vertices may move. Select some in Edit Mode, or assign some to the vertex group."
+    "balance_no_vertices", "No vertices may move. Select some in Edit Mode, or choose a vertex group with some."
 )
-BALANCE_NO_GROUP = error("balance_no_group", "No vertex group. Choose or add one with the vertices that may move.")
 BALANCE_TRIANGULATION_VARIES = error(
     "balance_triangulation_varies", "The triangulation changes with every move. Use Face > Triangulate Faces."
 )
 BALANCE_SHAPE_KEYS = error("balance_shape_keys", "The mesh has shape keys. Apply or remove them.")
-BALANCE_WALL = error("balance_wall", "Balancing needs a thin shell. Set Wall to Thin.")
 BALANCE_VARYING_DENSITY = error(
     "balance_varying_density", "Balancing needs uniform density. Set Density From to One Value."
 )
@@ -31,7 +29,9 @@ BALANCE_UNCLEAN = error(
     "The mesh is not closed with all faces outward. Merge by distance, fill holes and recalculate normals, or"
     " set Kind to Shell.",
 )
-BALANCE_MODIFIED = error("balance_modified", "The measured shape is made by {modifiers}. Apply or hide them.")
+MODIFIED_MESH = error(
+    "modified_mesh", "Modifiers make the measured shape, which is not the mesh's: {modifiers}. Apply or hide them."
+)
 BALANCE_MODIFIED_UNKNOWN = error(
     "balance_modified_unknown", "The measured shape is made by animation, constraints or instances. Apply them."
 )
@@ -39,13 +39,6 @@ EMPTY_FOLLOWED = error(
     "empty_followed", "The object follows its empty “{empty}” and would move along. Clear that parent or constraint."
 )
 EMPTY_CONSTRAINED = error("empty_constrained", "A constraint holds the empty “{empty}”. Remove it.")
-PARENT_TARGET_SCALE_ZERO = error(
-    "parent_target_scale_zero", "The scale is zero along an axis. Set the scale, or turn off Parent to Object."
-)
-MODIFIED_MESH = error(
-    "modified_mesh",
-    "Modifiers change the mesh, so its defects are not those of what is measured. Apply or hide {modifiers}.",
-)
 MIRROR_IMAGE = error(
     "mirror_image", "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape over."
 )

@@ -19,6 +19,7 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
@@ -32,16 +33,14 @@ from ..read.objects import read_object
 from ..read.reading import Part
 from ..read.tracking import tracking_paused
 from .findings import (
-    BALANCE_MODIFIED,
     BALANCE_MODIFIED_UNKNOWN,
-    BALANCE_NO_GROUP,
     BALANCE_NO_VERTICES,
     BALANCE_SHAPE_KEYS,
     BALANCE_TRIANGULATION_VARIES,
     BALANCE_UNCLEAN,
     BALANCE_VARYING_DENSITY,
-    BALANCE_WALL,
     LINKED_OBJECT,
+    MODIFIED_MESH,
 )
 from .transforms import FLOAT32
 
@@ -100,7 +99,7 @@ class _GroupedMesh:
     def __init__(self, obj: Object, name: str):
         group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
         if group is None:
-            raise EditRefusedError(BALANCE_NO_GROUP)
+            raise EditRefusedError(BALANCE_NO_VERTICES)
         self.mesh, self.is_changed = obj.data, False
         weights = np.zeros(len(self.mesh.vertices))
         for vertex in self.mesh.vertices:  # Blender gives weights one by one only
@@ -205,7 +204,7 @@ def _require_balanceable(obj: Object) -> None:
     if obj.data.shape_keys is not None:
         raise EditRefusedError(BALANCE_SHAPE_KEYS)
     if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
-        raise EditRefusedError(BALANCE_WALL)
+        raise EditRefusedError(WALL_UNSUPPORTED, quantity="Balancing")
 
 
 def _measure(context: Context, obj: Object) -> Measurement:
@@ -229,7 +228,7 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
     if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
         raise (
-            EditRefusedError(BALANCE_MODIFIED, modifiers=shown) if shown else EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
+            EditRefusedError(MODIFIED_MESH, modifiers=shown) if shown else EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
         )
     return part
 

@@ -221,8 +221,8 @@ class TestRefused:
         obj.modifiers.new("Smooth", "SUBSURF").levels = 1
         obj.modifiers.new("Hidden", "SUBSURF").show_viewport = False
         edit(obj)
-        unchanged(obj, points(obj), "balance_modified", reported)
-        assert reported.values("balance_modified") == {"modifiers": ["Smooth"]}
+        unchanged(obj, points(obj), "modified_mesh", reported)
+        assert reported.values("modified_mesh") == {"modifiers": ["Smooth"]}
 
     def test_mesh_bent_by_its_parent(self, reported):
         cage = add(bpy.data.lattices.new("Cage"), "Cage", scale=(3, 3, 3), select=False)
@@ -237,13 +237,13 @@ class TestRefused:
         obj = figure()
         group(obj)
         obj.vertex_groups.active_index = -1
-        unchanged(obj, points(obj), "balance_no_group", reported)
+        unchanged(obj, points(obj), "balance_no_vertices", reported)
 
     def test_a_wall(self, reported):
         obj = figure()
         obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
         edit(obj)
-        unchanged(obj, points(obj), "balance_wall", reported)
+        unchanged(obj, points(obj), "wall_unsupported", reported)
 
     def test_a_zero_scale(self, reported):
         obj = figure(scale=(1, 1, 0))

@@ -526,7 +526,7 @@ def test_empty_of_zero_scaled_object_is_refused(parent, reported):
     obj = add(mesh_body(), scale=(1, 1, 0))
     assert run("body_moments_add_empty", parent=parent) == {"CANCELLED"}
     assert list(bpy.data.objects) == [obj]
-    assert ("parent_target_scale_zero" in reported.codes) == parent
+    assert ("scale_zero_axis" in reported.codes) == parent
 
 
 @pytest.mark.parametrize("how", ["modifier", "parent"])
