@@ -57,11 +57,6 @@ AT_GLTF_ROW = note("at_gltf_row", "row {row} of {part} “{name}”")
 GLTF_BUFFER_SHORT = error(
     "gltf_buffer_short", "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
 )
-SURFACES_ROUNDED = note(
-    "surfaces_rounded",
-    "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
-    "size.",
-)
 OBJECT_NOT_IN_FILE = error("object_not_in_file", "No object of this name in the file or its scene.")
 PART_UNAVAILABLE = error("part_unavailable", "No {part}: {cause}")
 OPTIONS_UNUSED = warning(

@@ -13,12 +13,12 @@ from typing import Any
 import bpy
 from bpy.types import Context, Object, Operator
 
+from .. import core
 from ..blender.read.visibility import measurable
 from ..blender.scene.changes import ancestors
 from ..blender.session.stored import outcome
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
-from ..core.files.whole_file import whole_file
 from ..core.verdict.finding import FileError, Finding, MeasureError, Severity, system_reason
 from .findings import FILE_NOT_WRITTEN
 
@@ -175,7 +175,7 @@ def apply_to_all(
 def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
     """Write a file, whole or not at all. FileError if it cannot be written."""
     try:
-        with whole_file(path) as file:
+        with core.files.whole_file.whole_file(path) as file:
             file.writelines(piece if isinstance(piece, bytes) else piece.encode() for piece in pieces)
     except OSError as error:
         raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error

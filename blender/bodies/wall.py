@@ -29,9 +29,9 @@ from ...core.verdict.finding import Finding, ReadError, finding, unique
 from ...core.verdict.findings import FLIPPED_FACES
 from ...core.verdict.method import Verdict
 from ...core.verdict.tolerances import NEGLIGIBLE
-from ...core.wall import OffsetSolid, offset_solid, wall_moments
+from ...core.wall import offset_solid, wall_moments
 from ...core.wall.findings import WALL_MEASURED
-from ...core.wall.walls import split_thickness
+from ...core.wall.walls import OffsetSolid, split_thickness
 from ..read.reading import Reading
 from .body import MeshBody
 from .findings import (

@@ -16,7 +16,7 @@ import bpy
 from bpy.types import ID, Context, Depsgraph, Object
 
 from ...core.verdict.finding import EditRefusedError
-from .findings import LIBRARY_OVERRIDE, LINKED_OBJECT
+from .findings import LINKED_OBJECT
 
 Planned = TypeVar("Planned")
 SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything
@@ -32,9 +32,8 @@ def require_editable(data: ID) -> None:
 
 def require_storable_data(obj: Object) -> None:
     """Raise EditRefusedError for a linked object, and for a library override."""
-    require_editable(obj)
-    if obj.override_library is not None:  # a file keeps only overridable properties of it
-        raise EditRefusedError(LIBRARY_OVERRIDE)
+    if not obj.is_editable or obj.override_library is not None:  # a file keeps only overridable properties of it
+        raise EditRefusedError(LINKED_OBJECT)
 
 
 def ancestors(obj: Object | None) -> Iterator[Object]:

@@ -14,7 +14,7 @@ from mathutils import Matrix
 from ...core.verdict.finding import EditRefusedError
 from ..read.findings import SCALE_ZERO_AXIS
 from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
-from .findings import EMPTY_CONSTRAINED, EMPTY_FOLLOWED
+from .findings import FOLLOWS_MOVED, TRANSFORM_CONSTRAINED
 from .snap_targets import SnapTarget, targets_in_turn
 from .transforms import TransformChannels, basis, world
 
@@ -102,7 +102,7 @@ def _new_empty(context: Context, obj: Object) -> Object:
 def _moved(empty: Object, body: SnapTarget, parent: Object | None, size: float) -> Generator[None, Depsgraph, bool]:
     """Move the empty to the body's frame; return whether it was elsewhere. EditRefusedError if it cannot be there."""
     if _follows(body.obj, empty):
-        raise EditRefusedError(EMPTY_FOLLOWED, empty=empty.name)
+        raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
     if _is_there(empty, body) and empty.parent == parent:
         return False
     saved = TransformChannels(empty)
@@ -126,7 +126,9 @@ def _moved(empty: Object, body: SnapTarget, parent: Object | None, size: float) 
             yield
         held, follows = not _is_there(empty, body), (world(body.obj) != was).any()
         if held or follows:
-            raise EditRefusedError(EMPTY_FOLLOWED if follows else EMPTY_CONSTRAINED, empty=empty.name)
+            if follows:
+                raise EditRefusedError(FOLLOWS_MOVED, follower=body.obj.name, target=empty.name)
+            raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location", sources=[empty.name])
     except BaseException:
         for name, value in before.items():
             setattr(empty, name, value)

@@ -5,47 +5,48 @@
 from ...core.verdict.finding import error, note, warning
 
 LINKED_OBJECT = error(
-    "linked_object", "Linked from another file. Use Object > Relations > Make Local for the object and its data."
-)
-LIBRARY_OVERRIDE = error(
-    "library_override", "A library override, which would lose the change. Use Object > Relations > Make Local."
+    "linked_object",
+    "Linked from another file, or an override of something linked, which would lose the change. Use Object > Relations "
+    "> Make Local for the object and its data.",
 )
 OPEN_OBJECT = error(
     "open_object",
     "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",
 )
 BALANCE_NO_VERTICES = error(
-    "balance_no_vertices", "No vertices may move. Select some in Edit Mode, or choose a vertex group with some."
+    "balance_no_vertices", "No vertices may move. Select some in Edit Mode, or choose a vertex group that has some."
+)
+BALANCE_SETTINGS = error(
+    "balance_settings",
+    "Balancing needs uniform density and a thin shell or a solid. Set Density From to One Value, and Wall to Thin.",
 )
 BALANCE_TRIANGULATION_VARIES = error(
     "balance_triangulation_varies", "The triangulation changes with every move. Use Face > Triangulate Faces."
-)
-BALANCE_SHAPE_KEYS = error("balance_shape_keys", "The mesh has shape keys. Apply or remove them.")
-BALANCE_VARYING_DENSITY = error(
-    "balance_varying_density", "Balancing needs uniform density. Set Density From to One Value."
 )
 BALANCE_UNCLEAN = error(
     "balance_unclean",
     "The mesh is not closed with all faces outward. Merge by distance, fill holes and recalculate normals, or"
     " set Kind to Shell.",
 )
-MODIFIED_MESH = error(
-    "modified_mesh", "Modifiers make the measured shape, which is not the mesh's: {modifiers}. Apply or hide them."
+SHAPE_OF_MODIFIERS = error(
+    "shape_of_modifiers", "The measured shape is made by {modifiers}, not by the mesh alone. Apply or hide them."
 )
-BALANCE_MODIFIED_UNKNOWN = error(
-    "balance_modified_unknown", "The measured shape is made by animation, constraints or instances. Apply them."
+SHAPE_NOT_OF_MESH = error(
+    "shape_not_of_mesh",
+    "The measured shape is made by shape keys, animation, constraints or instances. Apply or remove them.",
 )
-EMPTY_FOLLOWED = error(
-    "empty_followed", "The object follows its empty “{empty}” and would move along. Clear that parent or constraint."
+FOLLOWS_MOVED = error(
+    "follows_moved", "“{follower}” follows “{target}” and would move along. Clear that parent or constraint."
 )
-EMPTY_CONSTRAINED = error("empty_constrained", "A constraint holds the empty “{empty}”. Remove it.")
 MIRROR_IMAGE = error(
     "mirror_image", "A mirror image of the active object, which it cannot match. Mirror it, or turn a flat shape over."
 )
-ACTIVE_IS_CHILD = error(
-    "active_is_child", "The active object is a child of this one and would move along. Clear the parent."
-)
 SCAN_NON_FINITE = error("scan_non_finite", "Some samples are not finite. Remove them.")
+SURFACES_ROUNDED = note(
+    "surfaces_rounded",
+    "Blender stores control points as 32-bit numbers: points of the surfaces moved by up to {share:percent} of the "
+    "size.",
+)
 PARENT_SHEARS = error("parent_shears", "The parent shears the object. Clear the parent, or apply its scale.")
 CHANNEL_LOCKED = error(
     "channel_locked",
@@ -60,8 +61,8 @@ SHOWS_INSTANCES = error(
 )
 DATA_WITHOUT_TRANSFORM = error(
     "data_without_transform",
-    "Geometry of this type cannot be moved inside its object. Use Object > Convert > Mesh, Add Empty, or Align Object "
-    "to World.",
+    "Geometry of this type cannot be moved so inside its object. Use Object > Convert > Mesh, Add Empty, or Align "
+    "Object to World.",
 )
 RENDER_ONLY_MODIFIER = error(
     "render_only_modifier",
@@ -81,7 +82,6 @@ SHAPE_WOULD_CHANGE = error(
 MODIFIERS_CHANGE_SHAPE = error(
     "modifiers_change_shape", "The shape would change, by {modifiers}. Apply or remove these modifiers."
 )
-TEXT_OFF_PLANE = error("text_off_plane", "Text can only move in its own plane. Use Object > Convert > Mesh.")
 CHILD_NOT_HELD = error(
     "child_not_held",
     "The child “{object}” cannot be held in place. Use Object > Parent > Clear Parent on it, or make it local.",

@@ -14,7 +14,7 @@ from ..bodies.flat.flat_shape import FlatShape
 from ..bodies.shape.shape import Shape
 from . import reframe
 from .changes import ancestors
-from .findings import ACTIVE_IS_CHILD, MIRROR_IMAGE
+from .findings import FOLLOWS_MOVED, MIRROR_IMAGE
 from .transforms import world
 
 
@@ -22,7 +22,7 @@ def require_matchable(context: Context, obj: Object) -> None:
     """Raise EditRefusedError if the object cannot be laid onto the active one."""
     reframe.check_movable(obj)
     if obj in ancestors(context.object):
-        raise EditRefusedError(ACTIVE_IS_CHILD)
+        raise EditRefusedError(FOLLOWS_MOVED, follower=context.object.name, target=obj.name)
 
 
 def plan_match(

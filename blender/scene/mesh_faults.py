@@ -14,7 +14,7 @@ from bpy.types import Object
 
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import EditRefusedError
-from .findings import LINKED_OBJECT, MODIFIED_MESH
+from .findings import LINKED_OBJECT, SHAPE_OF_MODIFIERS
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
 DEFORMING_MODIFIERS = {
@@ -56,7 +56,7 @@ def require_editable_mesh(obj: Object) -> None:
         if modifier.show_viewport and modifier.type not in DEFORMING_MODIFIERS
     ]
     if changing:
-        raise EditRefusedError(MODIFIED_MESH, modifiers=changing)
+        raise EditRefusedError(SHAPE_OF_MODIFIERS, modifiers=changing)
 
 
 def defects_by_kind(measurement: Measurement) -> dict[str, np.ndarray]:

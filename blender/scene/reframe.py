@@ -41,7 +41,6 @@ from .findings import (
     RENDER_ONLY_MODIFIER,
     SHAPE_WOULD_CHANGE,
     SHOWS_INSTANCES,
-    TEXT_OFF_PLANE,
     TRANSFORM_CONSTRAINED,
 )
 from .reframe_meshes import Plan, data_change, location_tolerance, reframe_own_meshes, shows_own_mesh
@@ -317,7 +316,7 @@ def _transform_points(collection, name: str, change: Matrix4) -> NDArray[np.floa
 def _translate_text(text: bpy.types.TextCurve, change: Matrix4) -> None:
     offset = change[:3, 3]
     if np.abs(change[:3, :3] - np.eye(3)).max() > 1e-6 or abs(offset[2]) > 1e-6 * max(np.abs(offset).max(), text.size):
-        raise EditRefusedError(TEXT_OFF_PLANE)
+        raise EditRefusedError(DATA_WITHOUT_TRANSFORM)
     text.offset_x += offset[0]
     text.offset_y += offset[1]
 

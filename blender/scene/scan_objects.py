@@ -21,7 +21,8 @@ from ...core.scans.limits import Limits
 from ...core.scans.numpy_files import read_raw
 from ...core.scans.positions import Positions, place_samples, read_all_positions
 from ...core.scans.scan import Scan
-from ...core.verdict.finding import FileError, Finding
+from ...core.streams.findings import FILE_UNREADABLE
+from ...core.verdict.finding import FileError, Finding, system_reason
 from ..settings.grid_values import positions_text
 from .findings import SCAN_NON_FINITE
 
@@ -48,12 +49,15 @@ def read_placed(
     """Read a scan.
 
     raw: shape, type and byte order of raw samples, if the name does not state them. spacing: in m, in place of the
-    file's. files: of positions along axes, and their unit in m. Raises FileError and OSError.
+    file's. files: of positions along axes, and their unit in m. Raises FileError.
     """
-    is_raw = raw is not None and scan_suffix(path) == ".raw"
-    scan = read_raw(path, *raw, limits) if is_raw else read_scan(path, limits)
+    try:
+        is_raw = raw is not None and scan_suffix(path) == ".raw"
+        scan = read_raw(path, *raw, limits) if is_raw else read_scan(path, limits)
+        positions = read_all_positions(files, scan.samples.shape)
+    except OSError as error:
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
     matrix, findings = sample_matrix(scan, tuple(map(shortest_decimal, spacing)) if spacing else None, None, None)
-    positions = read_all_positions(files, scan.samples.shape)
     matrix, positions = place_samples(matrix, positions, shortest_decimal(unit))
     for axis, row in enumerate(positions):
         if row is not None:  # Blender's voxels are even: the first and the last are where they belong

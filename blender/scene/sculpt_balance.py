@@ -19,7 +19,6 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
-from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
@@ -33,14 +32,13 @@ from ..read.objects import read_object
 from ..read.reading import Part
 from ..read.tracking import tracking_paused
 from .findings import (
-    BALANCE_MODIFIED_UNKNOWN,
     BALANCE_NO_VERTICES,
-    BALANCE_SHAPE_KEYS,
+    BALANCE_SETTINGS,
     BALANCE_TRIANGULATION_VARIES,
     BALANCE_UNCLEAN,
-    BALANCE_VARYING_DENSITY,
     LINKED_OBJECT,
-    MODIFIED_MESH,
+    SHAPE_NOT_OF_MESH,
+    SHAPE_OF_MODIFIERS,
 )
 from .transforms import FLOAT32
 
@@ -202,16 +200,16 @@ def _require_balanceable(obj: Object) -> None:
     if not obj.data.is_editable:
         raise EditRefusedError(LINKED_OBJECT)
     if obj.data.shape_keys is not None:
-        raise EditRefusedError(BALANCE_SHAPE_KEYS)
+        raise EditRefusedError(SHAPE_NOT_OF_MESH)
     if obj.body_moments.kind == "SHELL" and obj.body_moments.wall != "THIN":
-        raise EditRefusedError(WALL_UNSUPPORTED, quantity="Balancing")
+        raise EditRefusedError(BALANCE_SETTINGS)
 
 
 def _measure(context: Context, obj: Object) -> Measurement:
     """Measure the object in the usual way; EditRefusedError if its center cannot be differentiated by its vertices."""
     measurement = measure_object(obj, context.evaluated_depsgraph_get())
     if measurement.mass_moments[0].measure == Measure.MASS:
-        raise EditRefusedError(BALANCE_VARYING_DENSITY)
+        raise EditRefusedError(BALANCE_SETTINGS)
     if measurement.kind == "solid" and (measurement.method != Method(Verdict.EXACT) or measurement.health.welded):
         raise EditRefusedError(BALANCE_UNCLEAN)
     return measurement
@@ -224,12 +222,10 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
     if reading.all_singular:
         raise EditRefusedError(SCALE_ZERO_AXIS)
     if reading.instance_count > 1:
-        raise EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
+        raise EditRefusedError(SHAPE_NOT_OF_MESH)
     if mesh is not None and not np.array_equal(part.surface.points, mesh.start):
         shown = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
-        raise (
-            EditRefusedError(MODIFIED_MESH, modifiers=shown) if shown else EditRefusedError(BALANCE_MODIFIED_UNKNOWN)
-        )
+        raise (EditRefusedError(SHAPE_OF_MODIFIERS, modifiers=shown) if shown else EditRefusedError(SHAPE_NOT_OF_MESH))
     return part
 
 

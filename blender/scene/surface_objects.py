@@ -24,7 +24,9 @@ from ...core.cad.surfaces import SurfaceBody
 from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.patch import Patch
 from ...core.scans.limits import Limits
-from ...core.verdict.finding import Finding
+from ...core.streams.findings import FILE_UNREADABLE
+from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from .findings import SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
 MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
@@ -168,26 +170,29 @@ def import_bodies(
 class ImportedSurfaces(NamedTuple):
     """Objects of a file of surfaces, with the number and the highest order of their patches.
 
-    moved: the largest rounding of a point, relative to its object. findings: about what was left out or decided.
+    findings: about what was left out or decided.
     """
 
     objects: list[Object]
     patches: int
     order: int
-    moved: float
     findings: list[Finding]
 
 
 def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -> ImportedSurfaces:
     """Make an object of each body in a file. unit: meters per unit of a file that states none.
 
-    Raises FileError and OSError.
+    Raises FileError.
     """
-    file = read_surfaces(path, limits)
+    try:
+        file = read_surfaces(path, limits)
+    except OSError as error:
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
     scale = shortest_decimal(context.scene.unit_settings.scale_length)
     factor = (shortest_decimal(unit) if file.unit is None else file.unit) / scale
     made = import_bodies(file.bodies, context.collection, factor)
     patches = [patch for body in file.bodies for patch in body.patches]
     order = max(space.order for patch in patches for space in patch.spaces)
     moved = max(share for _, share in made)
-    return ImportedSurfaces([obj for obj, _ in made], len(patches), order, moved, [*file.refused, *file.notes])
+    rounded = [finding(SURFACES_ROUNDED, share=moved)] if moved else []
+    return ImportedSurfaces([obj for obj, _ in made], len(patches), order, [*rounded, *file.refused, *file.notes])

@@ -28,7 +28,6 @@ from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_
 from ..scene.rigid_world import MIN_MASS, add_joint, add_rigid_bodies, remove_joint, require_rigid_world
 from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
 from ..write import properties, reports
-from ..write.findings import REFUSED
 from .snapping import store_measured
 from .stored import assembly
 from .tracking import staleness
@@ -180,7 +179,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
         try:
             parts.append((part, _measured_part(part, ask)))
         except MeasureError as error:
-            raise EditRefusedError(REFUSED, object=part.name_full, cause=error.finding.as_record()) from error
+            raise EditRefusedError(error.finding.of_sources([part.name_full])) from error
     measurements = [measured.measurement for _, measured in parts]
     whole = measurements[0].mass_properties
     if body.members:

@@ -72,7 +72,7 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
     if settings.density_from == "POLYNOMIAL":
         text = settings.density_polynomial.strip()
         return DensityField(
-            "polynomial", density_engine.parse_polynomial(text), settings.density_frame == "WORLD", text
+            "polynomial", density_engine.polynomial.parse_polynomial(text), settings.density_frame == "WORLD", text
         )
     if settings.density_from == "VOLUME":
         if settings.density_volume is None:

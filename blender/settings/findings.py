@@ -22,9 +22,6 @@ DENSITY_FROM_POLYNOMIAL = note("density_from_polynomial", "polynomial {polynomia
 VALUES_SCALED = note("values_scaled", "A value of 1 stands for {density:.6g} kg/m³ (spline order {order}).")
 VALUES_BY_TABLE = note("values_by_table", "Values become densities by the transfer table (spline order {order}).")
 BACKGROUND_EMPTY = warning("background_empty", "Voxels with the background value {value:.6g} count as empty.")
-VALUES_NON_FINITE_FOR_TABLE = error(
-    "values_non_finite_for_table", "Some values are not finite and have no density in the transfer table. Remove them."
-)
 VALUES_NEGATIVE = error(
     "values_negative",
     "Negative densities, down to {density:.6g} kg/m³. Convert the samples, set Values to Table, or Measure As to Solid "

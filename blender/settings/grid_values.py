@@ -10,10 +10,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.density.findings import DENSITY_NON_FINITE
 from ...core.density.transfer_function import parse_table
 from ...core.scans.positions import AXES, EVEN, Positions
 from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, VALUES_NEGATIVE, VALUES_NON_FINITE_FOR_TABLE
+from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, VALUES_NEGATIVE
 from .grid import GridOptions
 
 
@@ -44,7 +45,7 @@ def density_function(options: GridOptions, background: float | None) -> Callable
 
     def weighed(values: NDArray) -> NDArray[np.float64]:
         if pairs is not None and not np.isfinite(values).all():
-            raise ReadError(VALUES_NON_FINITE_FOR_TABLE)
+            raise ReadError(DENSITY_NON_FINITE)
         densities = values * options.value_density if pairs is None else np.interp(values, *pairs)
         if background is not None:
             densities[values == background] = 0.0

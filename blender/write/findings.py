@@ -11,4 +11,3 @@ LINKED_RESULTS = error(
 STALE_RESULTS = warning("stale_results", "Out of date: the object changed after it was measured. Measure it again.")
 NO_STORED_RESULTS = error("no_stored_results", "No stored results. Measure the object.")
 FAILURE = warning("failure", "{object}: {cause}")
-REFUSED = error("refused", "{object}: {cause}")

@@ -18,7 +18,7 @@ from bpy.types import Operator
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, Severity, finding, truncate_findings
 from ...core.verdict.sentences import fill, sentence, severity
-from .findings import FAILURE, REFUSED
+from .findings import FAILURE
 from .units import Units
 
 MAX_REPORTED = 3  # findings of one kind that a report names before it only counts
@@ -94,4 +94,4 @@ def refusal(error: MeasureError) -> Finding:
     """Return the reason why an operator does nothing at all."""
     if not error.subject:
         return error.finding
-    return finding(REFUSED, object=error.subject, cause=error.finding.as_record())
+    return error.finding.of_sources([error.subject])

@@ -32,8 +32,8 @@ FOLDER = Path(sys.modules[ADDON_ID].__path__[0]) / "locale"
 CONTEXT = "Body Moments"
 
 # A field with the first part of its text, or a further part of it on a line of its own.
-_PART = re.compile(r'(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)?\s*(".*")\s*')
-_FUZZY = re.compile(r"^#,.*\bfuzzy\b", re.MULTILINE)  # a tool's guess that no translator has confirmed
+_PART = r'(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)?\s*(".*")\s*'
+_FUZZY = r"(?m)^#,.*\bfuzzy\b"  # a tool's guess that no translator has confirmed
 
 
 def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
@@ -42,11 +42,11 @@ def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
     Blender looks up singular and plural as two texts, so that the plural takes the language's last form.
     """
     for block in re.split(r"\n\s*\n", path.read_text(encoding="utf-8")):
-        if _FUZZY.search(block):
+        if re.search(_FUZZY, block):
             continue
         entry: dict[str, str] = {}
         field = ""
-        for part in filter(None, map(_PART.fullmatch, block.splitlines())):
+        for part in filter(None, [re.fullmatch(_PART, line) for line in block.splitlines()]):
             field = part[1] or field
             entry[field] = entry.get(field, "") + json.loads(part[2], strict=False)
         forms = [entry[name] for name in entry if name.startswith("msgstr")]

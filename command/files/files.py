@@ -34,8 +34,7 @@ from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED, IMPORT_FAIL
 from .finite import check_numbers
 from .import_3mf import import_3mf
 from .import_surfaces import import_iges, import_obj
-from .opened import Opened
-from .references import import_usd
+from .references import Opened, import_usd
 
 BLEND = ".blend"
 _OLDEST = (2, 50)  # reading files of older versions can damage their content

@@ -11,14 +11,14 @@ import re
 
 import bpy
 
+from ...blender.scene.findings import SURFACES_ROUNDED
 from ...blender.scene.surface_objects import import_bodies
 from ...blender.settings.limits import scan_limits
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
 from ...core.verdict.finding import FileError, Finding, finding
-from ..findings import SURFACES_ROUNDED
-from .opened import Opened
+from .references import Opened
 
 _MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's importer reads
 

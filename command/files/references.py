@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Missing references of files. Blender opens the rest, and reports them on the standard error at most."""
+"""Findings about an opened file, and its missing references: Blender opens the rest, and prints them at most."""
 
 from __future__ import annotations
 
@@ -8,18 +8,31 @@ import os
 import re
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import partial
 
 import bpy
 
 from ...core.verdict.finding import Finding, finding
 from ..findings import MISSING_REFERENCES
-from .opened import Opened
 
 # An error of composing a stage, by stage.cpp: "… -- In </A>: Could not open asset @file@ for reference …".
 _REPORT = re.compile(r"_ReportErrors at line \d+ of \S*stage\.cpp -- (.*)")
 _ASSET = re.compile(r"@([^@]+)@(<[^>]*>)?")
+
+
+@dataclass(frozen=True)
+class Opened:
+    """Findings about an opened file.
+
+    errors: parts of the file, or references, that are missing now. notes: about the whole file. by_object: about one
+    object, by its name.
+    """
+
+    errors: tuple[Finding, ...] = ()
+    notes: tuple[Finding, ...] = ()
+    by_object: Mapping[str, tuple[Finding, ...]] = field(default_factory=dict)
 
 
 def import_usd(path: str) -> Opened:

@@ -14,7 +14,7 @@ import bpy
 
 from ..files.inputs import references
 from ..interruption import Progress
-from ..options.arguments import from_record
+from ..options.arguments import parse
 from ..options.checks import prepare
 from ..supervisor.journal import state
 from ..supervisor.lifeline import Lifeline
@@ -25,7 +25,7 @@ def serve(line: Lifeline) -> None:
     """Work until the supervisor closes the pipe, which ends the process."""
     messages = line.messages()
     setup = next(messages)
-    options = from_record(setup["options"])
+    options = parse(setup["words"])
     said = io.StringIO()
     try:
         with redirect_stderr(said):

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import bpy
@@ -57,13 +58,10 @@ class Combined:
     def store(self, internal: Internal) -> Iterator[dict[str, Any]]:
         """Store the results on their assemblies and rigs; yield the entries about failures."""
         for assembly in self.assemblies:
-            yield from _tried(
-                assembly.measurement.name,
-                lambda assembly=assembly: stored_assembly.store(bpy.context, assembly),
-                internal,
-            )
+            work = partial(stored_assembly.store, bpy.context, assembly)
+            yield from _tried(assembly.measurement.name, work, internal)
         for rig in self.rigs:
-            yield from _tried(rig.armature.name, lambda rig=rig: stored_rig.store(rig), internal)
+            yield from _tried(rig.armature.name, partial(stored_rig.store, rig), internal)
 
 
 def measure_combined(options: MeasureOptions, internal: Internal, assets: bool = False) -> Combined:
@@ -83,13 +81,13 @@ def measure_combined(options: MeasureOptions, internal: Internal, assets: bool =
 
     roots = dict.fromkeys(_assemblies(scene))
     for root in roots:
-        found.errors.extend(_tried(root.name, lambda root=root: add_assembly(root), internal))
+        found.errors.extend(_tried(root.name, partial(add_assembly, root), internal))
     for root in _assets(scene) if assets else ():
         if root not in roots:
             with suppress(MeasureError):  # assemblies of lamps, or of objects that are left out
                 add_assembly(root)
     for armature in _armatures(scene):
-        found.errors.extend(_tried(armature.name, lambda armature=armature: add_rig(armature), internal))
+        found.errors.extend(_tried(armature.name, partial(add_rig, armature), internal))
     return found
 
 

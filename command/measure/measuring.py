@@ -9,15 +9,19 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import bpy
+import numpy as np
 
 from ...blender.bodies.findings import SIGNATURE_NEEDS_POLYGONS
 from ...blender.bodies.measure_object import Measured, measure_object
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.bodies.stacks.many import measured_in_turn
 from ...blender.bodies.stacks.stack import Stacked
+from ...blender.read.objects import read_object
 from ...blender.settings.options import MeasureOptions
+from ...blender.write.thumbnail import thumbnail
 from ...core.measurement.measurement import Measurement
-from ...core.verdict.finding import Finding, finding
+from ...core.numerics.float32 import shortest_decimal
+from ...core.verdict.finding import Finding, MeasureError, finding
 from ...core.verdict.method import Source
 from ..findings import SIGNATURE_OF_DISPLAY_MESH
 
@@ -61,3 +65,21 @@ def measure_shape(
         more["signature"] = None
         findings = (finding(SIGNATURE_NEEDS_POLYGONS),)
     return shape.measurement, more, findings
+
+
+def thumbnail_of(obj: bpy.types.Object, measurement: Measurement, unit: float | None) -> str | None:
+    """Return the picture of a measured object, or None if it shows no faces.
+
+    unit: meters per unit, else the scene's.
+    """
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    try:
+        surface = read_object(obj, depsgraph, edges=False).join()
+    except MeasureError:  # such as a grid of densities
+        return None
+    triangles = surface.all_triangles()[0]
+    if not len(triangles):
+        return None
+    properties = measurement.mass_properties
+    return thumbnail(surface.points.astype(np.float64) * unit, triangles, properties.center, properties.principal.axes)

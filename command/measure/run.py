@@ -36,8 +36,7 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..files.bare_files import BareFile, is_bare
 from ..files.files import BLEND, file_suffix, newer_version, open_file, requested_file
-from ..files.opened import Opened
-from ..files.references import missing_links
+from ..files.references import Opened, missing_links
 from ..files.saving import Place
 from ..files.scripts import blocked_scripts, scripts_of_open_file
 from ..findings import (
@@ -54,9 +53,8 @@ from ..options import density as density_options
 from ..options.file import body_findings, file_findings, is_unitless
 from . import assets, flat, fourier, robots
 from .combined import Combined, measure_combined
-from .measuring import measure_shape, measured_together
+from .measuring import measure_shape, measured_together, thumbnail_of
 from .objects import failure, objects_to_measure, other_scenes, why_nothing
-from .thumbnails import thumbnail_of
 
 _STATUSES: dict[str, str] = {FILE_MISSING: "missing", FILE_VERSION_UNSUPPORTED: "unsupported_version"}
 

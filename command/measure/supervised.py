@@ -30,7 +30,7 @@ from ...core.verdict.finding import Finding, finding, system_reason
 from ..files import output, own_results
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
 from ..options import targets
-from ..options.arguments import ONE_FILE, ONE_OBJECT, as_record, fail, files_of_options, of_numbers
+from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers
 from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
 from ..parser import UsageError
@@ -50,7 +50,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
     """
     end_with_window()
     paths = files_of(options)
-    command = processes.child_command(_blender(options))
+    command = processes.run_command(_blender(options), ["child"])
     if command is None:
         fail("No module named 'bpy' is here. Use --blender PATH, or install it")
     targets.check_targets(options, files_of_options(options, paths, opened))
@@ -159,7 +159,7 @@ class _Supervised:
         self._count = max(1, min(options.jobs or cores, len(self.tasks)))
         self._limits = Limits(options.timeout or DEFAULT_TIMEOUT, self._memory())
         threads = max(1, cores // self._count)
-        self._setup = {"options": as_record(options), "threads": threads, "memory": self._limits.memory}
+        self._setup = {"words": options.words, "threads": threads, "memory": self._limits.memory}
 
     def _memory(self) -> int | None:
         if self._options.memory_mb is not None:
@@ -191,7 +191,9 @@ class _Supervised:
         common = {"options": _digest(self._options), "addon": _version(), "blender": blender}
         limits = {"seconds": self._limits.seconds, "memory": self._limits.memory}
         if self._options.resume:
-            missing = [path for path in self.tasks if not _is_recorded(journal, path, common, limits)]
+            entries = {path: journal.entries.get(path) for path in self.tasks}
+            keys = {path: {"path": path, **state(path), **common} for path in self.tasks}
+            missing = [path for path, entry in entries.items() if not (entry and entry.serves(keys[path], limits))]
             self.done = len(self.tasks) - len(missing)
             pool.add(missing)
         progress = Progress(len(self.tasks), self.done)
@@ -263,11 +265,6 @@ class _Documents:
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
         return map(self.journal.document, self.paths)
-
-
-def _is_recorded(journal: Journal, path: str, common: dict[str, Any], limits: dict[str, Any]) -> bool:
-    entry = journal.entries.get(path)
-    return entry is not None and entry.serves({"path": path, **state(path), **common}, limits)
 
 
 def _digest(options: Namespace) -> str:

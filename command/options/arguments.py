@@ -21,21 +21,20 @@ TARGETS = ("output", "fourier")  # options whose files are written
 # These options change no number: two runs that differ in these alone have the same records.
 _OF_RUNS = {
     *("command", "files", "format", "output", "force", "jobs", "timeout", "memory_mb", "range", "manifest"),
-    *("resume", "no_supervisor", "blender", "errors_exit_0"),
+    *("resume", "no_supervisor", "blender", "errors_exit_0", "words"),
 }
-_PATHS = ("output", "fourier", "q", "manifest")
-_TRIPLES = ("spacing", "origin", "about")
 ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
 ONE_OBJECT = "argument --fourier: takes one object of one FILE"
 
 
 def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
-    """Parse the options of `measure`; file_needed: no file can be open.
+    """Parse the options of `measure`, and keep the words for children. file_needed: no file can be open.
 
     Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
     """
     parser = measure_parser()
     options = parser.parse_intermixed_args(join_negative_values(argv))
+    options.words = argv
     has_files = bool(options.files or options.manifest)
     if file_needed and not has_files:
         fail("a FILE is needed")
@@ -71,28 +70,11 @@ def fail(reason: str) -> NoReturn:
     measure_parser().error(reason)
 
 
-def as_record(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the options as plain values for JSON, without the files, to be read by `from_record`."""
-    kept = {name: value for name, value in vars(options).items() if name not in ("files", "manifest")}
-    return {name: str(value) if isinstance(value, Path) else value for name, value in kept.items()}
-
-
-def from_record(record: dict[str, Any]) -> argparse.Namespace:
-    """Return the options that `as_record` has made plain."""
-    options = argparse.Namespace(**{**record, "files": [], "manifest": None})
-    for name in _PATHS:
-        if getattr(options, name) is not None:
-            setattr(options, name, Path(getattr(options, name)))
-    for name in _TRIPLES:
-        if isinstance(getattr(options, name), list):
-            setattr(options, name, tuple(getattr(options, name)))
-    return options
-
-
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that change measurements."""
-    more = {"format": options.format} if options.format in ROBOT_FORMATS else {}
-    return {name: value for name, value in as_record(options).items() if name not in _OF_RUNS} | more
+    """Return the options that change measurements, as plain values."""
+    names = vars(options).keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
+    values = {name: getattr(options, name) for name in names}
+    return {name: str(value) if isinstance(value, Path) else value for name, value in values.items()}
 
 
 def files_of_options(options: argparse.Namespace, files: Iterable[str], opened: str | None) -> list[str | Path]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
@@ -100,19 +101,13 @@ def _read_file(path: str) -> Iterator[Entry]:
 
 
 def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
-    folder = options.output.parent if options.output else Path()
     try:
-        found = list(dict.fromkeys(listing.expand(options.paths)))
+        paths = [*dict.fromkeys(listing.expand(options.paths))]
     except OSError as error:
         raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
-    return listing.write_lines(_as_seen_from(folder, path) for path in found), 0
-
-
-def _as_seen_from(folder: Path, path: str) -> str:
-    """Return the name that means the file in a list in that folder."""
-    if str(folder) in ("", "."):
-        return path
-    return str(Path(path).absolute())
+    if options.output and options.output.parent != Path():  # a list names files from its own folder
+        paths = [os.path.abspath(path) for path in paths]
+    return listing.write_lines(paths), 0
 
 
 def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:

@@ -23,12 +23,6 @@ _TOOL = 5.0  # seconds that a tool of the system may take to answer
 _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
 # Blender without a window, of factory settings, that runs no script of a file and reaches no network.
 _SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70")
-_WORD = "child"  # the command that serves a supervisor
-
-
-def child_command(blender: str | None) -> list[str] | None:
-    """Return the command that starts a child: Blender if given, else this Python, or None without the bpy module."""
-    return run_command(blender, [_WORD])
 
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:

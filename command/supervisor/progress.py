@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from datetime import timedelta
 
 from ...core.measurement.plain_text import counted, print_message
 
@@ -36,7 +37,7 @@ class Progress:
         text = "{} of {} files".format(done, self._total)
         if measured:
             seconds = now - self._began
-            left = _duration((self._total - done) * seconds / measured)
+            left = timedelta(seconds=round((self._total - done) * seconds / measured))
             failed = measured - self.counts["ok"]
             text += ", {:.3g} per second, {} left, {} not ok".format(measured / seconds, left, failed)
         print_message(text)
@@ -48,12 +49,3 @@ class Progress:
             seconds = time.monotonic() - self._began
             files = counted(self.counts.total(), "file")
             print_message("{} in {:.1f} s: {}".format(files, seconds, counts or "-"))
-
-
-def _duration(seconds: float) -> str:
-    """Return a time in hours, minutes and seconds."""
-    minutes, rest = divmod(round(seconds), 60)
-    hours, minutes = divmod(minutes, 60)
-    if hours:
-        return "{} h {:02d} min".format(hours, minutes)
-    return "{} min {:02d} s".format(minutes, rest) if minutes else "{} s".format(rest)

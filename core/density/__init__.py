@@ -7,9 +7,6 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     MATERIALS="materials",
-    SplineAxis="spline_tables",
-    density_moments="spline_grid",
     grid_moments="spline_grid",
-    parse_polynomial="polynomial",
     threshold_body="threshold",
 )

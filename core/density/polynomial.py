@@ -56,12 +56,10 @@ class Polynomial:
     terms: dict[Exponents, Fraction]
 
     @classmethod
-    def from_coefficients(cls, coefficients: ArrayLike) -> Polynomial:
-        """Make a polynomial from finite coefficients of 1, x, y, z, x², xy, xz, y², yz, z², …, taken exactly."""
-        values = np.asarray(coefficients, float).tolist()
-        if not all(map(math.isfinite, values)):
-            raise ValueError("coefficients must be finite")
-        return cls(_from_list(list(map(Fraction, values))))
+    def from_list(cls, values: list[Fraction]) -> Polynomial:
+        """Make a polynomial from exact coefficients of 1, x, y, z, x², xy, xz, y², yz, z², and so on."""
+        rows = monomials(order_from_count(len(values))).tolist()
+        return cls({tuple(row): value for row, value in zip(rows, values) if value})
 
     @property
     def degree(self) -> int:
@@ -127,28 +125,9 @@ class Polynomial:
 
 
 def parse_polynomial(text: str) -> Polynomial:
-    """Parse a polynomial that a person typed.
+    """Parse a polynomial that a person typed: an expression such as ``1000 + 20*z``, or coefficients as of `from_list`.
 
-    Parameters
-    ----------
-    text : str
-        An expression such as ``1000 + 20*z``, or a list of coefficients (``1000, 0, 0, 20``) in the order of
-        `Polynomial.from_coefficients`.
-
-    Returns
-    -------
-    Polynomial
-
-    Raises
-    ------
-    MeasureError
-        If the text is no polynomial; the finding names the offending part.
-
-    Examples
-    --------
-    >>> from body_moments.core.density import parse_polynomial
-    >>> parse_polynomial("1000 + 20*z**2").coefficients()[[0, 9]].tolist()
-    [1000.0, 20.0]
+    MeasureError if the text is no polynomial; the finding names the offending part.
     """
     text = text.strip()
     if not text:
@@ -167,15 +146,10 @@ def parse_polynomial(text: str) -> Polynomial:
             values = [_constant(_terms(item, text), item, text) for item in tree.elts]
             if order_from_count(len(values)) > MAX_DEGREE:
                 raise MeasureError(POLYNOMIAL_DEGREE, part=_source_text(tree, text), limit=MAX_DEGREE)
-            return Polynomial(_from_list(values))
+            return Polynomial.from_list(values)
         return Polynomial(_terms(tree, text))
     except RecursionError as error:
         raise MeasureError(POLYNOMIAL_TOO_LONG, limit=MAX_LENGTH) from error
-
-
-def _from_list(values: list[Fraction]) -> dict[Exponents, Fraction]:
-    rows = monomials(order_from_count(len(values))).tolist()
-    return {tuple(row): value for row, value in zip(rows, values) if value}
 
 
 def _terms(node: ast.expr, text: str) -> dict[Exponents, Fraction]:

@@ -28,7 +28,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
-from ..numerics.arguments import check_type, float_array, number_array
+from ..numerics.arguments import float_array, number_array
 from ..verdict.finding import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_tables import SplineAxis
@@ -46,49 +46,16 @@ def density_moments(
     order: int = 3,
     value: Callable[[NDArray], NDArray] | None = None,
 ) -> Moments:
-    """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of the knots.
+    """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of three axes' knots.
 
-    They are about the middle of the knots; if the mass is far from it, about the knot nearest to its center.
+    They are about the middle of the knots; if the mass is far from it, about the knot nearest to its center (Soldea,
+    Elber and Rivlin, sections 4 and 5).
 
-    Parameters
-    ----------
-    coefficients : (nx, ny, nz) array, or callable
-        Of any real type, a memory map if larger than memory. Or a function that yields blocks, (offset, array) each,
-        none twice, all else zero: the grid need not be dense.
-    axes : sequence of three SplineAxis
-        The spline spaces of u, v, w.
-    order : int
-    value : callable, optional
-        Converts a block's numbers to coefficients.
-
-    Returns
-    -------
-    Moments
-        Of mass.
-
-    Raises
-    ------
-    ValueError
-        If the shapes differ.
-    MeasureError
-        If a coefficient is not finite.
-
-    Notes
-    -----
-    Soldea, Elber and Rivlin, sections 4 and 5.
-
-    Examples
-    --------
-    >>> from body_moments.core.density import SplineAxis, density_moments
-    >>> mass = density_moments(np.full((2, 3, 4), 5.0), [SplineAxis.uniform(count) for count in (2, 3, 4)])
-    >>> round(mass.total, 9), np.round(mass.center, 9).tolist()
-    (120.0, [0.5, 1.0, 1.5])
+    coefficients: (nx, ny, nz) of any real type, a memory map if larger than memory. Or a function that yields blocks,
+    (offset, array) each, none twice, all else zero: the grid need not be dense. value: converts a block's numbers to
+    coefficients. ValueError if the shapes differ, MeasureError if a coefficient is not finite.
     """
     axes = tuple(axes)
-    for axis in axes:
-        check_type("axes", axis, SplineAxis)
-    if len(axes) != 3:
-        raise ValueError("axes not three")
     if not callable(coefficients):
         coefficients = number_array("coefficients", coefficients, *(axis.count for axis in axes))
     about = np.array([axis.center for axis in axes])
@@ -120,7 +87,7 @@ def grid_moments(
     Parameters
     ----------
     samples : (nx, ny, nz) array, or callable
-        As for `density_moments`.
+        Of any real type, a memory map if larger than memory; or a function that yields blocks, (offset, array) each.
     shape : sequence of three int
         Shape of the grid, also if `samples` yields blocks.
     matrix : (4, 4) array_like

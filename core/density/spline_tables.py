@@ -26,25 +26,10 @@ MAX_ORDER = 16  # Splines of higher order are refused: far above any use.
 
 @dataclass(frozen=True, eq=False)
 class SplineAxis:
-    """The spline space of one direction of a trivariate spline.
+    """The spline space of one direction of a trivariate spline, by (n + order,) ascending knots.
 
-    Parameters
-    ----------
-    knots : (n + k,) array
-        Ascending.
-    order : int
-        k, the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic.
-
-    Raises
-    ------
-    ValueError
-        If the knots or the order make no such space.
-
-    Examples
-    --------
-    >>> from body_moments.core.density import SplineAxis
-    >>> SplineAxis.uniform(3).knots.tolist()
-    [-0.5, 0.5, 1.5, 2.5]
+    order: the degree plus one: 1 voxels, 2 linear, 4 the paper's cubic. ValueError if the knots or the order make no
+    such space.
     """
 
     knots: NDArray[np.float64]

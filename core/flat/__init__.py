@@ -6,9 +6,7 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    Plane="section",
     Section="section",
-    area_moments="polygon",
     directed_edges="polygon",
     fit_plane="section",
     measure_section="section",

@@ -51,35 +51,10 @@ class OutlineDefects:
 
 
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
-    """Return ∫ x^p y^q dA of a region for all p + q ≤ order, with error bounds.
+    """Return ∫ x^p y^q dA of the region left of (m, 2) directed edges for all p + q ≤ order, with error bounds.
 
-    They are about the middle of the bounding box of the used points, unless `about` says otherwise.
-
-    Parameters
-    ----------
-    points : (n, 2) array_like
-    edges : (m, 2) array_like of int
-        Directed; the inside lies to the left of each.
-    order : int
-    about : (2,) array_like, optional
-        The reference point.
-
-    Returns
-    -------
-    SimplexMoments
-
-    Raises
-    ------
-    MeasureError
-        If the edges do not close.
-
-    Examples
-    --------
-    >>> from body_moments.core.flat import area_moments
-    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    >>> moments = area_moments(square, [[0, 1], [1, 2], [2, 3], [3, 0]], 2, about=(0, 0))
-    >>> round(moments[0, 0], 9), round(moments[2, 0] * 3, 9)
-    (1.0, 1.0)
+    They are about the middle of the bounding box of the used points, unless `about` says otherwise. MeasureError if the
+    edges do not close.
     """
     points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]

@@ -40,21 +40,8 @@ MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane t
 class Plane:
     """The plane of a section.
 
-    Attributes
-    ----------
-    origin : (3,) array
-    axes : (3, 3) array
-        Columns x, y and the normal, right-handed.
-    out_of_plane : float
-        How far the points are off it.
-    x_axis_name : str
-        The preferred axis that x is nearest to: "X" or "Y".
-
-    Examples
-    --------
-    >>> from body_moments.core.flat import Plane
-    >>> Plane(np.zeros(3), np.eye(3), 0.0, "X").project(np.array([[1.0, 2.0, 3.0]])).tolist()
-    [[1.0, 2.0]]
+    `axes`: (3, 3) columns x, y and the normal, right-handed. `out_of_plane`: how far the points are off it.
+    `x_axis_name`: the preferred axis that x is nearest to, "X" or "Y".
     """
 
     origin: NDArray[np.float64]
@@ -89,7 +76,8 @@ class Section:
 
     Examples
     --------
-    >>> from body_moments.core.flat import Plane, directed_edges, measure_section
+    >>> from body_moments.core.flat import directed_edges, measure_section
+    >>> from body_moments.core.flat.section import Plane
     >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
     >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
     >>> np.round(section.moduli * 6, 9).tolist(), round(section.polar * 6, 9)
@@ -300,7 +288,8 @@ def measure_section(
 
     Examples
     --------
-    >>> from body_moments.core.flat import Plane, directed_edges, measure_section
+    >>> from body_moments.core.flat import directed_edges, measure_section
+    >>> from body_moments.core.flat.section import Plane
     >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
     >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
     >>> round(section.area, 9), section.center.tolist(), np.round(section.second * 12, 9).tolist()

@@ -7,7 +7,6 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     FrequencyGrid="wave_vectors",
-    Spectrum="spectrum",
     polygon_transform="polygon",
     solid_transform="transform",
     surface_transform="transform",

@@ -19,29 +19,12 @@ EXACT, APPROXIMATE = "exact", "approximate"
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """∫ exp(-i q·x) at wave vectors q.
+    """∫ exp(-i q·x) at wave vectors q, (M, 3) or (M, 2) of a polygon, in rad per unit of length; spectra of bodies add.
 
-    Spectra of bodies add (`+`).
-
-    Parameters
-    ----------
-    q : (M, 3) array
-        Rad per unit of length; (M, 2) of a polygon.
-    values : (M,) complex array
-        unit³ of a body, unit² of a surface or a polygon.
-    error : (M,) array
-        Errors of the values: for an "exact" spectrum a bound of the rounding, for an "approximate" one an estimate.
-    input_error : float
-        A bound of the change that storing coordinates as float32 may have made, whatever q.
-    method : str
-        "exact" or "approximate".
-
-    Examples
-    --------
-    >>> from body_moments.core.fourier import Spectrum
-    >>> spectrum = Spectrum(np.zeros((1, 3)), np.array([2.0 + 0.0j]), np.zeros(1))
-    >>> (spectrum + spectrum).scale(0.5).values.tolist()
-    [(2+0j)]
+    `values`: (M,), unit³ of a body, unit² of a surface or a polygon.
+    `error`: (M,) of the values: for an "exact" spectrum a bound of the rounding, for an "approximate" one an estimate.
+    `input_error`: a bound of the change that storing coordinates as float32 may have made, whatever q.
+    `method`: "exact" or "approximate".
     """
 
     q: NDArray[np.float64]

@@ -7,8 +7,6 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     MassProperties="mass_properties",
-    PrincipalFrame="principal_frames",
-    Reference="reference",
     combine="mass_properties",
     pose_matrix="principal_frames",
     principal_frame="principal_frames",

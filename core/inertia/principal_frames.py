@@ -57,31 +57,13 @@ FREE, FREE_BY_SHAPE = (
 
 @dataclass(frozen=True, eq=False)
 class PrincipalFrame:
-    """Principal moments and axes of one body.
+    """Principal moments and axes of one body; of a stack of bodies all have a leading axis.
 
-    Of a stack of bodies all have a leading axis.
-
-    Attributes
-    ----------
-    moments : (3,) array
-        Principal moments of inertia, ascending.
-    axes : (3, 3) array
-        The axes as columns, determinant 1. Axis 1 is the long one.
-    symmetry : str
-        "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
-    is_unique : bool
-        True if the body alone fixes the frame.
-    finding : Finding or None
-        The choice that was made if it does not.
-    undetermined_axes : tuple of int
-        The axes without a fixed direction, as far as the moments show.
-
-    Examples
-    --------
-    >>> from body_moments.core.inertia import PrincipalFrame
-    >>> frame = PrincipalFrame(np.array([1.0, 2.0, 2.5]), np.eye(3), "asymmetric", True, None)
-    >>> frame.rotate(np.diag([-1.0, -1.0, 1.0])).axes.diagonal().tolist()
-    [-1.0, -1.0, 1.0]
+    `moments`: (3,) principal moments of inertia, ascending.
+    `axes`: (3, 3) columns, determinant 1; axis 1 is the long one.
+    `symmetry`: "asymmetric", "prolate" (moments 2 and 3 equal), "oblate" (1 and 2 equal) or "isotropic".
+    `is_unique`: True if the body alone fixes the frame; else `finding` has the choice that was made.
+    `undetermined_axes`: the axes without a fixed direction, as far as the moments show.
     """
 
     moments: NDArray[np.float64]

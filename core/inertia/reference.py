@@ -26,21 +26,7 @@ MIN_AXIS_RATIO = 1e-6  # relative to the points' coordinates: nearer to each oth
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A frame that inertia is referred to.
-
-    Parameters
-    ----------
-    origin : (3,) array
-        The point.
-    axes : (3, 3) array
-        A rotation with the axes as columns, the coordinate axes by default.
-
-    Examples
-    --------
-    >>> from body_moments.core.inertia import Reference
-    >>> Reference(np.zeros(3)).axes.tolist()
-    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
-    """
+    """A frame that inertia is referred to: an origin, and axes as columns of a rotation, or the coordinate axes."""
 
     origin: NDArray[np.float64]
     axes: NDArray[np.float64] = field(default_factory=IDENTITY_3.copy)

@@ -30,10 +30,11 @@ SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
 FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # and of a flat shape, of its plane in the world
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break, so none matches.
-_NUMBER_ROWS = re.compile(r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]")
+# Patterns are compiled at their first use: registration reads the constants of this module alone.
+_NUMBER_ROWS = r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]"
 
 # Beginnings of formulas, as OWASP lists them, or an apostrophe that does not stand for one.
-_FORMULA = re.compile(r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]")
+_FORMULA = r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]"
 
 
 def plain(value: Any) -> Any:
@@ -95,7 +96,7 @@ def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     waiting, several = "", False
     for number, entry in enumerate(documents):
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
-        text = _NUMBER_ROWS.sub(lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text)
+        text = re.sub(_NUMBER_ROWS, lambda match: "[" + re.sub(r"\s+", " ", match[1]) + "]", text)
         if number:
             yield ("[\n" if number == 1 else "") + _indented(waiting) + ",\n"
         waiting = text
@@ -239,7 +240,7 @@ def _cell(value: Any) -> Any:
         return "true" if value else "false"
     if isinstance(value, list):
         value = " | ".join(map(str, value))
-    if isinstance(value, str) and _FORMULA.match(value):
+    if isinstance(value, str) and re.match(_FORMULA, value):
         return "'" + value
     return value
 

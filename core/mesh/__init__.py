@@ -6,7 +6,6 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    ConvexHull="hulls",
     Surface="surface",
     convex_hull="hulls",
 )

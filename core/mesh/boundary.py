@@ -3,10 +3,9 @@
 """A test, piece by piece, that faces close: no edges are sorted, nor kept.
 
 Every place has a keyed 64-bit hash of its coordinates, and every side of a face one of its two ends, signed by its
-direction. Sides that run along each other in opposite directions cancel. So the sum over all sides, modulo 2^64, is
-zero if every edge is used as often one way as the other, and otherwise by a chance below 2^-50, whatever the faces: the
-keys are drawn anew by each process, so that no file can be made to pass for closed. (A sum of normals is zero for many
-surfaces that are open.)
+direction. Sides that run along each other in opposite directions cancel: the sum over all sides, modulo 2^64, is zero
+if every edge is used as often one way as the other, and otherwise by a chance below 2^-50, whatever the faces: the keys
+are drawn anew by each process. (A sum of normals is zero for many surfaces that are open.)
 """
 
 from __future__ import annotations

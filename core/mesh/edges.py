@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Connections of faces: edges, the cheap proof of closedness, connected parts, consistent orientation.
 
-A surface bounds a body exactly when every edge is used as often one way as the other: then its boundary is zero as a
-chain, and the volume does not depend on a reference point. If a mesh names the edge at each of its corners, one scatter
-proves the common case (each edge once each way) without sorting anything: the corners fill as many slots as there are
-corners, two for each edge, one for the side that runs to a higher vertex and one for that to a lower.
+A surface bounds a body exactly when every edge is used as often one way as the other. If a mesh names the edge at each
+of its corners, one scatter proves the common case (each edge once each way) without sorting anything: the corners fill
+as many slots as there are corners, one for each direction of an edge.
 
 Orientation is a question of connected parts on the double cover: each face becomes two nodes, one for each orientation;
 a part is orientable if its two covers stay apart.

@@ -33,27 +33,10 @@ NEXT = np.array([1, 2, 0])
 class ConvexHull:
     """A closed convex surface of triangles; for points in one plane, both sides of their polygon.
 
-    Attributes
-    ----------
-    points : (h, 3) array
-        The points at its corners, as they were given.
-    indices : (h,) integer array
-        Which of the given points they are.
-    triangles : (m, 3) integer array
-        Rows of `points`, outward faces counter-clockwise.
-    neighbors : (m, 3) integer array
-        The triangle across each side: from corner 0 to 1, from 1 to 2, from 2 to 0.
-    is_flat : bool
-        True if all points are in one plane.
-    gap : float
-        Bound of the distance of points outside: above the tolerance if the limit of corners was reached.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import convex_hull
-    >>> hull = convex_hull([[x, y, z] for x in (0.0, 0.5, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
-    >>> len(hull.points), len(hull.triangles), hull.is_flat
-    (8, 12, False)
+    points, indices: (h, 3) corners as given, and (h,) which of the given points they are. triangles: (m, 3) rows of
+    `points`, outward counter-clockwise. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to
+    2, from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distance of points outside: above
+    the tolerance if the limit of corners was reached.
     """
 
     points: NDArray[np.float64]

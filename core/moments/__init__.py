@@ -9,5 +9,4 @@ __getattr__, __dir__, __all__ = lazy_names(
     Measure="moments",
     Moments="moments",
     monomials="exponents",
-    normalize="normalized",
 )

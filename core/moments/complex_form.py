@@ -4,10 +4,9 @@
 
     c_pq = ∫ (x + iy)^p (x - iy)^q dA,    c_qp = conj(c_pq).
 
-Turned by θ a shape has c_pq exp(i(p-q)θ), and its mirror image has conj(c_pq). So products in which the p - q add up
-to zero are invariants, and a mirror image has their conjugates: imaginary parts distinguish hands. Flusser's basis
-(Pattern Recognition 33, 2000) is c_pq c_12^(p-q), from which all others follow if c_12 is not zero; Hu's seven
-(IRE Transactions on Information Theory 8, 1962) are |c_20|², |c_30|² and such, to third order.
+Turned by θ a shape has c_pq exp(i(p-q)θ), and its mirror image has conj(c_pq). So products in which the p - q add up to
+zero are invariants, with imaginary parts that distinguish hands: Flusser's basis (Pattern Recognition 33, 2000) c_pq
+c_12^(p-q), complete if c_12 is not zero, and Hu's seven (IRE Transactions on Information Theory 8, 1962).
 """
 
 from __future__ import annotations

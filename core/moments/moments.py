@@ -3,11 +3,9 @@
 """Raw moments about a stated point: the one thing that every body becomes.
 
 raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
-and they map linearly under an affine map, so a sum of objects is a sum and an instance is a map. Two bounds go with
-every number and add and map as it does: `rounding_error`, for rounding (or a stated truncation), and `input_error`, for
-storing coordinates as float32.
-
-Affine maps are in `affine_maps`, sums over many images of one body are in `images`.
+and they map linearly under an affine map (`affine_maps`), so a sum of objects is a sum and an instance is a map
+(`images`). Two bounds go with every number and add and map as it does: `rounding_error`, for rounding (or a stated
+truncation), and `input_error`, for storing coordinates as float32.
 """
 
 from __future__ import annotations

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..numerics.arguments import check_type
 from ..verdict.finding import MeasureError
 from .affine_maps import apply_translation
 from .exponents import monomials
@@ -15,39 +14,13 @@ from .moments import Measure, Moments, U
 
 
 def normalize(moments: Moments, by: str = "size") -> Moments:
-    """Return the central moments without unit: independent of place and size of the body.
+    """Return the central moments without unit, about (0, 0, 0): independent of place and size of the body.
 
-    Parameters
-    ----------
-    moments : Moments
-        To first order at least, to second for "gyration".
-    by : str
-        "size": μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas, for degree n, as if the body were scaled to a
-        volume, or area, of 1. "gyration": μ / (m R^n) with R² = ∫ r² dm / m, as if the body were scaled to a radius of
-        gyration and a mass of 1.
-
-    Returns
-    -------
-    Moments
-        About (0, 0, 0). The bounds hold for the body's true center.
-
-    Raises
-    ------
-    ValueError
-        If `by` is neither, or is "size" and the moments are neither of a volume nor of an area.
-    MeasureError
-        If there is too little to divide by.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments
-    >>> from body_moments.core.moments import normalize
-    >>> surface = Surface.from_triangles(5 * np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> volume, _ = polyhedron_moments(surface)
-    >>> round(normalize(volume)[2, 0, 0], 9)
-    0.123822272
+    by: "size" for μ / V^(1+n/3) of volumes and μ / A^(1+n/2) of areas, for degree n, as if the body were scaled to a
+    volume, or area, of 1; "gyration" for μ / (m R^n) with R² = ∫ r² dm / m, from second order on, as if it were scaled
+    to a radius of gyration and a mass of 1. The bounds hold for the body's true center. ValueError if `by` is neither
+    or does not fit, MeasureError if there is too little to divide by.
     """
-    check_type("moments", moments, Moments)
     if by not in ("size", "gyration"):
         raise ValueError("by not 'size', 'gyration': {!r}".format(by))
     dimension = {Measure.VOLUME: 3, Measure.AREA: 2}.get(moments.measure)

@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Arguments of public functions, converted to arrays or refused by name.
 
-Nested lists of numbers are as good as arrays. Another shape or content is a ValueError that names the parameter, the
-shape that it must have and the given one; an object of another class is a TypeError that names both classes.
-
-In a shape a letter stands for any length, and a leading `...` for any leading axes.
+Another shape or content is a ValueError that names the parameter, the shape that it must have and the given one; an
+object of another class is a TypeError. In a shape a letter stands for any length, a leading `...` for leading axes.
 """
 
 from __future__ import annotations

@@ -3,9 +3,8 @@
 """B-splines of one parameter: function spaces, their values and derivatives.
 
 A `SplineSpace` is the function space of a direction of Soldea, Elber and Rivlin (Exact and efficient computation of
-moments of free-form surface and trivariate based geometry, section 2): order and knots, without control points.
-Everything that can be computed before control points are known is a table over a space. The basis is evaluated by the
-triangular scheme of Cox and de Boor, for many parameters at once; derivatives are differences of lower orders.
+moments of free-form surface and trivariate based geometry, section 2): order and knots, without control points. The
+basis is evaluated by the triangular scheme of Cox and de Boor, for many parameters at once.
 """
 
 from __future__ import annotations

@@ -4,9 +4,8 @@
 
 They are found by hooking: every node takes its lowest neighbor as its parent if that is lower, which cannot make a
 cycle, paths are halved by pointer jumping, the trees are contracted and the rest is done again (after Shiloach and
-Vishkin, "An O(log n) parallel connectivity algorithm", J. Algorithms 3, 1982). A node that a round leaves alone has a
-lower neighbor after it: two rounds at least halve the trees that are not yet whole components. With any lower neighbor
-in place of the lowest, a star could take as many rounds as it has links.
+Vishkin, J. Algorithms 3, 1982). A node that a round leaves alone has a lower neighbor after it, so two rounds at least
+halve the trees; with any lower neighbor in place of the lowest, a star could take as many rounds as it has links.
 """
 
 from __future__ import annotations

@@ -8,8 +8,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     Curve="curve",
     Patch="patch",
-    TrackedSolid="tracked_solid",
-    blender_space="blender_knots",
     length_moments="curve_moments",
     measure_patches="solid",
 )

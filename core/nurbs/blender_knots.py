@@ -45,30 +45,7 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
 
 @lru_cache(maxsize=256)  # so that what is known of a space stays known from frame to frame
 def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> SplineSpace | None:
-    """Return the function space of one direction of a Blender spline.
-
-    Parameters
-    ----------
-    count, order : int
-        Control points, and the degree plus one.
-    cyclic, bezier, endpoint : bool
-        The spline's flags.
-
-    Returns
-    -------
-    SplineSpace or None
-        None if Blender shows nothing for these settings. Cached.
-
-    Notes
-    -----
-    Blender's own rule for knots; see the module.
-
-    Examples
-    --------
-    >>> from body_moments.core.nurbs import blender_space
-    >>> blender_space(4, 4, cyclic=False, bezier=False, endpoint=True).domain
-    (0.0, 1.0)
-    """
+    """Return the function space of one direction of a Blender spline, or None if Blender shows nothing for it."""
     if not is_valid(count, order, cyclic, bezier, endpoint):
         return None
     knots = blender_knots(count, order, cyclic, bezier, endpoint)

@@ -32,30 +32,10 @@ RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's e
 
 
 class TrackedSolid:
-    """The body that patches bound, measured again and again while their control points move.
+    """The body that patches bound, measured again and again while control points move; stored: as `measure_patches`.
 
-    Parameters
-    ----------
-    patches : sequence of Patch
-    stored : float
-        As for `measure_patches`.
-
-    Attributes
-    ----------
-    measure : PatchIntegrals
-        The current body, its volume with moments to order 3. After `update` its bounds are estimates, and the area
-        is an approximation.
-
-    Examples
-    --------
-    >>> from body_moments.core.nurbs import Patch, TrackedSolid
-    >>> from body_moments.core.numerics import clamped_space
-    >>> line, corners = clamped_space(2), np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
-    >>> around = np.stack([np.insert(corners, 2, z, axis=1) for z in (0.0, 1.0)], axis=1)
-    >>> patch = Patch((clamped_space(2, (0.25, 0.5, 0.75)), line), around)
-    >>> body = TrackedSolid([patch])
-    >>> body.update([patch.transform(np.diag([1.0, 1.0, 1.5, 1.0]))]), round(body.measure.volume.total, 9)
-    (True, 1.5)
+    `measure`: the current body, its volume with moments to order 3. After `update` its bounds are estimates, and the
+    area is an approximation.
     """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):

@@ -6,7 +6,6 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    SimplexMoments="n_dimensions",
     enclosed_moments="n_dimensions",
     facet_moments="n_dimensions",
     facets_of="simplices",

@@ -8,10 +8,8 @@ w and over the triangle itself, of doubled area A,
 
     ∫ x^p y^q z^r dV = w p! q! r! / (p+q+r+3)! S_pqr,    ∫ x^p y^q z^r dA = A p! q! r! / (p+q+r+2)! S_pqr.
 
-Their explicit sum for S has binomial(n+9, 9) terms up to order n; the recursion of `levels` takes the generating
-function factor by factor, some 14 operations for each moment and triangle. Coordinates are taken about a point of the
-body, and scaled by a power of two to at most about 1 if they are far from it, so that their 20th powers do not lose
-every digit or leave the range.
+The recursion of `any_order_kernel` replaces their explicit sum for S. Coordinates are taken about a point of the body,
+and scaled by a power of two to at most about 1 if they are far from it, so that high powers stay in range.
 """
 
 from __future__ import annotations

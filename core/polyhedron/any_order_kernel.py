@@ -11,10 +11,9 @@ with only one degree kept at a time. Two triangles that share the edge a-c share
 wanted of the last degree, and those of S_α = C_α + Σ_i c_i D_{α-e_i} + Σ_i b_i S_{α-e_i} need no D and no S.
 
 Rows are the monomials of one degree in the order of `monomials`, columns are faces. The rows that a level's sum takes
-from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, all on whole rows.
-Only one thread at a time can run Python between two calls of numpy, and waiting for it costs more than most calls take:
-hence calls that are few and long, over large blocks and all levels at once, with views that are made once. All sums are
-of positive terms if the coordinates are positive, so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
+from the degree below stand in runs, so that nothing is fetched or copied: 14 operations a moment, in few and long calls
+of numpy on views that are made once, as threads wait for Python between calls. All sums are of positive terms if the
+coordinates are positive, so a computed S_α is off by at most (6 n + 8) u S_α(|a|, |b|, |c|).
 """
 
 from __future__ import annotations

@@ -52,8 +52,7 @@ def polyhedron_moments(
     faces, signed otherwise. The moments of an open surface would depend on the reference point: it is refused unless
     `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error` bounds the
     rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of a closed
-    surface). Memory beside `body`: for each thread a block's scratch, some 13 MB at order 4, 30 MB at order 20 and 65
-    MB at order 30, and some 15 MB for the bounds; to third order less.
+    surface).
 
     Parameters
     ----------

@@ -7,11 +7,9 @@ Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the or
     ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,    S_α the coefficient of ξ^α in Π_i 1 / (1 - v_i·ξ),
 
 and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, for det and |α|+n-1 for |α|+n. Each
-factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), here a degree at a time over blocks of
-simplices. det = v_1·N, with N, the generalized cross product of the facet's edges, from minors, largest first.
-
-Bounds. Nothing but products and sums: each step's rounding is relative to the same expression in absolute values,
-which the recursion computes beside the value. So `rounding_error` is rigorous, and tight to the number of operations.
+factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices. det = v_1·N,
+with N, the generalized cross product of the facet's edges, from minors. As there are but products and sums, each step's
+rounding is relative to the same expression in absolute values, which is computed beside it: a rigorous bound.
 """
 
 from __future__ import annotations
@@ -42,22 +40,8 @@ UNDERFLOW = 2.0**-1000  # relative to a body of size 1: far above the loss of pr
 class SimplexMoments:
     """Moments in n dimensions to some order; `moments[p, q, …]` is one of them.
 
-    Attributes
-    ----------
-    raw : (K,) array
-        ∫ x^α about `about`, in the order of `multi_indices`.
-    about : (n,) array
-    order : int
-    rounding_error : (K,) array
-        Bounds of |raw - exact| for the coordinates and the point as given.
-
-    Examples
-    --------
-    >>> from body_moments.core.polyhedron import enclosed_moments
-    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
-    >>> moments = enclosed_moments(square, [[0, 1], [1, 2], [2, 3], [3, 0]], 2, about=(0, 0))
-    >>> round(moments[1, 1], 12), moments.bound((1, 1)) < 1e-14
-    (0.25, True)
+    raw: (K,) ∫ x^α about `about`, (n,), in the order of `multi_indices`. rounding_error: (K,) bounds of |raw - exact|
+    for the coordinates and the point as given.
     """
 
     raw: NDArray[np.float64]
@@ -152,11 +136,6 @@ def facet_moments(
     Returns
     -------
     SimplexMoments
-
-    Raises
-    ------
-    ValueError, MeasureError
-        As `enclosed_moments`.
 
     Examples
     --------

@@ -2,25 +2,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume and area moments of triangles and quads, to third order, with rigorous bounds of their errors.
 
-The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle
-a, b, c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is
-its mean over the triangle; over the triangle itself to half its doubled area times E[f]. To second order that is the
-formula of Sheynin and Tuzikov (2001), put so that triangles which share an edge share work (see `blocks`). In third
-order everything follows from lower ones about the middle of an edge but the third moments about that middle: for a
-triangle with edge e and f from the middle to the third corner
+The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle a, b,
+c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is its
+mean over the triangle; over the triangle itself to half its doubled area times E[f] (Sheynin and Tuzikov 2001, put so
+that triangles which share an edge share work). In third order everything follows from lower ones about the middle of an
+edge but the third moments about that middle: for a triangle with edge e and f from the middle to the third corner
 
-    E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120.
+    E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120,
 
-They are of the order of an edge cubed: large meshes leave them out, and add their bound to `rounding_error`; small
-ones, and large ones on request, take them along.
+of the order of an edge cubed: large meshes leave them out, unless asked, and add their bound to `rounding_error`.
 
-Rounding. Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the
-product of its edges, not to the body's size cubed; that keeps the bound small for fine meshes and far from the origin.
-With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at most
-9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|: as the product of a vertex with the normal, and as
-that of an edge with the product of the other edge and the vertex.
-
-Bodies of few triangles are for `third_order_small`.
+Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the product of
+its edges. With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at
+most 9 u reach·τ, where τ_x = |e_y e'_z| + |e_z e'_y| bounds |normal_x|. Bodies of few triangles are for
+`third_order_small`.
 """
 
 from __future__ import annotations

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A closed surface cut into closed pieces, one for each bone.
 
-The faces of a bone are bounded by the edges that they share with other bones' faces. If such cut edges meet, however
-many bones do, they belong to one cut; each is closed to one apex, the cut's own centroid. Each bone gets the cone on
-its side of every edge, so that every piece is closed, the cones of neighbors cancel, and the pieces add up to the
-whole: exactly, as chains of oriented triangles, and triple junctions are no exception.
+The faces of a bone are bounded by the edges that they share with other bones' faces. Cut edges that meet, whatever
+their bones, belong to one cut, which is closed to one apex, its centroid. Each bone gets the cone on its side of every
+edge, so that pieces are closed, the cones of neighbors cancel, and the pieces add up to the whole, exactly.
 """
 
 from __future__ import annotations

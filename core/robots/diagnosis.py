@@ -21,21 +21,18 @@ from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
 from .findings import (
     AUDIT_ANGLES,
-    AUDIT_AXES_TRANSPOSED,
     AUDIT_DENSITY,
     AUDIT_FRAME_NOT_MEANT,
-    AUDIT_FRAME_TRANSPOSED,
     AUDIT_INERTIA_ELSEWHERE,
     AUDIT_INERTIA_OF_UNIT,
     AUDIT_INERTIA_SHIFTED_TWICE,
-    AUDIT_LENGTH_UNIT,
-    AUDIT_MASS_AND_INERTIA_UNIT,
     AUDIT_MESH_UNIT,
     AUDIT_MIRRORED,
     AUDIT_NOT_UNIFORM,
     AUDIT_ORDER,
     AUDIT_QUATERNION_ORDER,
     AUDIT_SIGN,
+    AUDIT_TRANSPOSED,
     AUDIT_TURNED,
     AUDIT_UNIT,
 )
@@ -49,6 +46,7 @@ USUAL_DENSITIES = (100.0, 12_000.0)  # Typical range; a change that only the den
 AXES = np.array(list(permutations(range(3))))[1:]
 PRODUCT_NAMES = ("xy", "xz", "yz")
 CENTER, PRODUCTS = "center of mass", "products of inertia"  # Parts of an inertial, as the findings name them.
+LENGTHS = "lengths of the inertial, the inertia twice,"
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,13 +123,14 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
         if USUAL_DENSITIES[0] <= density * factor <= USUAL_DENSITIES[1]:
             mass, inertia = float(_times(stated.mass, factor)), _times(stated.inertia, factor)
             repaired = stated.along_link(inertia, mass=mass)
-            return Diagnosis(finding(AUDIT_MASS_AND_INERTIA_UNIT, density=density, factor=factor), repaired)
+            change = finding(AUDIT_UNIT, part="mass and inertia", factor=factor, density=density)
+            return Diagnosis(change, repaired)
     return Diagnosis(finding(AUDIT_DENSITY, density=density))
 
 
 def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference) -> Diagnosis:
     """Decide by the density if both the file's and the mesh's lengths may be wrong."""
-    if found.finding.code != AUDIT_LENGTH_UNIT:
+    if found.finding.values.get("part") != LENGTHS:
         return found
     factor, density = found.finding.values["factor"], stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
@@ -173,7 +172,7 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
         yield AUDIT_UNIT, {"part": CENTER, "factor": factor}, replace(stated, center=_times(center, factor))
     for factor in LENGTH_UNITS:
         whole = stated.along_link(_times(_times(inertia, factor), factor), center=_times(center, factor))
-        yield AUDIT_LENGTH_UNIT, {"factor": factor}, whole
+        yield AUDIT_UNIT, {"part": LENGTHS, "factor": factor}, whole
     for part, factor in (("mass", mass), ("density", density)):
         yield AUDIT_INERTIA_OF_UNIT, {"part": part, "factor": factor}, stated.along_link(inertia * factor)
 
@@ -204,7 +203,7 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
         w, x, y, z = stated.quaternion
         for order in ((z, w, x, y), (x, y, z, w)):
             yield AUDIT_QUATERNION_ORDER, {}, replace(stated, rotation=rotation_matrix(order))
-    yield AUDIT_FRAME_TRANSPOSED, {}, replace(stated, rotation=stated.rotation.T)
+    yield AUDIT_TRANSPOSED, {"part": "rotation of the inertial"}, replace(stated, rotation=stated.rotation.T)
     yield AUDIT_FRAME_NOT_MEANT, {}, replace(stated, rotation=np.eye(3))
 
 
@@ -265,4 +264,4 @@ def _transposed(stated: StatedInertial) -> Iterator[Change]:
         for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):
             rows = axes[:, order] * signs
             tensor = rows.T @ (moments[list(order)][:, None] * rows)
-            yield AUDIT_AXES_TRANSPOSED, {}, stated.along_link(tensor)
+            yield AUDIT_TRANSPOSED, {"part": "principal axes that make the tensor"}, stated.along_link(tensor)

@@ -4,10 +4,6 @@
 
 from ..verdict.finding import error, note, warning
 
-RESULT_FOREIGN_FILE = error("result_foreign_file", "{path} is not a result of body_moments and would be lost")
-USAGE_OVERWRITES_INPUT = error(
-    "usage_overwrites_input", "argument --{option}: {path} is a file that is read. Use another name"
-)
 ROBOT_LINKS_LEFT_OUT = warning(
     "robot_links_left_out",
     "{count} object without mass is no link: {links}.",
@@ -70,11 +66,9 @@ USD_INERTIA_TOO_SMALL = warning(
 XML_ENTITIES = error(
     "xml_entities", "The file declares a document type, with which entities could be declared. Remove it."
 )
-XML_INVALID = error("xml_invalid", "The file is not XML: {error}.")
-USDA_INVALID = error("usda_invalid", "The file is not text of USD (line {line}).")
+DESCRIPTION_INVALID = error("description_invalid", "The file is not {format}: line {line}, {error}.")
 USD_NOT_TEXT = error("usd_not_text", "Only the text form of USD is read. Convert the file to .usda with usdcat.")
 DESCRIPTION_UNKNOWN = error("description_unknown", "The file is no robot description. Its first element is {tag}.")
-DESCRIPTION_WITHOUT_LINKS = error("description_without_links", "The file has no links.")
 INCLUDE_UNREADABLE = error(
     "include_unreadable",
     "A file that it includes cannot be read: {name}. Name its folder with --root, or allow all with --allow-outside.",
@@ -84,12 +78,11 @@ DESCRIPTION_NUMBER = warning(
     "description_number", "Line {line}: <{element}> has “{text}” in the place of numbers. Correct it."
 )
 MESH_ON_NETWORK = warning("mesh_on_network", "A mesh is on a network, and was not loaded: {name}. Download it.")
-MESH_OUTSIDE = warning(
-    "mesh_outside",
-    "A mesh is outside of the folders that may be read: {name}. Name its folder with --root, or allow all with "
-    "--allow-outside.",
+MESH_MISSING = warning(
+    "mesh_missing",
+    "A mesh was not found in the folders that may be read: {name}. Name the folder of it, or of its package, with "
+    "--root, or allow all with --allow-outside.",
 )
-MESH_MISSING = warning("mesh_missing", "A mesh was not found: {name}. Name the folder of its package with --root.")
 MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
 INERTIAL_MISSING = warning(
     "inertial_missing", "No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."
@@ -127,14 +120,7 @@ AUDIT_UP_AXIS = warning(
     "Export the mesh with z up.",
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
-AUDIT_MASS_AND_INERTIA_UNIT = warning(
-    "audit_mass_and_inertia_unit", "The density is {density:.3g} kg/m³. Multiply mass and inertia by {factor:g}."
-)
 AUDIT_UNIT = warning("audit_unit", "Multiply the {part:word} by {factor:g}: it then agrees with the geometry.")
-AUDIT_LENGTH_UNIT = warning(
-    "audit_length_unit",
-    "Multiply the lengths of the inertial by {factor:g}, its inertia by the square: it then agrees with the geometry.",
-)
 AUDIT_MESH_UNIT = warning("audit_mesh_unit", "Scale the mesh by {factor:g}: the inertial then agrees with it.")
 AUDIT_INERTIA_OF_UNIT = warning(
     "audit_inertia_of_unit", "The inertia is that of {part:word} 1. Multiply it by the {part:word}, {factor:.6g}."
@@ -150,13 +136,11 @@ AUDIT_ANGLES = warning("audit_angles", "The angles of the {part:word} are in {un
 AUDIT_QUATERNION_ORDER = warning(
     "audit_quaternion_order", "The quaternion of the inertial is in the other order. Move w to its place."
 )
-AUDIT_FRAME_TRANSPOSED = warning(
-    "audit_frame_transposed", "The rotation of the inertial is the inverse of what it should be. Invert it."
-)
 AUDIT_FRAME_NOT_MEANT = warning(
     "audit_frame_not_meant",
     "The inertia is along the axes of the link, though the inertial is rotated. Remove the rotation.",
 )
+AUDIT_TRANSPOSED = warning("audit_transposed", "Rows taken for columns: {part:word}. Transpose it.")
 AUDIT_SIGN = warning(
     "audit_sign",
     "Wrong sign: {part:word}, {axes}. Change it; products of inertia in a tensor are negative integrals, -∫xy dm.",
@@ -164,7 +148,3 @@ AUDIT_SIGN = warning(
 AUDIT_MIRRORED = warning("audit_mirrored", "The inertial is that of the mirror image along {axis}. Mirror it.")
 AUDIT_ORDER = warning("audit_order", "Wrong order: {part:word}. Put them in the order {order}.")
 AUDIT_TURNED = warning("audit_turned", "The {part:word} is turned by 90 degrees about {axis}. Turn it back.")
-AUDIT_AXES_TRANSPOSED = warning(
-    "audit_axes_transposed",
-    "The principal axes were taken as rows for columns. Put the tensor together with their transpose.",
-)

@@ -11,7 +11,6 @@ FILE_UNRECOGNIZED = error("file_unrecognized", "This is no {format} file, or its
 FILE_DAMAGED = error("file_damaged", "The file “{file}” is damaged: {cause}. Obtain it again, or export it again.")
 DAMAGE_CUT_SHORT = error("damage_cut_short", "it ends within its {part:word}")
 DAMAGE_SIZE = error("damage_size", "it has {bytes} bytes for samples, and its sizes require {total}")
-DAMAGE_PACKED = error("damage_packed", "its compressed part cannot be decompressed ({error})")
 DAMAGE_INCOMPLETE = error("damage_incomplete", "it is not a complete {kind:word} ({error})")
 FILE_EXCEEDS_LIMIT = error(
     "file_exceeds_limit",
@@ -41,32 +40,18 @@ RAW_WITHOUT_LAYOUT = error(
 SCAN_IN_SEVERAL_FILES = error(
     "scan_in_several_files", "The samples are in another file or in several. Save them as one {suffix} file."
 )
-SCAN_DIMENSIONS = error("scan_dimensions", "The file has {dimensions} dimensions; a scan has 3. Save one volume of it.")
-SCAN_SIZE = error("scan_size", "The size of the scan is impossible: {samples:size}.")
+SCAN_SIZE = error("scan_size", "A scan has three possible sizes, not {samples:size}. Save one volume of it.")
 SCAN_SAMPLE_TYPE = error("scan_sample_type", "Samples of type {type:.40s} are not supported real numbers.")
 SCAN_OUT_OF_MEMORY = error("scan_out_of_memory", "The samples do not fit into memory. Decompress the file.")
-SCAN_PLACEMENT = error(
-    "scan_placement", "The header places all samples in one plane: a spacing or direction is zero or not finite."
-)
-SCAN_SCALING = error("scan_scaling", "The header scales the samples by numbers that are not finite.")
 SCAN_OWN_UNIT = warning(
     "scan_own_unit", "The file has its own unit; the unit scale applies only to the given spacing and origin."
 )
 SCAN_PLACEMENT_OVERRIDDEN = note("scan_placement_overridden", "Given values replace those of the header: {fields}.")
-SCAN_WITHOUT_SPACING = warning(
-    "scan_without_spacing", "The file has no spacing: 1 unit was assumed. Use Set Spacing, or --spacing."
-)
-SCAN_WITHOUT_UNIT = warning(
-    "scan_without_unit", "The file has no unit: 1 unit was taken as 1 m. Use Set Spacing, or --unit-scale."
-)
+SCAN_UNSTATED = warning("scan_unstated", "The file has no {part:word}: 1 was assumed. Use Set Spacing, or --{option}.")
 POSITIONS_COUNT = error(
     "positions_count",
-    "The positions along {axis} in “{file}” are not one row of {samples} numbers, but an array of {array}. Save one "
-    "position for each sample of the scan.",
-)
-POSITIONS_OF_ONE_SAMPLE = error(
-    "positions_of_one_sample",
-    "The scan has one sample along {axis}; a position does not tell how thick it is. Leave “{file}” out.",
+    "The positions along {axis} in “{file}” must be one row of numbers, {samples} as the scan has samples there, and "
+    "at least 2; the file has {array}. Save one for each sample, or leave it out.",
 )
 POSITIONS_NOT_ASCENDING = error(
     "positions_not_ascending",

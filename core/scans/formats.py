@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,13 +16,11 @@ from .findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
+    HEADER_FIELD,
     SCAN_OUT_OF_MEMORY,
     SCAN_OWN_UNIT,
-    SCAN_PLACEMENT,
     SCAN_PLACEMENT_OVERRIDDEN,
-    SCAN_SCALING,
-    SCAN_WITHOUT_SPACING,
-    SCAN_WITHOUT_UNIT,
+    SCAN_UNSTATED,
 )
 from .limits import DEFAULT_LIMITS, Limits
 from .nifti import read_nifti
@@ -82,11 +79,17 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     except MemoryError as error:
         raise FileError(SCAN_OUT_OF_MEMORY) from error
     limits.check(path, "samples", scan.samples.size)
-    if not np.isfinite(scan.matrix).all() or not abs(np.linalg.det(scan.matrix[:3, :3])) > 0.0:
-        raise FileError(SCAN_PLACEMENT)
-    if not (math.isfinite(scan.slope) and math.isfinite(scan.intercept)):
-        raise FileError(SCAN_SCALING)
+    rows, scaling = scan.matrix[:3], (scan.slope, scan.intercept)
+    if not np.isfinite(rows).all() or not abs(np.linalg.det(rows[:, :3])) > 0.0:
+        raise _field(path, "spacing or directions", "finite, and not in one plane", rows.ravel().tolist())
+    if not np.isfinite(scaling).all():
+        raise _field(path, "slope and intercept", "finite numbers", scaling)
     return scan
+
+
+def _field(path: Path, name: str, wanted: str, values: Sequence[float]) -> FileError:
+    text = " ".join(map("{:g}".format, values))
+    return FileError(HEADER_FIELD, format=scan_suffix(path), field=name, wanted=wanted, text=text)
 
 
 def sample_matrix(
@@ -132,7 +135,7 @@ def sample_matrix(
         fields = [name for name, value in (("spacing", spacing), ("origin", origin)) if value is not None]
         findings.append(finding(SCAN_PLACEMENT_OVERRIDDEN, fields=fields))
     if not scan.is_placed and spacing is None:
-        findings.append(finding(SCAN_WITHOUT_SPACING))
+        findings.append(finding(SCAN_UNSTATED, part="spacing", option="spacing"))
     elif scan.unit is None and unit_scale is None and spacing is None:
-        findings.append(finding(SCAN_WITHOUT_UNIT))
+        findings.append(finding(SCAN_UNSTATED, part="unit", option="unit-scale"))
     return matrix, tuple(findings)

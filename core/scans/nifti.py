@@ -18,7 +18,6 @@ from .findings import (
     DAMAGE_CUT_SHORT,
     FILE_UNRECOGNIZED,
     HEADER_FIELD,
-    SCAN_DIMENSIONS,
     SCAN_IN_SEVERAL_FILES,
     SCAN_SAMPLE_TYPE,
 )
@@ -47,7 +46,7 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
         raise FileError(SCAN_IN_SEVERAL_FILES, suffix=".nii")
     dim = struct.unpack_from(order + "8h", head, 40)
     if not 1 <= dim[0] <= 7:
-        raise FileError(SCAN_DIMENSIONS, dimensions=dim[0])
+        raise _field("dim", "1 to 7 dimensions", dim[0])
     shape = shape_of(dim[1 : dim[0] + 1])
     code, bits = struct.unpack_from(order + "2h", head, 70)
     if code not in TYPES:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
-from .findings import ARRAYS_LEFT_OUT, DAMAGE_INCOMPLETE, RAW_WITHOUT_LAYOUT, SCAN_DIMENSIONS, SCAN_SAMPLE_TYPE
+from .findings import ARRAYS_LEFT_OUT, DAMAGE_INCOMPLETE, RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 from .suffixes import SAMPLE_TYPES
@@ -46,7 +46,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
     with _archive(path, limits) as (archive, shapes):
         volumes = [name for name, shape in shapes.items() if len(shape) == 3]
         if not volumes:
-            raise FileError(SCAN_DIMENSIONS, dimensions=max(map(len, shapes.values()), default=0))
+            raise FileError(SCAN_SIZE, samples=next(map(list, shapes.values()), []))
         name = "density" if "density" in volumes else volumes[0]
         others = [volume for volume in volumes if volume != name]
         findings = (finding(ARRAYS_LEFT_OUT, array=name, arrays=others),) if others else ()

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError
-from .findings import NAMED_FILE_MISSING, POSITIONS_COUNT, POSITIONS_NOT_ASCENDING, POSITIONS_OF_ONE_SAMPLE
+from .findings import NAMED_FILE_MISSING, POSITIONS_COUNT, POSITIONS_NOT_ASCENDING
 from .numpy_files import map_array
 
 AXES = "xyz"
@@ -27,11 +27,9 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
     if not path.is_file():
         raise FileError(NAMED_FILE_MISSING, file=path.name, content=CONTENTS[axis])
     array = map_array(path)
-    if array.shape != (count,) or array.dtype.kind not in "iuf":
+    if array.shape != (count,) or count < 2 or array.dtype.kind not in "iuf":
         size = " x ".join(map(str, array.shape))
         raise FileError(POSITIONS_COUNT, **whose, samples=count, array="{} {}".format(size, array.dtype).strip())
-    if count < 2:
-        raise FileError(POSITIONS_OF_ONE_SAMPLE, **whose)
     row = np.array(array, np.float64)
     is_right = np.isfinite(row) & np.append(True, row[1:] > row[:-1])
     if not is_right.all():

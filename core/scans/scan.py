@@ -20,10 +20,9 @@ from numpy.typing import NDArray
 from ..verdict.finding import FileError, Finding, finding
 from .findings import (
     DAMAGE_CUT_SHORT,
-    DAMAGE_PACKED,
+    DAMAGE_INCOMPLETE,
     DAMAGE_SIZE,
     FILE_DAMAGED,
-    SCAN_DIMENSIONS,
     SCAN_SAMPLE_TYPE,
     SCAN_SIZE,
 )
@@ -73,7 +72,7 @@ def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
     sizes = tuple(int(size) for size in sizes)
     dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
     if dimensions != 3:
-        raise FileError(SCAN_DIMENSIONS, dimensions=dimensions)
+        raise FileError(SCAN_SIZE, samples=list(sizes))
     x, y, z = sizes[:3]
     if min(x, y, z) < 1 or max(x, y, z) > 1 << 40 or x * y * z > 1 << 48:
         raise FileError(SCAN_SIZE, samples=[x, y, z])
@@ -84,9 +83,7 @@ def real_samples(array: NDArray) -> NDArray:
     """Return the array if it can be a scan of densities, else raise FileError."""
     if array.dtype.kind not in "biuf":
         raise FileError(SCAN_SAMPLE_TYPE, type=str(array.dtype))
-    if array.ndim != 3:
-        raise FileError(SCAN_DIMENSIONS, dimensions=array.ndim)
-    if not array.size:
+    if array.ndim != 3 or not array.size:
         raise FileError(SCAN_SIZE, samples=list(array.shape))
     return array
 
@@ -148,7 +145,8 @@ def gzip_blocks(path: Path, start: int) -> Iterator[bytes]:
                 try:
                     block = member.decompress(waiting, BLOCK)
                 except zlib.error as error:
-                    raise damaged(path, DAMAGE_PACKED, error=str(error).rpartition(": ")[2]) from error
+                    reason = str(error).rpartition(": ")[2]
+                    raise damaged(path, DAMAGE_INCOMPLETE, kind="gzip stream", error=reason) from error
                 if not (block or waiting or member.eof):
                     raise damaged(path, DAMAGE_CUT_SHORT, part="compressed part")
                 yield block

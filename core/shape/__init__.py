@@ -6,7 +6,6 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    Signature="signatures",
     rank="library",
     read_library="library",
     signature="signatures",

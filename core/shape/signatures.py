@@ -59,24 +59,10 @@ CLEAR_CHIRALITY_SHARE = 0.2
 class Signature:
     """Numbers that recognize a shape, however it is moved, rotated, scaled or cut into faces.
 
-    Attributes
-    ----------
-    size : float
-        The radius of gyration, in the body's unit.
-    invariants, zernike, fourier, chirality : arrays
-        See the module; `fourier` is empty if the moments are of a surface.
-    error : float
-        An estimate of the rounding of the descriptors.
-    dimension : int
-        3, or 2 of a flat shape (`flat_signature`): no body is like one.
-
-    Examples
-    --------
-    >>> from body_moments.core import Surface, polyhedron_moments, signature
-    >>> surface = Surface.from_triangles(np.eye(4, 3, -1), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> body = signature(polyhedron_moments(surface, 20)[0].about_center(), radius=0.9)
-    >>> round(body.size, 6), len(body.zernike) > 0
-    (0.33541, True)
+    `size`: the radius of gyration, in the body's unit.
+    `invariants`, `zernike`, `fourier`, `chirality`: see the module; `fourier` is empty for moments of a surface.
+    `error`: an estimate of the rounding of the descriptors.
+    `dimension`: 3, or 2 of a flat shape (`flat_signature`): no body is like one.
     """
 
     size: float

@@ -4,9 +4,8 @@
 
 A boundary side is joined at each of its vertices to the side that leaves in the most similar direction, so that an edge
 and the shorter edges that run back along it (a T-junction) make a loop of their own, which has no area: there the
-surface closes in space although it does not in the mesh. The other loops are capped by the cone to their centroid. As a
-signed chain, a cone to a point in the loop's plane is the flat cap, whatever the loop's shape, so flat loops need no
-triangulation.
+surface closes in space although it does not in the mesh. The other loops are capped by the cone to their centroid: as a
+signed chain, it is the flat cap of a flat loop of any shape, without a triangulation.
 """
 
 from __future__ import annotations

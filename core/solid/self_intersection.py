@@ -3,13 +3,12 @@
 """Self-intersection of closed surfaces, and the volume that it counts twice or as negative.
 
 If all cones of a surface from some point have the same sign, and their sum surrounds that point once, it is the radial
-image of a sphere: it cannot meet itself. So it is with every convex body, about its center of mass. The sums over the
-faces show it of most bodies on the way; for the others it is a pass that ends with the first face that looks away.
+image of a sphere, and cannot meet itself: every convex body, about its center of mass. The sums over the faces show it
+of most bodies on the way; for the others it is a pass that ends with the first face that looks away.
 
 Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
-faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. A region is
-found if a line meets it, which holds for every region as wide as their distance; the number of lines follows from that
-of the faces, so that looking takes a part of the time that measuring does.
+faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. Every region
+as wide as these distances is found, and their number follows from that of the faces, so that looking costs little.
 """
 
 from __future__ import annotations

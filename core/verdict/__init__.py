@@ -13,6 +13,4 @@ __getattr__, __dir__, __all__ = lazy_names(
     MeasureError="finding",
     Method="method",
     Severity="finding",
-    Source="method",
-    Verdict="method",
 )

@@ -9,14 +9,7 @@ from enum import StrEnum
 
 
 class Verdict(StrEnum):
-    """The kind of body that was measured. The first four are of solids, the least trustworthy first.
-
-    Examples
-    --------
-    >>> from body_moments.core.verdict import Verdict
-    >>> Verdict.CAPPED.is_closed, Verdict.OPEN.is_closed
-    (True, False)
-    """
+    """The kind of body that was measured. The first four are of solids, the least trustworthy first."""
 
     OPEN = "open"  # bounds no certain volume: not to be closed, flat, or mostly within itself
     CAPPED = "capped"  # closed by caps over its holes
@@ -35,14 +28,7 @@ class Verdict(StrEnum):
 
 
 class Source(StrEnum):
-    """The word before the verdict if something other than polygons was measured.
-
-    Examples
-    --------
-    >>> from body_moments.core.verdict import Source
-    >>> [str(source) for source in Source]
-    ['', 'NURBS', 'grid']
-    """
+    """The word before the verdict if something other than polygons was measured."""
 
     POLYGONS = ""
     NURBS = "NURBS"
@@ -60,7 +46,8 @@ class Method:
 
     Examples
     --------
-    >>> from body_moments.core.verdict import Method, Source, Verdict
+    >>> from body_moments.core.verdict import Method
+    >>> from body_moments.core.verdict.method import Source, Verdict
     >>> str(Method(Verdict.EXACT, Source.NURBS)), Method.parse("NURBS exact").source is Source.NURBS
     ('NURBS exact', True)
     """

@@ -6,7 +6,6 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    OffsetSolid="walls",
     offset_solid="walls",
     wall_moments="moments",
 )

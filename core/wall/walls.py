@@ -5,13 +5,12 @@
 With the directions d of its vertices (see `directions`), a triangle sweeps the prism x = p + s d, both linear on the
 triangle, with Jacobian J = Σ λ_k N(s)·d_k, with N(s) = (e + s f) × (e' + s f') the normal of the triangle moved by s,
 e, e' its edges and f, f' the differences of its directions. J x^α is a polynomial of degree |α| + 2 in s and |α| + 1 in
-the barycentric coordinates λ: six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate it exactly over the
-triangle, coefficient by coefficient. Neighboring prisms share the ruled surface over their edge, so that their sum is
-the wall, with no gap.
+the barycentric coordinates λ, which six nodes (Dunavant, Int. J. Numer. Methods Eng. 21, 1985) integrate exactly.
+Neighboring prisms share the ruled surface over their edge, so that their sum is the wall, with no gap.
 
-J is linear in λ, hence positive on a prism exactly if its three quadratics N(s)·d_k in s are: their first roots are
-the thickness at which the offset folds over. That is a local test: walls that run into each other far along the surface
-are looked for separately, one thickness at a time, and a volume that two share counts twice.
+J is linear in λ, hence positive on a prism exactly if its three quadratics N(s)·d_k in s are: their first roots are the
+thickness at which the offset folds over. Walls that run into each other far along the surface are looked for
+separately, one thickness at a time; a volume that two share counts twice.
 """
 
 from __future__ import annotations
@@ -52,39 +51,15 @@ WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 class OffsetSolid:
     """The solid that a surface sweeps as it moves along its directions by s, per unit of s, as polynomials in s.
 
-    Attributes
-    ----------
-    points, vectors, triangles : (n, 3), (n, 3) and (m, 3) arrays
-        The moving surface and its directions.
-    about : (3,) array
-        The point that the moments are about.
-    coefficients, rounding_error, input_error : (20, 6) arrays
-        Of s^0 to s^5 for each moment to third order: the coefficients, and bounds for positive and negative s of the
-        changes by rounding and by storing the points as float32.
-    swept_bound, swept_rounding : (4,) arrays
-        Of s^0 to s^3: bounds of the volume that a side, and the strip along the boundary, sweep if storing the points
-        as float32, or rounding, moves them; this bounds the changes as `input_error` does.
-    reach : (2, 3) array
-        Of the points from `about` and of the vectors, by axis.
-    outward, inward : float
-        Distance that the surface can move before a prism folds over, infinite if none does.
-    outward_at, inward_at : int
-        The triangles that fold first, -1 for none.
-    inexact_vertices : int
-        How many vertices have no direction that moves all their faces alike.
-    min_ratio, max_ratio : float
-        The thickness at those, divided by the thickness asked for.
-    degenerate_triangles : int
-        Triangles without a known normal, which are swept but ask for nothing.
-
-    Examples
-    --------
-    >>> from body_moments.core.mesh import Surface
-    >>> from body_moments.core.wall import OffsetSolid, offset_solid
-    >>> square = Surface.from_triangles(np.eye(4, 3, -1), [[0, 1, 2]])
-    >>> wall = offset_solid(square)
-    >>> isinstance(wall, OffsetSolid), round(wall.moments(0.0, 0.2).total, 9)
-    (True, 0.1)
+    points, vectors, triangles: (n, 3), (n, 3) and (m, 3), the moving surface and its directions. about: (3,) of the
+    moments. coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for each moment to third order, and bounds
+    for either sign of s of the changes by rounding and by storing the points as float32. swept_bound, swept_rounding:
+    (4,) of s^0 to s^3, bounds of the volume that a side, and the strip along the boundary, sweep if storing the points,
+    or rounding, moves them. reach: (2, 3) of the points from `about` and of the vectors, by axis. outward, inward: how
+    far the surface can move before a prism folds over, infinite if none does; outward_at, inward_at: the triangles that
+    fold first, or -1. inexact_vertices: vertices without a direction that moves all their faces alike; min_ratio,
+    max_ratio: the thickness there, divided by the thickness asked for. degenerate_triangles: swept, but without a known
+    normal.
     """
 
     points: NDArray[np.float64]

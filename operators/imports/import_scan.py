@@ -15,8 +15,7 @@ from ...blender import read, scene, settings
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.suffixes import SAMPLE_TYPES, SUFFIXES
-from ...core.streams.findings import FILE_UNREADABLE
-from ...core.verdict.finding import FileError, Finding, MeasureError, system_reason
+from ...core.verdict.finding import FileError, Finding, MeasureError
 from .. import selection
 from ..findings import FILE_EXISTS, FILE_NOT_WRITTEN
 
@@ -100,8 +99,6 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             return selection.refuse(self, "This Python has no openvdb module. Use Blender.")
         try:
             findings = self._import(context, module, path)
-        except OSError as error:
-            return selection.refuse(self, FileError(FILE_UNREADABLE, error=system_reason(error)).about(path.name))
         except MeasureError as error:
             return selection.refuse(self, error.about(path.name))
         reports.report(self, *findings)

@@ -11,9 +11,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...blender import scene, settings
 from ...blender.write import reports
-from ...command.findings import SURFACES_ROUNDED
-from ...core.streams.findings import FILE_UNREADABLE
-from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ...core.verdict.finding import Finding, MeasureError
 from .. import selection
 
 
@@ -73,17 +71,13 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
-        try:
-            found = scene.import_surfaces(path, settings.limits.scan_limits(), self.unit, context)
-        except OSError as error:
-            raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+        found = scene.import_surfaces(path, settings.limits.scan_limits(), self.unit, context)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",
         )
         done = reports.phrase(*texts, count=found.patches, order=found.order, file=path.name)
-        rounded = [finding(SURFACES_ROUNDED, share=found.moved)] if found.moved else []
-        return found.objects, [done, *rounded, *found.findings]
+        return found.objects, [done, *found.findings]
 
 
 def _select(context: Context, made: list[Object]) -> None:

@@ -14,11 +14,11 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
+from ... import core
 from ...blender import bodies, write
 from ...blender.read.visibility import measurable
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import reports
-from ...core import fourier
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import FileError, system_reason
 from .. import selection
@@ -161,7 +161,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         Without a given largest frequency, its step is π over the size.
         """
         largest = shortest_decimal(self.largest) or pi / size * (self.count // 2)
-        return fourier.FrequencyGrid(self.count, largest, self._dimension)
+        return core.fourier.FrequencyGrid(self.count, largest, self._dimension)
 
     def _finish(self, context: Context) -> set[str]:
         transform, findings = self._work.result()

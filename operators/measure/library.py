@@ -14,10 +14,9 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy.types import Context, Event, Operator
 
+from ... import command
 from ...blender.write import reports
-from ...command import supervisor
 from ...core import measurement
-from ...core.files.whole_file import whole_file
 from ...core.verdict.finding import Severity, system_reason
 from .. import selection
 from ..modal import ModalSteps
@@ -100,7 +99,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
             library = context.preferences.filepaths.asset_libraries[int(self.source.removeprefix("LIBRARY_"))]
             folder = library.path
         folder = os.path.abspath(bpy.path.abspath(folder))
-        count = sum(1 for _ in supervisor.expand([folder]))
+        count = sum(1 for _ in command.supervisor.expand([folder]))
         self._folder = Path(folder)
         words = [folder, "--format", "jsonl", *(["--thumbnails"] if self.thumbnails else [])]
         is_begun = (self._folder / JOURNAL).exists() and not (self._folder / RESULT).exists()
@@ -108,7 +107,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         if self.asset_metadata:
             words += ["--asset-metadata", "file" if self.overwrite else "copy"]
         blender = None if bpy.app.module else bpy.app.binary_path
-        self._steps = self._watch(supervisor.WholeRun(words, self._folder / RESULT, blender))
+        self._steps = self._watch(command.supervisor.WholeRun(words, self._folder / RESULT, blender))
         return count
 
     def _watch(self, run: WholeRun) -> Generator[float, None, None]:
@@ -125,12 +124,12 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         if self._exit_code not in (0, 1, 70) or not result.exists():
             text = "Measuring the library failed with exit code {code}. Use the command line to see why."
             return selection.refuse(self, text, code=self._exit_code)
-        with supervisor.Journal(result.with_name(JOURNAL)) as journal:
+        with command.supervisor.Journal(result.with_name(JOURNAL)) as journal:
             paths = list(journal.entries)
             failed = sum(entry.status != "ok" for entry in journal.entries.values())
             documents = _Documents(journal, paths)
-            with whole_file(self._folder / REPORT) as file:
-                file.writelines(piece.encode("utf-8", "backslashreplace") for piece in measurement.to_html(documents))
+            pages = measurement.to_html(documents)
+            selection.write_file(self._folder / REPORT, (page.encode("utf-8", "backslashreplace") for page in pages))
         counts = {"count": len(paths), "failed": failed, "file": str(self._folder / REPORT)}
         if failed:
             text = "Files measured: {count}, not or not fully: {failed}; report: {file}"

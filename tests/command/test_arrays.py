@@ -77,7 +77,7 @@ def test_given_mass_object_names_and_notes(tmp_path):
     code, document = run(tmp_path, tmp_path / "m.npz", "--density", "5", "--object", "m", "--object", "n")
     assert code == 1
     assert [error["name"] for error in document["errors"]] == ["n"]
-    assert {"given_density_ignored", "scan_without_spacing"} <= {*codes(document["objects"][0])}
+    assert {"given_density_ignored", "scan_unstated"} <= {*codes(document["objects"][0])}
 
 
 def damaged(file: str, code: str, **values) -> str:
@@ -96,7 +96,7 @@ def damaged(file: str, code: str, **values) -> str:
         (
             nrrd(box(), encoding="gzip")[:-1] + b"!",
             (),
-            damaged("a.nrrd", "damage_packed", error="incorrect length check"),
+            damaged("a.nrrd", "damage_incomplete", kind="gzip stream", error="incorrect length check"),
         ),
     ],
 )
@@ -173,7 +173,7 @@ def test_uneven_slices_are_measured_in_place(tmp_path):
 @pytest.mark.parametrize(
     "row, words",
     [
-        ([0, 1, 2, 3, 4], "are not one row of 6 numbers"),
+        ([0, 1, 2, 3, 4], "must be one row of numbers, 6"),
         ([0, 1, 2, 2, 4, 5], "Position 3 along z"),
         ([0, 1, 2, np.nan, 4, 5], "Position 3 along z"),
         (None, "“z.npy” is missing"),
@@ -210,7 +210,7 @@ def test_threshold_turns_array_into_a_body(tmp_path, order, spline):
     code, document = run(tmp_path, *words, "--density", "7")
     (entry,) = document["objects"]
     assert code == 0 and "threshold_measured" in codes(entry) and entry["method"] == "grid exact"
-    assert "density_from" not in entry and "scan_without_spacing" not in codes(entry)
+    assert "density_from" not in entry and "scan_unstated" not in codes(entry)
     assert close([entry["volume"], entry["area"]], [truth.volume.total, truth.area.total], rel=1e-9)
     assert close(entry["mass"], 7.0 * truth.volume.total, rel=1e-9)
     assert close(entry["center_of_mass"], truth.volume.center, rel=1e-9)
@@ -226,7 +226,7 @@ def test_threshold_turns_array_into_a_body(tmp_path, order, spline):
     assert entry["density_from"] == "samples"
     assert "density_defaulted" not in codes(entry)
     _, document = run(tmp_path, tmp_path / "b.npy", "--threshold", "0.5")
-    assert {"scan_without_spacing", "threshold_measured"} <= {*codes(document["objects"][0])}
+    assert {"scan_unstated", "threshold_measured"} <= {*codes(document["objects"][0])}
 
 
 def test_threshold_applies_to_scaled_header_values(tmp_path):

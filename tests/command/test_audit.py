@@ -50,7 +50,7 @@ def test_several_files_are_a_list_with_unreadable_ones(tmp_path):
     text, code = answer(good, bad)
     first, second = json.loads(text)
     assert (first["status"], second["status"], code) == ("ok", "error", 1)
-    assert second["errors"][0]["code"] == "xml_invalid" and second["links"] == []
+    assert second["errors"][0]["code"] == "description_invalid" and second["links"] == []
 
 
 def test_tables_and_pages_carry_nothing_out_of_the_file_as_code(tmp_path):

@@ -44,9 +44,9 @@ def log(**entry):
 setup = json.loads(sys.stdin.readline())
 places = {name: os.environ[name] for name in ("TMPDIR", "TEMP", "TMP", "BLENDER_USER_RESOURCES")}
 log(setup=setup, folder=places["TMPDIR"], places=places, is_there=os.path.isdir(places["TMPDIR"]))
-if "refuse" in (setup["options"]["object"] or ()):
+if "refuse" in setup["words"]:
     answer({"usage": "error: no\n"})
-if "slow" in (setup["options"]["object"] or ()):
+if "slow" in setup["words"]:
     time.sleep(0.5)
 say("a stray line\n")
 print("a stray word", flush=True)
@@ -102,7 +102,7 @@ def fake(tmp_path, monkeypatch):
     (tmp_path / "child.py").write_text(CHILD)
     log = tmp_path / "log"
     command = [sys.executable, "-S", "-E", str(tmp_path / "child.py"), str(log)]
-    monkeypatch.setattr(processes, "child_command", lambda blender: command)
+    monkeypatch.setattr(processes, "run_command", lambda *_: command)
 
     def logged(key):
         return [entry for entry in map(json.loads, log.read_text().splitlines()) if key in entry]
@@ -246,7 +246,7 @@ def test_a_run_that_is_interrupted_says_how_far_it_is(tmp_path, main, fake):
 
 
 def test_file_that_ended_a_child_waits_for_a_fresh_one(tmp_path, fake):
-    with Pool(fake.command, 2, {"options": {"object": ["slow"]}}, Limits(60.0), tmp_path / "work") as found:
+    with Pool(fake.command, 2, {"words": ["slow"]}, Limits(60.0), tmp_path / "work") as found:
         found.add(["crash", *("ok {}".format(number) for number in range(6))])
         outcomes = []
         while not found.is_done:

@@ -19,28 +19,21 @@ from body_moments.core import (
     signature,
     solid_transform,
 )
-from body_moments.core.density import (
-    SplineAxis,
-    density_moments,
-    threshold_body,
-)
+from body_moments.core.density import threshold_body
 from body_moments.core.flat import (
-    Plane,
-    area_moments,
     directed_edges,
     fit_plane,
     measure_section,
     region_moments,
 )
+from body_moments.core.flat.section import Plane
 from body_moments.core.fourier import polygon_transform, surface_transform
-from body_moments.core.inertia import Reference, combine
+from body_moments.core.inertia import combine
 from body_moments.core.mesh import convex_hull
-from body_moments.core.moments import normalize
 from body_moments.core.numerics import SplineSpace, clamped_space, quaternion
 from body_moments.core.nurbs import (
     Curve,
     Patch,
-    TrackedSolid,
     length_moments,
     measure_patches,
 )
@@ -67,7 +60,6 @@ CURVE_POINTS = np.array([[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]])
 CURVE = Curve(LINE, CURVE_POINTS)
 PATCH_POINTS = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
 PATCH = Patch((LINE, LINE), PATCH_POINTS)
-GRID_AXES = [SplineAxis.uniform(2)] * 3
 SAMPLES = np.arange(8.0).reshape(2, 2, 2)
 SHAPE = signature(CENTRAL, 2.0)
 Q = np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
@@ -91,13 +83,6 @@ CALLS = {
     "Moments.transform": (VOLUME.transform, {"matrix": MATRIX}),
     "Patch": (Patch, {"spaces": (LINE, LINE), "points": PATCH_POINTS, "weights": np.array([[1.0, 2.0], [3.0, 4.0]])}),
     "Patch.transform": (PATCH.transform, {"matrix": MATRIX}),
-    "Plane.project": (PLANE.project, {"points": POINTS}),
-    "PrincipalFrame.rotate": (PROPERTIES.principal.rotate, {"rotation": AXES}),
-    "Reference": (Reference, {"origin": ORIGIN, "axes": AXES}),
-    "Reference.refer": (Reference(ORIGIN).refer, {"properties": PROPERTIES}),
-    "Reference.through_points": (Reference.through_points, {"first": ORIGIN, "second": np.ones(3)}),
-    "SplineAxis": (SplineAxis, {"knots": np.arange(4.0), "order": 2}),
-    "SplineAxis.at_positions": (SplineAxis.at_positions, {"positions": np.arange(4.0)}),
     "SplineSpace": (SplineSpace, {"knots": np.arange(4.0), "order": 2, "count": 2}),
     "Surface": (
         Surface,
@@ -105,9 +90,7 @@ CALLS = {
     ),
     "Surface.from_triangles": (Surface.from_triangles, {"points": POINTS, "triangles": TRIANGLES}),
     "Surface.transform": (SURFACE.transform, {"linear": AXES, "offset": ORIGIN}),
-    "TrackedSolid": (lambda patches: TrackedSolid([patches]), {"patches": PATCH}),
     "area_gradient": (area_gradient, {"surface": SURFACE, "about": ORIGIN}),
-    "area_moments": (area_moments, {"points": SQUARE, "edges": EDGES, "order": 2, "about": ORIGIN[:2]}),
     "balance": (
         balance,
         {
@@ -120,7 +103,6 @@ CALLS = {
     ),
     "combine": (lambda bodies: combine([(bodies, 2.0)]), {"bodies": VOLUME}),
     "convex_hull": (convex_hull, {"points": POINTS}),
-    "density_moments": (density_moments, {"coefficients": SAMPLES, "axes": GRID_AXES}),
     "directed_edges": (lambda loops: directed_edges([loops]), {"loops": np.arange(4)}),
     "enclosed_moments": (
         enclosed_moments,
@@ -138,7 +120,6 @@ CALLS = {
     "measure_patches": (lambda patches: measure_patches([patches]), {"patches": PATCH}),
     "measure_section": (measure_section, {"plane": PLANE, "points": FLAT_POINTS, "edges": EDGES}),
     "measure_solid": (measure_solid, {"surface": SURFACE}),
-    "normalize": (normalize, {"moments": VOLUME}),
     "offset_solid": (offset_solid, {"surface": SURFACE}),
     "polygon_transform": (lambda loops, q: polygon_transform([loops], q), {"loops": SQUARE, "q": Q[:, :2]}),
     "polyhedron_moments": (polyhedron_moments, {"body": SURFACE, "about": ORIGIN}),

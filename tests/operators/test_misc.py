@@ -62,7 +62,7 @@ def test_empty_of_curve_is_at_its_center():
 
 
 @pytest.mark.parametrize("how", ["parent", "constraint", "driver"])
-def test_empty_followed_by_its_object_stays(how, reported):
+def test_follows_moved_by_its_object_stays(how, reported):
     obj = add(mesh_body())
     bpy.ops.object.body_moments_add_empty(parent=False)
     empty = next(one for one in bpy.data.objects if one.type == "EMPTY")
@@ -83,7 +83,7 @@ def test_empty_followed_by_its_object_stays(how, reported):
         bpy.context.view_layer.update()
         assert (place(obj) == before[0]).all() and (place(empty) == before[1]).all()
         assert empty.parent is None
-    assert reported.codes.count("empty_followed") == 2
+    assert reported.codes.count("follows_moved") == 2
 
 
 def test_the_cursor_goes_to_the_center_of_all_selected():

@@ -14,7 +14,7 @@ from ....core.measurement.body import Body
 from ....core.measurement.measurement import Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.scans import Scan, read_scan, sample_matrix
-from ....core.scans.findings import SCAN_WITHOUT_SPACING
+from ....core.scans.findings import SCAN_UNSTATED
 from ....core.scans.limits import DEFAULT_LIMITS, Limits
 from ....core.scans.positions import Positions, place_samples, read_all_positions
 from ....core.verdict.finding import Finding, ReadError, finding
@@ -85,7 +85,8 @@ def measure_array(
 
 def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
     """Return the findings with the positions from files: if all three axes have them, no spacing is missing."""
-    kept = [one for one in findings if len(files) < 3 or one.code != SCAN_WITHOUT_SPACING]
+    unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")
+    kept = [one for one in findings if len(files) < 3 or one != unspaced]
     return (*kept, finding(SAMPLES_POSITIONED, axes=sorted(files)))
 
 

@@ -10,16 +10,9 @@ import stat
 from pathlib import Path
 
 from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
-from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE
+from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...verdict.finding import FileError, system_reason
-from ..findings import (
-    DESCRIPTION_UNKNOWN,
-    DESCRIPTION_WITHOUT_LINKS,
-    INCLUDE_TWICE,
-    INCLUDE_UNREADABLE,
-    USD_NOT_TEXT,
-    XML_INVALID,
-)
+from ..findings import DESCRIPTION_INVALID, DESCRIPTION_UNKNOWN, INCLUDE_TWICE, INCLUDE_UNREADABLE, USD_NOT_TEXT
 from ..formats import AUDITED
 from ..stated import Description
 from .paths import Roots
@@ -42,7 +35,7 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
     if len(description.links) > MAX_LINKS:
         raise FileError(FILE_TOO_LARGE, limit=MAX_LINKS, content="links")
     if not description.links:
-        raise FileError(DESCRIPTION_WITHOUT_LINKS)
+        raise FileError(FILE_WITHOUT_OBJECTS, content="links")
     return description
 
 
@@ -85,7 +78,7 @@ def _narrow(data: bytes) -> bytes:
     try:
         return _ENCODING.sub(r"\1", data.decode(wide)).encode()
     except UnicodeError as error:
-        raise FileError(XML_INVALID, error=str(error)) from error
+        raise FileError(DESCRIPTION_INVALID, format="XML", line=1, error=str(error)) from error
 
 
 def _include(root: Node, roots: Roots) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...verdict.finding import FileError
-from ..findings import MESH_MISSING, MESH_ON_NETWORK, MESH_OUTSIDE
+from ..findings import MESH_MISSING, MESH_ON_NETWORK
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # Schemes of one letter are drives.
 MAX_LEVELS = 4  # folders up to where a package may begin
@@ -42,15 +42,12 @@ class Roots:
         scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
         if scheme not in ("", "package", "model", "file"):
             raise FileError(MESH_ON_NETWORK, name=name)
-        outside = False
         for path in self._candidates(scheme, rest):
             real = Path(os.path.realpath(path))
-            if not self.anywhere and not any(real.is_relative_to(folder) for folder in self.folders):
-                outside = True
-                continue
-            if real.is_file():
+            is_allowed = self.anywhere or any(real.is_relative_to(folder) for folder in self.folders)
+            if is_allowed and real.is_file():
                 return real
-        raise FileError(MESH_OUTSIDE if outside else MESH_MISSING, name=name)
+        raise FileError(MESH_MISSING, name=name)
 
     def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
         """Yield possible paths. A package's name may name a root, a folder in it, or neither."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ...numerics.rotations import polar_rotation, rotation_matrix
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
-from ..findings import DESCRIPTION_NUMBER, USDA_INVALID
+from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
 from ..stated import Description, StatedInertial, StatedLink, StatedShape, rotation_about
 from .triangles import fan
@@ -64,7 +64,7 @@ def _tokens(text: str) -> Iterator[tuple[str, int]]:
     while position < len(text):
         match = _TOKEN.match(text, position)
         if match is None:
-            raise FileError(USDA_INVALID, line=text[:position].count("\n") + 1)
+            raise _invalid(text, position)
         token = match.group()
         if not token[0].isspace() and token[0] != "#":
             yield token, position
@@ -151,12 +151,18 @@ def read(data: bytes) -> Description:
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
-        raise FileError(USDA_INVALID, line=1) from error
+        raise _invalid("", 0) from error
     try:
         return _description(text, data)
     except (IndexError, KeyError, ValueError, RecursionError) as error:
         place = text.find(str(error)) if isinstance(error, ValueError) else -1
-        raise FileError(USDA_INVALID, line=text.count("\n", 0, place if place >= 0 else None) + 1) from error
+        raise _invalid(text, place if place >= 0 else len(text)) from error
+
+
+def _invalid(text: str, place: int) -> FileError:
+    """Return the refusal of a text, with the beginning of the line that holds a place."""
+    line = "“{:.40}”".format(text[text.rfind("\n", 0, place) + 1 :].partition("\n")[0].strip())
+    return FileError(DESCRIPTION_INVALID, format="text of USD", line=text.count("\n", 0, place) + 1, error=line)
 
 
 def _description(text: str, data: bytes) -> Description:
@@ -168,7 +174,7 @@ def _description(text: str, data: bytes) -> Description:
     roots = []
     while parser.index < len(parser.tokens):
         if parser.peek() not in _SPECIFIERS:
-            raise FileError(USDA_INVALID, line=text[: parser.tokens[parser.index][1]].count("\n") + 1)
+            raise _invalid(text, parser.tokens[parser.index][1])
         roots.append(parser.prim(0))
     scales = {"length": _scale(metadata, "metersPerUnit", 0.01), "mass": _scale(metadata, "kilogramsPerUnit", 1.0)}
     links: list[StatedLink] = []

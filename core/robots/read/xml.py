@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ...streams.findings import FILE_TOO_LARGE
 from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
-from ..findings import DESCRIPTION_NUMBER, XML_ENTITIES, XML_INVALID
+from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Pose, Shape
 from ..stated import Angles, StatedShape
 
@@ -110,7 +110,8 @@ def parse(data: bytes) -> Node:
     try:
         parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
-        raise FileError(XML_INVALID, error=" ".join(str(error).split())) from error
+        reason = " ".join(str(error).partition(": line")[0].split())
+        raise FileError(DESCRIPTION_INVALID, format="XML", line=parser.ErrorLineNumber, error=reason) from error
     return document.children[0]  # expat has seen that there is one
 
 

@@ -421,7 +421,7 @@ def test_no_voxel_that_is_not_finite_has_a_density(tmp_path, value, table):
     with pytest.raises(MeasureError) as caught:
         measure(obj)
     negative = "values_negative" if value == -np.inf else "density_non_finite"
-    assert caught.value.finding.code == ("values_non_finite_for_table" if table else negative)
+    assert caught.value.finding.code == ("density_non_finite" if table else negative)
 
 
 def test_numbers_too_large_or_too_far_are_refused(tmp_path):

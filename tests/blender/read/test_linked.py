@@ -91,7 +91,7 @@ def test_an_override_is_given_nothing_that_its_file_would_lose(overridden, opera
         local.body_moments.density = 5.0
         bpy.context.view_layer.objects.active = local
     run(operator, **options)
-    assert {"library_override", "linked_results"} & {*reported.codes}
+    assert {"linked_object", "linked_results"} & {*reported.codes}
     assert not overridden.is_property_set("body_moments_symmetry") and "body_mass" not in overridden
     assert overridden.rigid_body is None and overridden.body_moments.density == 1000.0
     assert not overridden.body_moments.material

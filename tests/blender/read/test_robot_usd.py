@@ -211,7 +211,7 @@ def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
 def test_a_layer_that_is_cut_short_says_where(tmp_path, content, line):
     with pytest.raises(FileError) as refused:
         read(tmp_path, "#usda 1.0\n" + content)
-    assert (refused.value.finding.code, refused.value.finding.values["line"]) == ("usda_invalid", line)
+    assert (refused.value.finding.code, refused.value.finding.values["line"]) == ("description_invalid", line)
 
 
 def bodies(tmp_path, inside, metadata=""):
@@ -236,11 +236,11 @@ def test_minimal_usd_has_defaults_of_the_schemas(tmp_path):
         assert link.inertial is None and not link.findings
     with pytest.raises(FileError) as refused:
         read(tmp_path, "#usda 1.0\n")
-    assert refused.value.finding.code == "description_without_links"
+    assert refused.value.finding.code == "file_without_objects"
     (tmp_path / "a.usda").write_bytes(b'#usda 1.0\n\ndef "\xff"')
     with pytest.raises(FileError) as refused:
         descriptions.read_description(tmp_path / "a.usda")
-    assert (refused.value.finding.code, refused.value.finding.values) == ("usda_invalid", {"line": 1})
+    assert (refused.value.finding.code, refused.value.finding.values["line"]) == ("description_invalid", 1)
 
 
 def test_usd_statements_without_value_end_at_the_next(tmp_path):

@@ -73,7 +73,7 @@ def test_texts_move_in_their_plane_alone():
             other = change.copy()
             other[entry] += factor * limit
             if is_refused:
-                with refused("text_off_plane"):
+                with refused("data_without_transform"):
                     reframe.transform_data(text, other)
             else:
                 reframe.transform_data(text, other)

@@ -56,7 +56,7 @@ def test_values_of_grids_become_densities():
         density_function(plain, 7.0)(values)
     table = GridOptions(table="0 10, 4 30")
     assert density_function(table, 2.0)(values).tolist() == [10.0, 10.0, 0.0, 30.0]
-    with refused("values_non_finite_for_table"):
+    with refused("density_non_finite"):
         density_function(table, None)(np.array([0.0, np.nan]))
     for options, background, noted in (
         (plain, 2.0, True),

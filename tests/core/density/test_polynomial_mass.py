@@ -151,7 +151,7 @@ def test_the_bound_holds_for_any_density_and_any_map(coefficients, linear, offse
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = np.reshape(linear, (3, 3)) / 8.0, offset
     points, triangles = prism()
-    density = Polynomial.from_coefficients(coefficients)
+    density = Polynomial.from_list([*map(Fraction, coefficients)])
     found = polynomial_mass_of_images(moments_of(points, triangles, 3 + density.degree), density, matrix[None])
     faces = [face[::-1] for face in triangles] if np.linalg.det(matrix) < 0 else triangles
     assert within(found, truth(placed(points, matrix), faces, density.terms, found.about))

@@ -6,7 +6,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from body_moments.core.density import SplineAxis, grid_moments
+from body_moments.core.density import grid_moments
+from body_moments.core.density.spline_tables import SplineAxis
 from body_moments.core.moments.moments import monomials
 from body_moments.core.scans.positions import place_samples, read_all_positions, read_positions
 from body_moments.core.verdict.finding import FileError, finding
@@ -239,4 +240,4 @@ def test_whole_numbers_two_samples_and_one(tmp_path):
     assert read_positions(saved(tmp_path, np.array([1.0, 4.0]), "two.npy"), "x", 2).tolist() == [1.0, 4.0]
     with pytest.raises(FileError) as caught:
         read_positions(saved(tmp_path, np.array([1.0]), "one.npy"), "x", 1)
-    assert caught.value.finding.code == "positions_of_one_sample"
+    assert caught.value.finding.code == "positions_count"

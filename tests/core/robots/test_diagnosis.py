@@ -9,7 +9,7 @@ from math import degrees, radians
 import numpy as np
 import pytest
 from body_moments.core.numerics.rotations import quaternion
-from body_moments.core.robots.diagnosis import Reference, _times, diagnose
+from body_moments.core.robots.diagnosis import LENGTHS, Reference, _times, diagnose
 from body_moments.core.robots.stated import Description, StatedInertial, rotation_of_angles
 
 from tests.close import close
@@ -53,7 +53,7 @@ def mistakes():
         yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
     for factor in LENGTH_UNITS:
         yield "unit", {"part": "center of mass", "factor": factor}, of_inertia(INERTIA, CENTER / factor)
-        yield "length_unit", {"factor": factor}, of_inertia(INERTIA / factor**2, CENTER / factor)
+        yield "unit", {"part": LENGTHS, "factor": factor}, of_inertia(INERTIA / factor**2, CENTER / factor)
     yield "inertia_of_unit", {"part": "mass", "factor": MASS}, of_inertia(INERTIA / MASS)
     yield "inertia_of_unit", {"part": "density", "factor": DENSITY}, of_inertia(INERTIA / DENSITY)
     yield "inertia_elsewhere", {"part": "link"}, of_inertia(INERTIA + square(CENTER))
@@ -67,7 +67,7 @@ def mistakes():
     w, x, y, z = quaternion(turn).tolist()
     for wrong in ((x, y, z, w), (z, w, x, y)):
         yield "quaternion_order", {}, along(turn, np.eye(3), quaternion=wrong)
-    yield "frame_transposed", {}, along(turn, turn.T)
+    yield "transposed", {"part": "rotation of the inertial"}, along(turn, turn.T)
     yield "frame_not_meant", {}, replace(TRUTH, rotation=turn)
     for signs in list(product((1.0, -1.0), repeat=3))[1:]:
         products = [name for name, sign in zip(("xy", "xz", "yz"), signs) if sign < 0.0]
@@ -117,7 +117,7 @@ def mistakes():
         rows = np.diag(signs) @ axes[:, order].T  # the tensor's own axes may then point either way
         tensor = rows @ np.diag(moments[list(order)]) @ rows.T
         if np.abs(tensor - INERTIA).max() > 1e-3:  # the axes are all but symmetric
-            yield "axes_transposed", {}, of_inertia(tensor)
+            yield "transposed", {"part": "principal axes that make the tensor"}, of_inertia(tensor)
 
 
 def said(stated=TRUTH, *references, otherwise=()):
@@ -144,8 +144,8 @@ def test_a_mesh_in_another_unit_shows_in_the_density(size):
     assert said(TRUTH, scaled) == ("mesh_unit", {"factor": 1.0 / size})
     assert diagnose(TRUTH, [scaled]).repaired is None
     # with a density that is usual for the mesh as it is, the file is wrong
-    assert said(TRUTH, replace(scaled, volume=MASS / DENSITY)) == ("length_unit", {"factor": size})
-    for density, code in ((9.0, "length_unit"), (11.0, "mesh_unit"), (29e3, "mesh_unit"), (31e3, "length_unit")):
+    assert said(TRUTH, replace(scaled, volume=MASS / DENSITY)) == ("unit", {"part": LENGTHS, "factor": size})
+    for density, code in ((9.0, "unit"), (11.0, "mesh_unit"), (29e3, "mesh_unit"), (31e3, "unit")):
         assert said(TRUTH, replace(scaled, volume=MASS / density * size**3))[0] == code
 
 
@@ -153,8 +153,8 @@ def test_a_mesh_in_another_unit_shows_in_the_density(size):
     "density, code, factor",
     [
         *((density, None, None) for density in (10.01, 29_990.0)),
-        *((density, "mass_and_inertia_unit", 1e3) for density in (9.99, 0.1001)),
-        *((density, "mass_and_inertia_unit", 1e-3) for density in (100_010.0, 11_990_000.0)),
+        *((density, "unit", 1e3) for density in (9.99, 0.1001)),
+        *((density, "unit", 1e-3) for density in (100_010.0, 11_990_000.0)),
         *((density, "density", None) for density in (0.0999, 30_010.0, 99_900.0, 12_010_000.0)),
     ],
 )

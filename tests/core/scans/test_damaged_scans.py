@@ -181,11 +181,11 @@ def damage_of(path) -> str:
 @pytest.mark.parametrize(
     "name, damage, code",
     [
-        ("nii.gz", lambda data: data[:-8] + bytes([data[-8] ^ 1]) + data[-7:], "damage_packed"),
-        ("nii.gz", lambda data: data[:-1] + bytes([data[-1] ^ 1]), "damage_packed"),
+        ("nii.gz", lambda data: data[:-8] + bytes([data[-8] ^ 1]) + data[-7:], "damage_incomplete"),
+        ("nii.gz", lambda data: data[:-1] + bytes([data[-1] ^ 1]), "damage_incomplete"),
         ("nii.gz", lambda data: data[:-1], "damage_cut_short"),
-        ("nii.gz", lambda data: data + b"xx", "damage_packed"),
-        ("nii.gz", lambda data: data[:10] + b"\xff" + data[11:], "damage_packed"),
+        ("nii.gz", lambda data: data + b"xx", "damage_incomplete"),
+        ("nii.gz", lambda data: data[:10] + b"\xff" + data[11:], "damage_incomplete"),
         ("npz stored", lambda data: data.replace(VALUES.tobytes(), VALUES[::-1].tobytes()), "damage_incomplete"),
         ("npz stored", lambda data: data.replace(b"(3, 4, 5)", b"(3, 4, 4)"), "damage_incomplete"),
         ("nhdr gzip", lambda data: data[:-1], "damage_cut_short"),
@@ -213,7 +213,7 @@ def test_an_archive_called_an_array_is_refused(tmp_path):
 
 
 def test_unpacked_file_cut_short_misses_its_end(tmp_path):
-    for data, code in ((b"head", "damage_cut_short"), (b"head" + bytes(3), "damage_packed")):
+    for data, code in ((b"head", "damage_cut_short"), (b"head" + bytes(3), "damage_incomplete")):
         with pytest.raises(FileError) as refused:
             list(samples.gzip_blocks(written(tmp_path / "a.gz", data), 4))
         assert refused.value.finding.values["cause"]["code"] == code

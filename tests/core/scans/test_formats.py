@@ -222,8 +222,8 @@ def test_numpy_arrays_are_read(tmp_path, layout):
 @pytest.mark.parametrize(
     "array, code",
     [
-        (np.ones((3, 3)), "scan_dimensions"),
-        (np.ones((2, 3, 3, 3)), "scan_dimensions"),
+        (np.ones((3, 3)), "scan_size"),
+        (np.ones((2, 3, 3, 3)), "scan_size"),
         (np.ones((3, 3, 3), complex), "scan_sample_type"),
         (np.ones((0, 3, 3)), "scan_size"),
         (np.zeros((2, 2, 2), "U3"), "scan_sample_type"),
@@ -261,7 +261,7 @@ def test_given_placement_replaces_the_header(tmp_path):
     np.save(tmp_path / "a.npy", values())
     matrix, findings = sample_matrix(read_scan(tmp_path / "a.npy"), None, None, None)
     assert np.array_equal(matrix, np.eye(4))
-    assert findings == (finding("scan_without_spacing"),)
+    assert findings == (finding("scan_unstated", part="spacing", option="spacing"),)
     matrix, findings = sample_matrix(read_scan(tmp_path / "a.npy"), (1, 2, 3), None, 0.001)
     assert np.allclose(np.diag(matrix), [0.001, 0.002, 0.003, 1])
     assert findings == ()
@@ -284,9 +284,9 @@ def test_placement_decision_is_reported(given):
     said = [finding("scan_own_unit")] if has_unit and unit else []
     said += [finding("scan_placement_overridden", fields=fields)] if is_placed and fields else []
     if spacing is None and not is_placed:
-        said.append(finding("scan_without_spacing"))
+        said.append(finding("scan_unstated", part="spacing", option="spacing"))
     elif spacing is None and not has_unit and not unit:
-        said.append(finding("scan_without_unit"))
+        said.append(finding("scan_unstated", part="unit", option="unit-scale"))
     assert findings == tuple(said)
 
 
@@ -300,6 +300,14 @@ def field(name, wanted, text, form="NRRD"):
 
 def nifti_field(name, wanted, text):
     return field(name, wanted, text, "NIfTI")
+
+
+def scaling(text):
+    return field("slope and intercept", "finite numbers", text, ".nii")
+
+
+def placement(text, form=".nii"):
+    return field("spacing or directions", "finite, and not in one plane", text, form)
 
 
 def rotation(text):
@@ -321,9 +329,9 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         (nifti_with(344, "4s", b"n+2\0"), "file_unrecognized", {"format": "NIfTI-1"}),
         (nifti_with(0, "i", 349), "file_unrecognized", {"format": "NIfTI-1"}),
         (nifti_with(344, "4s", b"ni1\0"), "scan_in_several_files", {"suffix": ".nii"}),
-        (nifti_with(40, "h", 8), "scan_dimensions", {"dimensions": 8}),
-        (nifti_with(40, "h", 1), "scan_dimensions", {"dimensions": 1}),
-        (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_dimensions", {"dimensions": 4}),
+        (nifti_with(40, "h", 8), "header_field", nifti_field("dim", "1 to 7 dimensions", "8")),
+        (nifti_with(40, "h", 1), "scan_size", {"samples": [3]}),
+        (nifti_with(40, "8h", 4, 3, 4, 5, 2, 1, 1, 1), "scan_size", {"samples": [3, 4, 5, 2]}),
         (nifti_with(42, "h", -3), "scan_size", {"samples": [-3, 4, 5]}),
         (
             nifti_with(42, "3h", 32767, 32767, 32767),
@@ -353,7 +361,7 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
             nifti_field("vox_offset", "a whole number behind the header", "352.5"),
         ),
         (nifti_with(108, "f", 356.0), "file_damaged", damage("damage_size", bytes=236, total=240)),
-        (nifti_with(40, "h", 0), "scan_dimensions", {"dimensions": 0}),
+        (nifti_with(40, "h", 0), "header_field", nifti_field("dim", "1 to 7 dimensions", "0")),
         (
             nifti_with(84, "f", np.inf),
             "header_field",
@@ -361,8 +369,8 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
         ),
         (nifti(values(), quaternion=(0.6, 0.8, 0.01, 0, 0, 0)), "header_field", rotation("0.6 0.8 0.01 0 0 0")),
         (nifti(values(), quaternion=(0, 0, 0, 0, np.inf, 0)), "header_field", rotation("0 0 0 0 inf 0")),
-        (nifti_with(112, "f", float("inf")), "scan_scaling", {}),
-        (nifti_with(112, "2f", 1.0, float("inf")), "scan_scaling", {}),
+        (nifti_with(112, "f", float("inf")), "header_field", scaling("inf 0")),
+        (nifti_with(112, "2f", 1.0, float("inf")), "header_field", scaling("1 inf")),
         (
             nifti(values(), spacing=(0, 0, 0), quaternion=(0, 0, 0, 1, 2, 3)),
             "header_field",
@@ -379,9 +387,13 @@ def nifti_with(offset: int, form: str, *numbers) -> bytes:
             "header_field",
             nifti_field("pixdim", "three spacings that are not zero", "0 0 2"),
         ),
-        (nifti(values(), sform=np.zeros((3, 4))), "scan_placement", {}),
-        (nifti(values(), sform=np.full((3, 4), np.nan)), "scan_placement", {}),
-        (nifti(values(), sform=np.eye(3, 4) + [0, 0, 0, np.inf]), "scan_placement", {}),
+        (nifti(values(), sform=np.zeros((3, 4))), "header_field", placement(" ".join("0" * 12))),
+        (nifti(values(), sform=np.full((3, 4), np.nan)), "header_field", placement(" ".join(["nan"] * 12))),
+        (
+            nifti(values(), sform=np.eye(3, 4) + [0, 0, 0, np.inf]),
+            "header_field",
+            placement("1 0 0 inf 0 1 0 inf 0 0 1 inf"),
+        ),
         (nifti(values(), quaternion=(1, 1, 1, 0, 0, 0)), "header_field", rotation("1 1 1 0 0 0")),
     ],
 )
@@ -421,7 +433,7 @@ def nrrd_with(old: str, new: str) -> bytes:
         (
             nrrd_with("encoding: raw", "encoding: gzip"),
             "file_damaged",
-            damage("damage_packed", error="incorrect header check"),
+            damage("damage_incomplete", kind="gzip stream", error="incorrect header check"),
         ),
         (
             nrrd(values(), "byte skip: -1", encoding="gzip"),
@@ -445,7 +457,11 @@ def nrrd_with(old: str, new: str) -> bytes:
             "header_field",
             field("spacings", "three spacings that are not zero", "nan nan nan"),
         ),
-        (nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"), "scan_placement", {}),
+        (
+            nrrd(values(), "space directions: (1,0,0) (2,0,0) (0,0,1)"),
+            "header_field",
+            placement("1 2 0 0 0 0 0 0 0 0 1 0", ".nrrd"),
+        ),
         (
             nrrd(values(), "space directions: (1,0,0) (0,1,0)"),
             "header_field",
@@ -502,7 +518,7 @@ def test_first_volume_of_an_archive_is_taken(tmp_path):
 
 def test_an_archive_without_a_volume(tmp_path):
     np.savez(tmp_path / "a.npz", table=np.eye(3))
-    assert refusal(read_scan, tmp_path / "a.npz") == "scan_dimensions"
+    assert refusal(read_scan, tmp_path / "a.npz") == "scan_size"
 
 
 def npz_bytes() -> bytes:

@@ -104,7 +104,7 @@ def test_refused_import_leaves_no_data(tmp_path, reported):
     assert (len(bpy.data.objects), len(bpy.data.volumes)) == before
     packed = bytearray(nrrd(samples(), encoding="gzip"))
     packed[-5] ^= 1
-    assert refusal(written(tmp_path / "d.nrrd", packed)) == "damage_packed" and not (tmp_path / "d.vdb").exists()
+    assert refusal(written(tmp_path / "d.nrrd", packed)) == "damage_incomplete" and not (tmp_path / "d.vdb").exists()
     imported(good, overwrite=True)
 
 

@@ -104,7 +104,7 @@ def test_a_parent_is_not_laid_onto_its_child(reported):
     child.parent = parent
     only(child, parent)
     assert run("match_pose") == {"CANCELLED"}
-    assert "active_is_child" in reported.codes
+    assert "follows_moved" in reported.codes
 
 
 @pytest.mark.parametrize("operator", ["find_symmetry", "find_similar"])

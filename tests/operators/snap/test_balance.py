@@ -214,15 +214,15 @@ class TestRefused:
         obj = figure()
         obj.shape_key_add(name="Basis")
         edit(obj)
-        unchanged(obj, points(obj), "balance_shape_keys", reported)
+        unchanged(obj, points(obj), "shape_not_of_mesh", reported)
 
     def test_modifiers_that_change_the_mesh(self, reported):
         obj = figure()
         obj.modifiers.new("Smooth", "SUBSURF").levels = 1
         obj.modifiers.new("Hidden", "SUBSURF").show_viewport = False
         edit(obj)
-        unchanged(obj, points(obj), "modified_mesh", reported)
-        assert reported.values("modified_mesh") == {"modifiers": ["Smooth"]}
+        unchanged(obj, points(obj), "shape_of_modifiers", reported)
+        assert reported.values("shape_of_modifiers") == {"modifiers": ["Smooth"]}
 
     def test_mesh_bent_by_its_parent(self, reported):
         cage = add(bpy.data.lattices.new("Cage"), "Cage", scale=(3, 3, 3), select=False)
@@ -231,7 +231,7 @@ class TestRefused:
         obj.parent, obj.parent_type = cage, "LATTICE"
         group(obj)
         bpy.context.view_layer.update()
-        unchanged(obj, points(obj), "balance_modified_unknown", reported)
+        unchanged(obj, points(obj), "shape_not_of_mesh", reported)
 
     def test_no_active_group(self, reported):
         obj = figure()
@@ -243,7 +243,7 @@ class TestRefused:
         obj = figure()
         obj.body_moments.kind, obj.body_moments.wall = "SHELL", "INWARD"
         edit(obj)
-        unchanged(obj, points(obj), "wall_unsupported", reported)
+        unchanged(obj, points(obj), "balance_settings", reported)
 
     def test_a_zero_scale(self, reported):
         obj = figure(scale=(1, 1, 0))

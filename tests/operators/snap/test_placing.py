@@ -30,7 +30,7 @@ def test_refused_empty_keeps_parent_place_and_size(reported):
         name: value.copy() if hasattr(value, "copy") and name != "parent" else value for name, value in before.items()
     }
     assert bpy.ops.object.body_moments_add_empty(parent=True, size=3.0) == {"CANCELLED"}
-    assert "empty_constrained" in reported.codes
+    assert "transform_constrained" in reported.codes
     assert {name: getattr(made, name) for name in names} == before
 
 

@@ -1,0 +1,247 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Assemblies: a collection, or an empty with its children, as one body, with its place in the scene and its bill."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy.types import Context, Event, Operator
+from mathutils import Matrix
+
+from ..blender import bodies, read, scene, session, write
+from ..blender.scene.changes import require_editable
+from ..blender.scene.findings import OPEN_OBJECT
+from ..blender.session import stored
+from ..blender.settings.assembly import Root, is_assembly
+from ..blender.write import properties, reports
+from ..core.numerics.float32 import shortest_decimal
+from ..core.verdict.finding import EditRefusedError, MeasureError, Severity
+from ..core.verdict.method import Verdict
+from ..core.verdict.sentences import of_severity
+from . import selection
+from .findings import NO_ACTIVE_ASSEMBLY
+from .modal import ModalSteps
+from .snap.cursor import turn_cursor
+
+if TYPE_CHECKING:
+    from ..blender.bodies.assembly.assembly import Assembly, Results
+
+
+TARGET = EnumProperty(
+    name="Assembly",
+    description="What is measured as one body",
+    items=(
+        ("COLLECTION", "Collection", "The active collection with its nested collections"),
+        ("OBJECT", "Empty", "The active empty with its children"),
+    ),
+    default="COLLECTION",
+)
+
+
+def target_of(context: Context, target: str) -> Root:
+    """Return the assembly that an operator works on. MeasureError if there is none."""
+    data = context.collection if target == "COLLECTION" else context.object
+    if data is None or target == "OBJECT" and not is_assembly(data):
+        raise MeasureError(NO_ACTIVE_ASSEMBLY)
+    return data
+
+
+def measured_assembly(context: Context, target: str) -> "Assembly":
+    """Measure an operator's assembly as it is now. MeasureError if it has no mass."""
+    depsgraph = context.evaluated_depsgraph_get()
+    return bodies.measure_assembly(target_of(context, target), depsgraph)
+
+
+class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
+    """Measure all members of a collection, or all children of an empty, and store the total on it"""
+
+    bl_idname = "object.body_moments_measure_assembly"
+    bl_label = "Measure Assembly"
+    bl_options = {"REGISTER", "UNDO"}
+    MAX_AT_ONCE = selection.MAX_OBJECTS_WITHOUT_REDRAW
+
+    target: TARGET
+
+    def _begin(self, context: Context) -> int:
+        """Start with the members; return the number of objects."""
+        depsgraph = context.evaluated_depsgraph_get()
+        data = target_of(context, self.target)
+        properties.require_storable(data)
+        self._member = read.assembly.members_of(data, depsgraph)
+        self._results: Results = {}
+        self._steps = bodies.measure_members(self._member, depsgraph, self._results)
+        return sum(member.is_measured for member in self._member.walk())
+
+    def _finish(self, context: Context) -> set[str]:
+        assembly = bodies.assemble(self._member, self._results, context.evaluated_depsgraph_get())
+        failures = stored.assembly.store(context, assembly)
+        findings = [*of_severity(assembly.measurement.findings, Severity.WARNING, Severity.ERROR)]
+        done = [
+            reports.phrase(
+                "{assembly}: {mass:.7g} kg from {count} object",
+                "{assembly}: {mass:.7g} kg from {count} objects",
+                assembly=assembly.measurement.name,
+                count=sum(part.measurement is not None for part in assembly.root.walk()),
+                mass=assembly.measurement.mass_properties.mass,
+            )
+        ]
+        if failures:
+            names = [name for name, _ in failures]
+            done.append(reports.phrase("Results not stored on {names}.", names=names))
+        selection.report(self, *done, *reports.first(findings))
+        selection.redraw(context)
+        return {"FINISHED"}
+
+
+class OBJECT_OT_body_moments_clear_assembly(Operator):
+    """Remove the stored results of the assembly. Its settings and the results of its members are kept"""
+
+    bl_idname = "object.body_moments_clear_assembly"
+    bl_label = "Clear Assembly Results"
+    bl_options = {"REGISTER", "UNDO"}
+
+    target: TARGET
+
+    @selection.report_refusals
+    def execute(self, context: Context) -> set[str]:
+        return report_cleared(self, context, stored.assembly.clear(target_of(context, self.target)))
+
+
+def report_cleared(operator: Operator, context: Context, is_cleared: bool) -> set[str]:
+    """Report that results were removed, or that there were none; return the result of `execute`."""
+    texts = ("Removed the results of {count} object", "Removed the results of {count} objects")
+    done = reports.phrase(*texts, count=1) if is_cleared else reports.phrase("The selected objects have no results")
+    selection.report(operator, done)
+    selection.redraw(context)
+    return {"FINISHED"} if is_cleared else {"CANCELLED"}
+
+
+FRAME_OF = "principal_frame_of_assembly"  # ID property of an empty: the collection or empty whose frame it shows
+
+
+class _SnapToAssembly:
+    """Base of the operators that place something at an assembly's center of mass."""
+
+    bl_options = {"REGISTER", "UNDO"}
+    target: TARGET
+    _place: Callable[..., str]  # does it, and returns the report
+
+    @selection.report_refusals
+    def execute(self, context: Context) -> set[str]:
+        assembly = measured_assembly(context, self.target)
+        for part in assembly.root.walk():
+            if part.measurement is not None and part.measurement.method.verdict == Verdict.OPEN:
+                raise EditRefusedError(OPEN_OBJECT, subject=part.member.name)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        center = (assembly.measurement.mass_properties.center / unit).tolist()
+        selection.report(self, self._place(context, assembly, center))
+        return {"FINISHED"}
+
+
+class VIEW3D_OT_body_moments_cursor_to_assembly(_SnapToAssembly, Operator):
+    """Move the 3D cursor to the center of mass of the assembly"""
+
+    bl_idname = "view3d.body_moments_cursor_to_assembly"
+    bl_label = "Cursor to Center of Assembly"
+
+    rotate: BoolProperty(
+        name="Rotate to Principal Axes", description="Align the 3D cursor with the principal axes", default=False
+    )
+
+    def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
+        context.scene.cursor.location = center
+        if self.rotate:
+            turn_cursor(context.scene.cursor, assembly.measurement.mass_properties.principal.axes.tolist())
+        return reports.phrase(
+            "Moved the 3D cursor to the center of mass of “{assembly}”", assembly=assembly.measurement.name
+        )
+
+
+class OBJECT_OT_body_moments_assembly_empty(_SnapToAssembly, Operator):
+    """Add an empty at the center of mass of the assembly, along its principal axes. One added before is moved"""
+
+    bl_idname = "object.body_moments_assembly_empty"
+    bl_label = "Add Empty at Assembly"
+
+    def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
+        root, body = assembly.root.member.data, assembly.measurement.mass_properties
+        owner = context.scene if root == context.scene.collection else root  # nothing else can point to it
+        empty = next((obj for obj in context.scene.objects if obj.get(FRAME_OF) == owner), None)
+        if empty is None:
+            empty = bpy.data.objects.new("{:s} Principal Frame".format(root.name), None)
+            empty.empty_display_type, empty.show_in_front, empty.rotation_mode = "ARROWS", True, "QUATERNION"
+            empty[FRAME_OF] = owner
+            context.scene.collection.objects.link(empty)
+        require_editable(empty)
+        unit = shortest_decimal(context.scene.unit_settings.scale_length)
+        empty.empty_display_size = max(float(body.radii_of_gyration.max()) / unit, 1e-3)
+        frame = Matrix(body.principal.axes.tolist()).to_4x4()
+        frame.translation = center
+        empty.matrix_world = frame
+        return reports.phrase("Placed an empty at the principal frame of “{assembly}”", assembly=root.name)
+
+
+class OBJECT_OT_body_moments_assembly_origin(_SnapToAssembly, Operator):
+    """Put the origin of the assembly at its center of mass."""
+
+    bl_idname = "object.body_moments_assembly_origin"
+    bl_label = "Origin to Center of Assembly"
+    bl_description = (
+        "Put the origin of the assembly at its center of mass: the offset of a collection's instances, or the empty, "
+        "whose children stay where they are"
+    )
+
+    def _place(self, context: Context, assembly: "Assembly", center: list[float]) -> str:
+        root = assembly.root.member.data
+        if isinstance(root, bpy.types.Collection):
+            require_editable(root)
+            root.instance_offset = center
+            return reports.phrase("Instances of “{assembly}” are placed by its center of mass", assembly=root.name)
+        scene.move_parent(context, root, center)
+        if properties.is_stored(root):
+            stored.assembly.store(context, measured_assembly(context, "OBJECT"))
+        return reports.phrase("Moved “{assembly}” to the center of mass; its children stay", assembly=root.name)
+
+
+class OBJECT_OT_body_moments_export_bill(Operator):
+    """Write the masses, centers and inertia of all members of an assembly as a table (.csv), in SI units"""
+
+    bl_idname = "object.body_moments_export_bill"
+    bl_label = "Export Bill of Masses"
+    bl_options = {"REGISTER"}
+
+    target: TARGET
+    filepath: StringProperty(name="File Path", description="File to write", subtype="FILE_PATH")
+    check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
+
+    def invoke(self, context: Context, event: Event) -> set[str]:
+        return selection.ask_for_table(self, context)
+
+    def check(self, _context: Context) -> bool:
+        return selection.ensure_suffix(self, ".csv")
+
+    @selection.report_refusals
+    def execute(self, context: Context) -> set[str]:
+        assembly = measured_assembly(context, self.target)
+        if not self.filepath:
+            return selection.refuse(self, selection.NO_FILE)
+        path = Path(bpy.path.abspath(self.filepath))
+        rows = list(session.bill_rows(assembly.root, assembly.measurement.mass_properties.mass))
+        selection.write_file(path, [write.bill.bill_csv(rows)])
+        texts = ("Wrote the masses of {count} member to “{file}”", "Wrote the masses of {count} members to “{file}”")
+        selection.report(self, reports.phrase(*texts, count=len(rows) - 1, file=path.name))
+        return {"FINISHED"}
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_measure_assembly,
+    OBJECT_OT_body_moments_clear_assembly,
+    VIEW3D_OT_body_moments_cursor_to_assembly,
+    OBJECT_OT_body_moments_assembly_empty,
+    OBJECT_OT_body_moments_assembly_origin,
+    OBJECT_OT_body_moments_export_bill,
+)

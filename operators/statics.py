@@ -1,0 +1,226 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Stability of objects, their resting poses, and the balance of groups over time."""
+
+from math import degrees
+
+import bpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.types import Context, Event, Object, Operator
+
+from ..blender import session
+from ..blender.session import stored
+from ..blender.session.tracking import staleness
+from ..blender.settings.preferences import copy_defaults
+from ..blender.write import reports
+from ..blender.write.translations import localized
+from ..core.verdict.finding import Finding, finding
+from . import selection
+from .findings import OBJECTS_TIP
+from .modal import ModalSteps
+
+
+class OBJECT_OT_body_moments_stability(selection.OnSelection, Operator):
+    """Compute whether the selected objects stand on the ground below them, and in which poses they rest."""
+
+    bl_idname = "object.body_moments_stability"
+    bl_label = "Check Stability"
+    bl_description = (
+        "Compute whether the selected objects stand on the ground below them, how far the ground can be tilted, and in "
+        "which poses they rest. Objects are measured where their results are out of date"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected_measurable(context)
+        measured: list[Object] = []
+        notes: list[Finding | str] = []
+
+        def check(obj: Object) -> None:
+            notes.extend(session.check_stability(context, obj, measured))
+
+        known, failures = selection.apply_to_all(objects, check)
+        staleness.mark_up_to_date(context, measured)
+        supports = {obj: stored.stability.support(obj, context.scene) for obj in objects}
+        standing = [obj for obj, support in supports.items() if support is not None and support.stands]
+        falling = [obj.name for obj in objects if stored.stability.is_known(obj) and obj not in standing]
+        if falling:
+            notes.insert(0, finding(OBJECTS_TIP, count=len(falling), names=falling))
+        selection.redraw(context)
+        texts = ("{count} of {total} object stands", "{count} of {total} objects stand")
+        done = reports.phrase(*texts, count=len(standing), total=len(known))
+        return selection.summarize(self, len(known), len(objects), done, failures, notes)
+
+
+class OBJECT_OT_body_moments_rest_on_ground(selection.OnSelectionInObjectMode, Operator):
+    """Lay the selected objects on the ground in a pose in which they stay."""
+
+    bl_idname = "object.body_moments_rest_on_ground"
+    bl_label = "Rest on Ground"
+    bl_description = (
+        "Lay the selected objects on the ground in a stable pose, the likeliest or another one. They turn by the "
+        "smallest angle about the center of mass, which stays above the same point"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    pose: IntProperty(
+        name="Pose",
+        description="Stable pose, the likeliest first. 0 for the one that is reached by the smallest turn",
+        default=1,
+        min=0,
+        soft_max=12,
+    )
+    ground: EnumProperty(
+        name="Ground",
+        description="Height of the ground",
+        items=(
+            ("FLOOR", "Floor", "The world origin, the floor of the viewport"),
+            ("CURSOR", "3D Cursor", "The 3D cursor"),
+            ("LOWEST", "Lowest Point", "The lowest point of each object as it is"),
+        ),
+        default="FLOOR",
+    )
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "pose")
+        poses = stored.stability.poses(context.object) if context.object is not None else None
+        if self.pose and poses is not None and not isinstance(poses, Finding):
+            count = len(poses.shares)
+            place = (self.pose - 1) % count
+            text = localized("Pose {:d} of {:d}: {:.1f}%, tips at {:.1f}°")
+            share, angle = 100.0 * poses.shares[place], degrees(poses.tipping_angles[place])
+            layout.label(text=text.format(place + 1, count, share, angle), translate=False)
+        layout.prop(self, "ground")
+
+    def execute(self, context: Context) -> set[str]:
+        objects = selection.selected_measurable(context)
+        notes: list[str] = []
+
+        def lay(obj: Object) -> bool:
+            return session.lay_on_ground(context, obj, self.pose, self.ground, notes)
+
+        moved, failures = selection.apply_to_all(objects, lay)  # one after the other, for a child moves with its parent
+        session.remeasure(context, moved)
+        texts = ("Laid {count} object on the ground", "Laid {count} objects on the ground")
+        done, idle = reports.phrase(*texts, count=len(moved)), reports.phrase("already on the ground")
+        return selection.summarize(self, len(moved), len(objects), done, failures, notes, idle)
+
+
+class OBJECT_OT_body_moments_balance_group(ModalSteps, Operator):
+    """Follow the center of mass of several objects over the frame range."""
+
+    bl_idname = "object.body_moments_balance_group"
+    bl_label = "Balance Group"
+    bl_description = (
+        "Follow the common center of mass of the selected objects, of a collection, or of the meshes that the selected "
+        "armatures deform, over the frame range. Adds an empty with keys, and draws the path"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+    PROGRESS = "Following the center of mass: {share:percent}. Esc to cancel"
+    CANCELED = "Balance Group canceled; nothing was changed"
+    _is_interactive = False  # its dialog has just been confirmed; False in a script, and from the redo panel
+
+    collection: StringProperty(
+        name="Collection",
+        description="Collection whose objects are followed. If empty, the selected objects",
+    )
+    contacts: StringProperty(
+        name="Contact Objects",
+        description=(
+            "Collection whose objects can touch the ground, such as feet. What of them is near the ground spans the "
+            "support polygon. If empty, there is none"
+        ),
+    )
+    ground: FloatProperty(
+        name="Ground Height",
+        description="Height of the ground, against gravity from the world origin",
+        unit="LENGTH",
+    )
+    reach: FloatProperty(
+        name="Contact Distance",
+        description="What is that near to the ground touches it. 0 for 1% of the size of the contact objects",
+        default=0.0,
+        min=0.0,
+        unit="LENGTH",
+        precision=4,
+    )
+    use_scene_range: BoolProperty(
+        name="Scene Range",
+        description="Follow the frame range of the scene",
+        default=True,
+    )
+    frame_start: IntProperty(name="Start", description="First frame", default=1)
+    frame_end: IntProperty(name="End", description="Last frame", default=250)
+    frame_step: IntProperty(name="Step", description="Frames from one key to the next", default=1, min=1)
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.mode in {"OBJECT", "POSE"} or reports.unavailable(cls, "Switch to Object Mode or Pose Mode")
+
+    def draw(self, _context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop_search(self, "collection", bpy.data, "collections")
+        layout.prop_search(self, "contacts", bpy.data, "collections")
+        if self.contacts:
+            layout.prop(self, "ground")
+            layout.prop(self, "reach")
+        layout.prop(self, "use_scene_range")
+        column = layout.column(align=True)
+        column.active = not self.use_scene_range
+        column.prop(self, "frame_start")
+        column.prop(self, "frame_end")
+        layout.prop(self, "frame_step")
+
+    def invoke(self, context: Context, _event: Event) -> set[str]:
+        if context.window is None:
+            return self.execute(context)
+        self._is_interactive = True
+        return context.window_manager.invoke_props_dialog(self)
+
+    def execute(self, context: Context) -> set[str]:
+        copy_defaults(context.scene)
+        # The redo panel executes this instance again, which must not become modal.
+        in_window, self._is_interactive = self._is_interactive, False
+        return self._reporting(self._run, context, in_window)
+
+    def _begin(self, context: Context) -> int:
+        scene = context.scene
+        start, end = self.frame_start, self.frame_end
+        if self.use_scene_range:
+            start, end = scene.frame_start, scene.frame_end
+        frames = range(start, max(start, end) + 1, self.frame_step)
+        self._group = session.BalanceGroup(context, self.collection, self.contacts, self.ground, self.reach)
+        self._steps = self._group.follow(scene, frames)
+        return len(frames)
+
+    def _finish(self, context: Context) -> set[str]:
+        group = self._group
+        if group.failure is not None:
+            return selection.refuse(self, group.failure)
+        empty = group.store(context)
+        selection.redraw(context)
+        texts = [
+            reports.phrase(
+                "“{empty}” has {count} key of the center of mass; objects: {objects_count}",
+                "“{empty}” has {count} keys of the center of mass; objects: {objects_count}",
+                empty=empty.name,
+                count=len(group.centers),
+                objects_count=len(group.objects),
+            )
+        ]
+        if group.feet:
+            inside = sum(support is not None and support.stands for support in group.supports)
+            text = "It is over the support polygon at {count} of {total} frames"
+            texts.append(reports.phrase(text, count=inside, total=len(group.supports)))
+        selection.report(self, *texts)
+        return {"FINISHED"}
+
+
+CLASSES = (
+    OBJECT_OT_body_moments_stability,
+    OBJECT_OT_body_moments_rest_on_ground,
+    OBJECT_OT_body_moments_balance_group,
+)
