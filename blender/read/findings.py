@@ -20,7 +20,6 @@ OBJECT_UNREADABLE = error("object_unreadable", "“{object}” cannot be read: {
 INSTANCED_BY_PARENT = note(
     "instanced_by_parent", "Shown only as instances of “{parent}”; measured once, at its own location."
 )
-INSTANCES_BESIDE_VOLUME = warning("instances_beside_volume", "Left out: instances shown beside the volume.")
 EMPTY_WITHOUT_INSTANCES = error(
     "empty_without_instances",
     "The empty instances nothing with a surface. Choose a collection with one in Object Properties > Instancing.",
@@ -71,7 +70,7 @@ ONLY_LOOSE_GEOMETRY = error(
     "only_loose_geometry",
     "No faces, only {vertices} vertices and {edges} edges. Fill faces, or add thickness with a modifier.",
 )
-SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out, as without a surface: {kinds}.")
+SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out: {kinds}.")
 LINES_ONLY = error(
     "lines_only", "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to Wire."
 )
@@ -130,13 +129,12 @@ ATTRIBUTE_MISSING = error(
 VOLUME_WITHOUT_GRIDS = error(
     "volume_without_grids", "The volume has no grids. Choose a file, or add a modifier that makes grids."
 )
-VOLUME_FILE_UNREADABLE = error(
-    "volume_file_unreadable", "The volume's file is missing or cannot be read: {error}. Choose another file."
-)
 GRID_MISSING = error("grid_missing", "No grid “{grid}”; the volume has {grids}. Change Grid.")
 GRID_TYPE = error("grid_type", "The grid “{grid}” does not hold scalar numbers. Choose another grid.")
 NO_SCALAR_GRID = error("no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume.")
-GRID_UNREADABLE = error("grid_unreadable", "The grid “{grid}” cannot be read: {error}.")
+GRID_UNREADABLE = error(
+    "grid_unreadable", "The grid “{grid}” is missing or cannot be read: {error}. Choose another file or grid."
+)
 GRID_FRUSTUM = error("grid_frustum", "The grid “{grid}” has a frustum transform. Resample it with a linear transform.")
 GRID_TOO_LARGE = error(
     "grid_too_large", "The grid “{grid}” spans too many voxels, {samples:size}. Crop it, or use a coarser one."
