@@ -193,10 +193,8 @@ FOURIER_OF_UNIFORM_DENSITY = warning(
     "fourier_of_uniform_density", "The Fourier transform is that of the shape, with uniform density."
 )
 OUTLINES_CROSS = error(
-    "outlines_cross", "Outlines cross or overlap. Move them apart, or convert to a mesh and unite its faces."
-)
-SECTION_FACE_CROSSES_ITSELF = error(
-    "section_face_crosses_itself", "Some faces cross themselves. Cut them where they cross."
+    "outlines_cross",
+    "Outlines cross or overlap, or faces cross themselves. Move them apart, or cut and unite the faces of a mesh.",
 )
 SECTION_FACES_REVERSED = warning(
     "section_faces_reversed",

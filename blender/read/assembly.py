@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ...core.verdict.finding import Finding, finding
 from ..settings.assembly import Root, is_assembly, settings_of
 from ..settings.given import is_point_mass, shows_collection
-from .findings import BOOLEAN_OPERAND, DISABLED_IN_VIEWPORTS, MEMBER_COUNTED_BEFORE, NOT_RENDERED
+from .findings import BOOLEAN_OPERAND, HIDDEN_IN_VIEWPORT, MEMBER_COUNTED_BEFORE, NOT_RENDERED
 from .instances import MAX_DEPTH
 from .reading import float64_matrix
 from .total_caveats import left_out_reasons, operands_of
@@ -151,7 +151,7 @@ class _Walk:
             return finding(NOT_RENDERED) if obj.hide_render or obj.hide_viewport else None
         reason = self.reasons.get(obj)
         if reason is None and obj.hide_viewport:
-            return finding(DISABLED_IN_VIEWPORTS)
+            return finding(HIDDEN_IN_VIEWPORT, switch="monitor icon")
         if reason is None or reason.code != NOT_RENDERED or obj.hide_render:
             return reason
         return hidden_reason(obj, self.depsgraph) or reason

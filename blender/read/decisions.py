@@ -13,13 +13,13 @@ from collections.abc import Iterator
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from .findings import (
-    COLLECTION_WITHOUT_SURFACE,
     DISPLAY_MESH_FOR_MODIFIERS,
     DISPLAY_MESH_FOR_WEIGHTS,
     DISPLAY_MESH_MEASURED,
     DRAWN_AS_POLYGONS,
     EDIT_MODE_SINGLE_SHAPE_KEY,
     EMPTY_TEXT,
+    EMPTY_WITHOUT_INSTANCES,
     HIDDEN_OBJECT_MEASURED,
     INSTANCED_BY_PARENT,
     INSTANCER_HIDDEN,
@@ -32,7 +32,6 @@ from .findings import (
     MODIFIERS_LEFT_OUT,
     NO_GEOMETRY,
     ONLY_LOOSE_GEOMETRY,
-    ONLY_VOLUME_INSTANCES,
     ONLY_WITHOUT_SURFACE,
     READ_IN_MODE,
     RENDER_DIFFERS,
@@ -45,7 +44,7 @@ from .findings import (
     SURFACELESS_LEFT_OUT,
     VIEWPORT_ONLY_MEMBERS,
 )
-from .instances import VOLUMES, InstanceCollector, shows_itself, visible_objects
+from .instances import InstanceCollector, shows_itself, visible_objects
 from .nurbs.curves import is_round
 from .nurbs.deformation import spline_modifiers
 from .nurbs.splines import nonpositive_weights
@@ -68,14 +67,12 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
         return finding(LINES_ONLY)
     if obj.type == "SURFACE" and not obj.modifiers and obj.instance_type == "NONE" and obj.data.splines:
         return finding(LINES_ONLY if vertices else SPLINES_WITHOUT_SURFACE)
-    if set(gathered.left_out) == {VOLUMES} and (gathered.sources or obj.type != "VOLUME"):
-        return finding(ONLY_VOLUME_INSTANCES)
     if gathered.left_out:
         return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out))
     if vertices:
         return finding(ONLY_LOOSE_GEOMETRY, vertices=vertices, edges=edges)
     if obj.instance_type == "COLLECTION":
-        return finding(COLLECTION_WITHOUT_SURFACE)
+        return finding(EMPTY_WITHOUT_INSTANCES)
     if obj.type in SURFACE_TYPES and not shows_itself(obj, False):
         return finding(INSTANCER_HIDDEN)
     return finding(NO_GEOMETRY)

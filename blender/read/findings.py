@@ -20,27 +20,20 @@ OBJECT_UNREADABLE = error("object_unreadable", "“{object}” cannot be read: {
 INSTANCED_BY_PARENT = note(
     "instanced_by_parent", "Shown only as instances of “{parent}”; measured once, at its own location."
 )
-ONLY_VOLUME_INSTANCES = error(
-    "only_volume_instances", "Only instances of volumes are shown. Measure the Volume objects."
-)
-INSTANCES_BESIDE_VOLUME = warning("instances_beside_volume", "Left out: instances shown beside the volume.")
 EMPTY_WITHOUT_INSTANCES = error(
-    "empty_without_instances", "The empty instances nothing. Choose a collection in Object Properties > Instancing."
-)
-COLLECTION_WITHOUT_SURFACE = error(
-    "collection_without_surface", "The instanced collection shows no surface. Add or show an object with faces."
+    "empty_without_instances",
+    "The empty instances nothing with a surface. Choose a collection with one in Object Properties > Instancing.",
 )
 INSTANCER_HIDDEN = error(
     "instancer_hidden", "The object's own geometry is not shown. Turn on Show Instancer in Object Properties."
 )
 NOT_IN_SCENE = error("not_in_scene", "Not in the scene “{scene}”. Link the object to a collection of the scene.")
-DISABLED_IN_VIEWPORTS = error(
-    "disabled_in_viewports", "Disabled in viewports. Turn on the monitor icon in the Outliner."
+HIDDEN_IN_VIEWPORT = error(
+    "hidden_in_viewport", "Not shown in the viewport. Turn on the {switch:word} in the Outliner."
 )
 COLLECTION_HIDDEN = error(
     "collection_hidden", "The collection “{collection}” is not shown. Turn on its {switch:word} in the Outliner."
 )
-HIDDEN_IN_VIEWPORT = error("hidden_in_viewport", "Hidden in the viewport. Turn on the eye icon in the Outliner.")
 NOT_EVALUATED = error("not_evaluated", "Blender has not evaluated the object. Update the view layer.")
 HIDDEN_OBJECT_MEASURED = warning("hidden_object_measured", "Measured although not shown: {cause}")
 OBJECT_WITHOUT_GEOMETRY = error(
@@ -77,7 +70,7 @@ ONLY_LOOSE_GEOMETRY = error(
     "only_loose_geometry",
     "No faces, only {vertices} vertices and {edges} edges. Fill faces, or add thickness with a modifier.",
 )
-SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out, as without a surface: {kinds}.")
+SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out: {kinds}.")
 LINES_ONLY = error(
     "lines_only", "Lines without a surface. Add a bevel or extrusion, fill the curve or text, or set Kind to Wire."
 )
@@ -97,12 +90,7 @@ DRAWN_AS_POLYGONS = note(
     "drawn_as_polygons",
     "The round shape was measured as drawn polygons. Doubling the resolution makes the error four times smaller.",
 )
-CURVE_BEFORE_MODIFIERS = warning(
-    "curve_before_modifiers", "The curve was measured without the modifiers that work on its mesh."
-)
-BEVEL_RANGE_IGNORED = warning(
-    "bevel_range_ignored", "The whole curve was measured; the start and end of its bevel are ignored."
-)
+CURVE_MEASURED_WHOLE = warning("curve_measured_whole", "The curve was measured without {ignored:word}.")
 SPLINES_LEFT_OUT = warning(
     "splines_left_out",
     "{count} of {total} splines is left out: too few points for its order or for Bézier ends.",
@@ -134,21 +122,19 @@ DISPLAY_MESH_FOR_WEIGHTS = warning(
 DISPLAY_MESH_MEASURED = warning(
     "display_mesh_measured", "The display mesh was measured. Raise Resolution Preview for accuracy."
 )
-ATTRIBUTE_MISSING = error("attribute_missing", "No vertex attribute “{attribute}”. Create it, or change Attribute.")
-ATTRIBUTE_TYPE = error(
-    "attribute_type",
-    "The attribute “{attribute}” is not a float per vertex. Use Convert Attribute in Object Data Properties.",
+ATTRIBUTE_MISSING = error(
+    "attribute_missing",
+    "No attribute “{attribute}” with a float per vertex. Create it, use Convert Attribute, or change Attribute.",
 )
 VOLUME_WITHOUT_GRIDS = error(
     "volume_without_grids", "The volume has no grids. Choose a file, or add a modifier that makes grids."
 )
-VOLUME_FILE_UNREADABLE = error(
-    "volume_file_unreadable", "The volume's file is missing or cannot be read: {error}. Choose another file."
-)
 GRID_MISSING = error("grid_missing", "No grid “{grid}”; the volume has {grids}. Change Grid.")
 GRID_TYPE = error("grid_type", "The grid “{grid}” does not hold scalar numbers. Choose another grid.")
 NO_SCALAR_GRID = error("no_scalar_grid", "No grid holds scalar numbers; the volume has {grids}. Choose another volume.")
-GRID_UNREADABLE = error("grid_unreadable", "The grid “{grid}” cannot be read: {error}.")
+GRID_UNREADABLE = error(
+    "grid_unreadable", "The grid “{grid}” is missing or cannot be read: {error}. Choose another file or grid."
+)
 GRID_FRUSTUM = error("grid_frustum", "The grid “{grid}” has a frustum transform. Resample it with a linear transform.")
 GRID_TOO_LARGE = error(
     "grid_too_large", "The grid “{grid}” spans too many voxels, {samples:size}. Crop it, or use a coarser one."
@@ -189,13 +175,10 @@ SECTION_NO_OUTLINE = error(
 SECTION_TEXT_ON_CURVE = error(
     "section_text_on_curve", "The text follows a curve and is not filled. Fill it, or use Object > Convert > Mesh."
 )
-SECTION_3D_CURVE = error(
-    "section_3d_curve", "A 3D curve encloses no flat region. Set it to 2D in Object Data Properties > Shape."
-)
 SECTION_EXTRUDED = error(
     "section_extruded",
-    "The curve is extruded, beveled or offset. Set Extrude, Bevel Depth and Offset to 0, or use Object > Convert > "
-    "Mesh.",
+    "The curve is 3D, extruded, beveled or offset. Set it to 2D, and Extrude, Bevel Depth and Offset to 0, or use "
+    "Object > Convert > Mesh.",
 )
 SCALE_ZERO_AXIS = error("scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it.")
 TOTAL_BOOLEAN_OPERANDS = warning(

@@ -34,7 +34,6 @@ from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_g
 
 # Blender stops here too (MAX_DUPLI_RECUR - 1).
 MAX_DEPTH = 7
-VOLUMES = "volumes"
 
 
 class _NeedsInstanceList(Exception):
@@ -280,7 +279,7 @@ class InstanceCollector:
         if geometry.pointcloud is not None and len(geometry.pointcloud.points):
             self.left_out["points"] += count * len(geometry.pointcloud.points)
         if geometry.volume is not None:
-            self.left_out[VOLUMES] += count
+            self.left_out["volumes"] += count
 
 
 def _object_slots(owner) -> tuple:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import ReadError
-from .findings import ATTRIBUTE_MISSING, ATTRIBUTE_TYPE
+from .findings import ATTRIBUTE_MISSING
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
 SINGLE_ACCESS_COST = 5
@@ -124,10 +124,8 @@ def face_slots(mesh) -> NDArray[np.int32]:
 def vertex_values(mesh, name: str) -> NDArray[np.float64]:
     """Return (n,) values of a float attribute on vertices, or raise ReadError if there is none."""
     attribute = mesh.attributes.get(name)
-    if attribute is None:
+    if attribute is None or attribute.domain != "POINT" or attribute.data_type != "FLOAT":
         raise ReadError(ATTRIBUTE_MISSING, attribute=name)
-    if attribute.domain != "POINT" or attribute.data_type != "FLOAT":
-        raise ReadError(ATTRIBUTE_TYPE, attribute=name)
     return _attribute(mesh, name, "value", (len(mesh.vertices),), np.float32).astype(np.float64)
 
 

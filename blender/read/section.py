@@ -28,7 +28,6 @@ from .findings import (
     MODIFIERS_LEFT_OUT,
     RENDER_DIFFERS,
     RENDER_RESOLUTION_DIFFERS,
-    SECTION_3D_CURVE,
     SECTION_EXTRUDED,
     SECTION_MODIFIED_FILL,
     SECTION_NO_OUTLINE,
@@ -208,10 +207,9 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
 
 def _require_flat_outlines(obj) -> None:
     curve = obj.data
-    if obj.type == "CURVE" and curve.dimensions != "2D":
-        raise ReadError(SECTION_3D_CURVE, subject=obj.name)
+    is_spatial = obj.type == "CURVE" and curve.dimensions != "2D"
     has_bevel = curve.bevel_depth or (curve.bevel_mode == "OBJECT" and curve.bevel_object)
-    if curve.extrude or curve.offset or has_bevel:
+    if is_spatial or curve.extrude or curve.offset or has_bevel:
         raise ReadError(SECTION_EXTRUDED, subject=obj.name)
 
 

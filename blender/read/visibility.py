@@ -17,7 +17,6 @@ from ...core.verdict.finding import Finding, ReadError, finding
 from ..settings.given import is_point_mass, shows_collection
 from .findings import (
     COLLECTION_HIDDEN,
-    DISABLED_IN_VIEWPORTS,
     EMPTY_WITHOUT_INSTANCES,
     HIDDEN_IN_VIEWPORT,
     NOT_EVALUATED,
@@ -156,7 +155,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if not branches:
         return finding(NOT_IN_SCENE, scene=depsgraph.scene.name)
     if obj.hide_viewport:
-        return finding(DISABLED_IN_VIEWPORTS)
+        return finding(HIDDEN_IN_VIEWPORT, switch="monitor icon")
     reasons, barred = [], set()
     for blocks, switch in (
         (lambda layer: layer.exclude, "check box"),
@@ -174,7 +173,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if len(barred) == len(branches):
         return reasons[-1]  # one for each of its collections: the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):
-        return finding(HIDDEN_IN_VIEWPORT)
+        return finding(HIDDEN_IN_VIEWPORT, switch="eye icon")
     return None
 
 

@@ -34,13 +34,11 @@ from ...read.findings import (
     FLAT_OF_TYPE,
     NO_GEOMETRY,
     RENDER_DIFFERS,
-    SECTION_3D_CURVE,
     SECTION_EXTRUDED,
 )
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ..findings import (
     OUTLINES_CROSS,
-    SECTION_FACE_CROSSES_ITSELF,
     SECTION_FACES_OVERLAP,
     SECTION_FACES_REVERSED,
     SECTION_FILL_WRONG,
@@ -53,7 +51,7 @@ from ..wire import curves_in_world
 FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
 # why an object is no body, and why it is no flat shape either: the first of them is what its user has to hear
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
-NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, SECTION_3D_CURVE, FLAT_OF_TYPE}
+NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
 
 
@@ -162,7 +160,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
     if reading.loops is not None and (defects.crossings or defects.overlapping):
         raise ReadError(OUTLINES_CROSS)
     if defects.negative:
-        raise ReadError(SECTION_FACE_CROSSES_ITSELF)
+        raise ReadError(OUTLINES_CROSS)
     if defects.crossings or defects.overlapping:
         findings.append(finding(SECTION_FACES_OVERLAP))
     if defects.too_many_pairs:

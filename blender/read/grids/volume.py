@@ -28,12 +28,13 @@ from ..findings import (
     GRID_NAMES_REPEATED,
     GRID_SIMPLIFIED,
     GRID_TYPE,
+    GRID_UNREADABLE,
     GRIDS_LEFT_OUT,
     HIDDEN_OBJECT_MEASURED,
-    INSTANCES_BESIDE_VOLUME,
+    KIND_COUNT,
     NO_SCALAR_GRID,
+    SURFACELESS_LEFT_OUT,
     TEMPORARY_FOLDER_FULL,
-    VOLUME_FILE_UNREADABLE,
     VOLUME_WITHOUT_GRIDS,
 )
 from ..objects import locate
@@ -82,7 +83,9 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
         findings.append(finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record()))
     findings.extend(modifier_findings(obj, depsgraph.scene))
     if volume.geometry.instances_pointcloud() is not None:
-        findings.append(finding(INSTANCES_BESIDE_VOLUME))
+        count = len(volume.geometry.instances_pointcloud().points)
+        kinds = [finding(KIND_COUNT, kind="instances beside the volume", count=count).as_record()]
+        findings.append(finding(SURFACELESS_LEFT_OUT, kinds=kinds))
     try:
         with _open_grid(obj, volume, chosen, depsgraph, findings) as source:
             yield VolumeReading(
@@ -120,7 +123,7 @@ def _volume(obj, depsgraph):
     folder = os.path.isdir(bpy.path.abspath(volume.filepath, library=obj.data.library))
     if not volume.grids.load() and not folder:
         error = volume.grids.error_message.rstrip(".") or bpy.path.basename(volume.filepath)
-        raise ReadError(VOLUME_FILE_UNREADABLE, subject=obj.name, error=error)
+        raise ReadError(GRID_UNREADABLE, subject=obj.name, grid=volume.name, error=error)
     if not len(volume.grids):
         if obj.type != "VOLUME" or geometry.instances_pointcloud() is not None:
             return None

@@ -18,7 +18,7 @@ from ....core.nurbs.blender_knots import blender_space
 from ....core.nurbs.curve import Curve
 from ....core.nurbs.findings import NON_FINITE_CONTROL_POINTS
 from ....core.verdict.finding import Finding, ReadError, finding
-from ..findings import BEVEL_RANGE_IGNORED, CURVE_BEFORE_MODIFIERS, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
+from ..findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
 from ..visibility import evaluated_geometry
 from .deformation import deform, is_deformed, spline_modifiers
 from .splines import weighted_points
@@ -42,9 +42,9 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
     else:
         curves = list(_spline_curves(evaluated, depsgraph))
         if spline_modifiers(obj)[1]:
-            findings.append(finding(CURVE_BEFORE_MODIFIERS))
+            findings.append(finding(CURVE_MEASURED_WHOLE, ignored="the modifiers that work on its mesh"))
         if (obj.data.bevel_factor_start, obj.data.bevel_factor_end) != (0.0, 1.0):
-            findings.append(finding(BEVEL_RANGE_IGNORED))
+            findings.append(finding(CURVE_MEASURED_WHOLE, ignored="the start and end of its bevel"))
     usable = [curve for curve in curves if curve is not None]
     if len(usable) < len(curves):
         findings.append(finding(SPLINES_LEFT_OUT, count=len(curves) - len(usable), total=len(curves)))

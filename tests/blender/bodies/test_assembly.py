@@ -418,7 +418,7 @@ def test_flattened_or_stretched_instances_add_nothing(tmp_path):
     assert close(assembly.measurement.mass_properties.mass, 8000.0, 1e-12)
     assert close(assembly.measurement.volume, 8.0, 1e-12) and close(assembly.measurement.area, 28.0, 1e-12)
     (refusal,) = [part.refusal for part in assembly.root.walk() if part.refusal is not None]
-    assert refusal.code == "only_volume_instances" and str(refusal)
+    assert refusal.code == "only_without_surface" and str(refusal)
     assert [(part.masses, part.volume[0]) for part in assembly.root.walk() if part.refusal] == [({}, 0.0)]
 
 

@@ -276,7 +276,7 @@ def test_partly_bevelled_wire_is_measured_whole():
     obj.body_moments.kind, obj.data.bevel_depth, obj.data.bevel_factor_end = "WIRE", 0.1, 0.5
     found = measured(obj)
     assert found.length == pytest.approx(2.0 * np.pi, rel=1e-7)
-    assert said(found) == {"bevel_range_ignored": {}}
+    assert said(found) == {"curve_measured_whole": {"ignored": "the start and end of its bevel"}}
 
 
 def test_flat_region_takes_varying_density():

@@ -534,7 +534,7 @@ def test_missing_or_mistyped_attribute_is_refused():
     with refused("attribute_missing", attribute="mass"):
         measure(obj)
     by_attribute(obj, np.ones(16), name="per_face", domain="FACE")
-    with refused("attribute_type", attribute="per_face"):
+    with refused("attribute_missing", attribute="per_face"):
         measure(obj)
     obj.body_moments.density_attribute = ""
     with refused("density_source_missing"):

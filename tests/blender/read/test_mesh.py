@@ -97,7 +97,7 @@ def test_face_or_integer_attribute_is_refused(domain, kind):
     data.attributes.new("per_vertex", "FLOAT", "POINT").data.foreach_set("value", range(8))
     data.attributes.new("other", kind, domain)
     assert vertex_values(data, "per_vertex").tolist() == [*range(8)]
-    with refused("attribute_type", attribute="other"):
+    with refused("attribute_missing", attribute="other"):
         vertex_values(data, "other")
 
 

@@ -194,7 +194,7 @@ def test_an_empty_without_instances_is_refused():
     assert refused(obj, "empty_without_instances")
     assert not measurable(obj)
     obj.instance_type, obj.instance_collection = "COLLECTION", collection("Hollow")
-    assert refused(obj, "collection_without_surface")
+    assert refused(obj, "empty_without_instances")
 
 
 def test_objects_without_faces_are_refused_with_their_content():
@@ -294,7 +294,7 @@ def hidden(name):
 def test_an_object_disabled_in_viewports_is_refused():
     obj = doubled("Monitor")
     obj.hide_viewport = True
-    assert refused(obj, "disabled_in_viewports")
+    assert refused(obj, "hidden_in_viewport")
 
 
 def test_an_object_in_an_excluded_collection_is_refused():
@@ -320,7 +320,7 @@ def test_disabled_operand_of_visible_object_is_read():
     reading = read(operand)
     assert len(reading.parts[0].surface.quads) == 12
     assert reading.matrix[0, 3] == 0.5
-    assert said(reading)["hidden_object_measured"]["cause"]["code"] == "disabled_in_viewports"
+    assert said(reading)["hidden_object_measured"]["cause"]["code"] == "hidden_in_viewport"
 
 
 # What the render would show is not what is read.

@@ -193,4 +193,4 @@ def test_flat_moments_are_about_foot_of_reference():
 def test_crossing_outlines_are_the_reason_of_refusal(reported):
     only(sheet([(0, 0), (1, 1), (1, 0), (0, 1)]))
     assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
-    assert "section_face_crosses_itself" in reported.codes
+    assert "outlines_cross" in reported.codes

@@ -201,7 +201,7 @@ def test_open_splines_are_left_out_or_refused():
     assert section.area == 4 and said(findings) == {"section_splines_open": {"count": 1}}
     space = curve_of(square(0, 0, 1))
     space.dimensions = "3D"
-    assert refused(add(space), "section_3d_curve")
+    assert refused(add(space), "section_extruded")
     assert refused(add(text_of("")), "section_no_outline")
 
 
@@ -279,7 +279,7 @@ def test_hidden_objects_and_infinite_points_are_refused():
     for data in (flat_mesh(I_BEAM), curve_of(I_BEAM)):
         obj = add(data)
         obj.hide_viewport = True
-        assert refused(obj, "disabled_in_viewports")
+        assert refused(obj, "hidden_in_viewport")
     mesh = flat_mesh(I_BEAM)
     mesh.vertices[0].co.x = float("nan")
     assert refused(add(mesh), "non_finite_vertices", count=1)
