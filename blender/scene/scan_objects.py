@@ -44,7 +44,12 @@ class PlacedScan(NamedTuple):
 
 
 def read_placed(
-    path: Path, limits: Limits, raw: tuple | None, spacing: Sequence[float] | None, files: dict[str, str], unit: float
+    path: Path,
+    limits: Limits,
+    raw: tuple[Sequence[int], str, bool] | None,
+    spacing: Sequence[float] | None,
+    files: dict[str, str],
+    unit: float,
 ) -> PlacedScan:
     """Read a scan.
 
@@ -52,8 +57,8 @@ def read_placed(
     file's. files: of positions along axes, and their unit in m. Raises FileError.
     """
     try:
-        is_raw = raw is not None and scan_suffix(path) == ".raw"
-        scan = read_raw(path, *raw, limits) if is_raw else read_scan(path, limits)
+        is_raw = scan_suffix(path) == ".raw"
+        scan = read_raw(path, *raw, limits) if raw is not None and is_raw else read_scan(path, limits)
         positions = read_all_positions(files, scan.samples.shape)
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error

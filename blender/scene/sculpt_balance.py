@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
-from typing import NamedTuple
+from dataclasses import dataclass, replace
 
 import bmesh
 import bpy
@@ -47,7 +46,8 @@ REACHED_RTOL = 1e-6  # rounding of a center in float32, relative to the body's s
 ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported as 0
 
 
-class Balanced(NamedTuple):
+@dataclass(frozen=True)
+class Balanced:
     """The number of moved vertices, the longest move in m, and (3,) the center of mass before and after, in m."""
 
     count: int

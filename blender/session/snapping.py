@@ -25,9 +25,7 @@ from .tracking import staleness
 CENTER = MeasureOptions(axes=False)
 
 
-def store_measured(
-    context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]
-) -> dict[Object, Finding | Exception]:
+def store_measured(context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]) -> dict[Object, Exception]:
     """Store measurements of the present scene; return the reasons for objects that cannot hold theirs."""
     measured = list(measured)
     outcomes = list(results.store_many(measured, context.scene))

@@ -446,7 +446,7 @@ def stored(obj: Owner) -> StoredProperties | None:
         values.append(row if length else row[0])
     *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    return StoredProperties(*numbers, rotation_axes(turn), {**rounding, "input": inputs})
+    return StoredProperties._make((*numbers, rotation_axes(turn), {**rounding, "input": inputs}))
 
 
 def tensor_entries(tensor: NDArray) -> NDArray:

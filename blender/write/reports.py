@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, TypeVar
+from typing import Any
 
 import bpy
 from bpy.types import Operator
@@ -23,7 +23,6 @@ from .units import Units
 
 MAX_REPORTED = 3  # findings of one kind that a report names before it only counts
 LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "ERROR"}
-Shown = TypeVar("Shown", bound=Finding | str)
 
 
 def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
@@ -78,7 +77,7 @@ def progress(count: float) -> Iterator[Callable[[float], None]]:
         manager.progress_end()
 
 
-def first(parts: Sequence[Shown]) -> list[Shown | Finding]:
+def first(parts: Sequence[Any]) -> list[Any]:
     """Return the first of the most severe findings or texts, and the number of the others."""
     ranked = sorted(parts, key=lambda part: [*Severity].index(_rank(part)), reverse=True)
     return truncate_findings(ranked, MAX_REPORTED)

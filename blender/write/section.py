@@ -157,7 +157,7 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     )
     yield report_line("Area", "{} m²".format(report_number(section.area)))
     yield report_line("Perimeter", "{} m".format(report_number(section.perimeter)))
-    yield report_line("Centroid", "{} m".format(report_vector(section.center, section.area**0.5)))
+    yield report_line("Centroid", "{} m".format(report_vector(section.center.tolist(), section.area**0.5)))
     yield report_line(
         "Plane",
         "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
@@ -166,10 +166,12 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     )
     yield report_line(
         "Centroid in plane",
-        "{} m, from the foot of the object's origin".format(report_vector(section.centroid, section.area**0.5)),
+        "{} m, from the foot of the object's origin".format(
+            report_vector(section.centroid.tolist(), section.area**0.5)
+        ),
     )
     yield report_line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
-    for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second, section.polar)):
+    for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second.tolist(), section.polar)):
         yield report_line("  " + label, report_number(value))
     yield report_line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar)))
     first, second = section.principal

@@ -51,7 +51,7 @@ def build_measurement(
 ) -> Measurement:
     """Return a measurement: extents and bounds by moments and properties, the other fields as given."""
     rounding, moved = mass_properties.rounding_error, mass_properties.input_error
-    known = {"volume_moments": volume, "area_moments": area}
+    known: dict[str, Any] = {"volume_moments": volume, "area_moments": area}
     return Measurement(
         volume=float(volume.raw[0]),
         area=float(area.raw[0]),

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -29,7 +29,7 @@ from .numpy_files import read_named_raw, read_npy, read_npz
 from .scan import Scan
 from .suffixes import SUFFIXES, scan_suffix
 
-READERS = dict(
+READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
     zip(SUFFIXES, (read_npy, read_npz, read_nrrd, read_nrrd, read_nifti, read_nifti, read_named_raw), strict=True)
 )
 

@@ -13,6 +13,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,7 +89,7 @@ def real_samples(array: NDArray) -> NDArray:
     return array
 
 
-def damaged(path: Path, code: str, **values: object) -> FileError:
+def damaged(path: Path, code: str, **values: Any) -> FileError:
     """Return the error for a damaged file, with the code of the fault."""
     return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
 

@@ -140,7 +140,7 @@ def _capped(
         triangles,
         np.concatenate([part, part[side[kept] // 3]])[order],
         cap_counts,
-        np.stack(counts, axis=1),
+        np.stack(counts, axis=1, dtype=np.float64),
         edges[np.lexsort((edges[:, 1], edges[:, 0], body))],
         np.bincount(body, minlength=count),
     )

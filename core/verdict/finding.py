@@ -157,8 +157,8 @@ def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Ele
     return shown, max((count or len(items)) - len(shown), 0)
 
 
-def truncate_findings(findings: Sequence[Finding], limit: int) -> list[Finding]:
-    """Return the first `limit` findings, and an ``and_more`` finding if there are others."""
+def truncate_findings(findings: Sequence[Any], limit: int) -> list[Any]:
+    """Return the first `limit` findings or texts, and an ``and_more`` finding if there are others."""
     from .findings import AND_MORE  # it imports this module
 
     shown, more = truncate(findings, limit)

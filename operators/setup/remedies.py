@@ -47,6 +47,9 @@ class _OnActive:
         except MeasureError as refusal:
             return selection.refuse(self, reports.failure(obj.name_full, refusal))
 
+    def _change(self, context: Context, obj: Object) -> set[str]:
+        raise NotImplementedError
+
 
 class OBJECT_OT_body_moments_count_as_union(_OnActive, Operator):
     """Unite the overlapping components of the active object before it is measured, and measure it again"""

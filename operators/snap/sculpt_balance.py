@@ -103,7 +103,7 @@ class OBJECT_OT_body_moments_sculpt_balance(Operator):
                 "{end:point}",
                 "Moved {count} vertices by at most {distance:length}; the center of mass went from {start:point} to "
                 "{end:point}",
-                **balanced._asdict(),
+                **vars(balanced),
             )
         ]
         if obj.data.users - obj.data.use_fake_user > 1:

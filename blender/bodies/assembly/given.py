@@ -59,7 +59,7 @@ def given_moments(
         findings.append(finding(CENTER_GIVEN))
     if given.inertia is not None:
         raw[4:], rounding[4:], inputs[4:] = 0.0, 0.0, 0.0
-        second = rotation @ _second_moments(given.inertia) @ rotation.T
+        second = rotation @ _second_moments(np.array(given.inertia)) @ rotation.T
         raw[SECOND_MOMENT_INDEX] = (second + second.T) / 2.0
         rounding[4:10] = 16.0 * U * np.trace(given.inertia)
         findings.append(finding(INERTIA_GIVEN))
