@@ -145,7 +145,7 @@ class DependentsGuard:
         }
 
     def compensate(self) -> None:
-        """Set inverses of children and Child Of constraints that keep the children's places, by evaluated matrices."""
+        """Set the inverses of children and of Child Of constraints so that the children stay in place."""
         held = {parent: np.linalg.solve(world(parent), was) for parent, was in self.changed.items()}
         for child, inverse in self.children.items():
             child.matrix_parent_inverse = Matrix(held[child.parent] @ inverse)

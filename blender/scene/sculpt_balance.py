@@ -80,7 +80,7 @@ class _EditedMesh:
         return bmesh.from_edit_mesh(self.obj.data).verts
 
     def set_points(self, points: NDArray[np.float32]) -> None:
-        """Move the vertices to (n, 3) points."""
+        """Move the movable vertices to their rows of (n, 3) points."""
         self.is_changed = True
         vertices = self._vertices()
         vertices.ensure_lookup_table()

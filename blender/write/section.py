@@ -86,7 +86,7 @@ def fingerprint(obj: bpy.types.Object) -> str:
 
 
 def unit(obj: bpy.types.Object) -> float | None:
-    """Return the unit scale of the stored section, in meters; None if it is damaged."""
+    """Return the unit scale of the stored section, in meters; None if there is none, or it is damaged."""
     group = obj.get(KEY)
     try:
         (meters,) = group["unit"]

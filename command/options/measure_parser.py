@@ -226,12 +226,12 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         "--links",
         choices=("object", "collection", "bone"),
         default="object",
-        help="urdf, sdf, mjcf, usd, gltf: what is one rigid body (object)",
+        help=", ".join(ROBOT_FORMATS) + ": what is one rigid body (object)",
     )
     add(
         "--no-meshes",
         action="store_true",
-        help="urdf, sdf, mjcf, usd, gltf: leave geometry out (with --output: meshes in a folder beside it, of usd and "
+        help=", ".join(ROBOT_FORMATS) + ": leave geometry out (with --output: meshes in a folder beside it, of usd and "
         "gltf in the file itself)",
     )
     add("--output", type=Path, metavar="PATH", help="(standard output)")

@@ -42,7 +42,7 @@ class Entry:
     """An entity in the directory.
 
     number: of its first line, by which others point to it. parameters: (first line, lines). matrix: pointer to a
-    transformation, or 0. hidden, dependent: by its status.
+    transformation, or 0. hidden, dependent: flags of its status number.
     """
 
     number: int

@@ -135,7 +135,7 @@ def half_of_grid(grid: FrequencyGrid) -> NDArray[np.float64]:
 
 
 def _edge_sum(middle: NDArray, half: NDArray, normal: NDArray, q: NDArray) -> NDArray[np.complex128]:
-    """Return (M,) the sum over edges, by columns (2, k)."""
+    """Return (M,) the sum over k edges at (M, 2) wave vectors; middles, half edges and normals are (2, k)."""
     block = q.T
     m, t, across = (
         sum((np.multiply.outer(a, b) for a, b in zip(block, vectors)), np.zeros(()))

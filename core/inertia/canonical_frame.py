@@ -9,7 +9,7 @@ First a finite set of frames is found that turns with the body. Axes of differen
 signs. Around one such axis the other two are turned to make the first clear harmonic ∫ (x+iy)^m ... real and positive:
 its phase is a rotation's, so an m-fold choice is left (a square prism's by fourth order, a triangular one's by third).
 If all second moments are equal, the first axis is a direction in which the n-th moment ∫ (u·x)^n is largest or
-smallest, whichever happens in fewer directions: for a cube by fourth order its own axes (cases.md 2.11).
+smallest, whichever happens in fewer directions: for a cube by fourth order its own axes.
 Then the central moments are written down in each of these frames, and those frames are kept in which they are largest,
 entry by entry; entries that differ by noise are equal. The remaining frames are the ones in which the body is the same.
 """
@@ -286,7 +286,7 @@ def _sphere_directions() -> NDArray[np.float64]:
 
 
 def frame_about(axis: NDArray) -> NDArray[np.float64]:
-    """Return a right-handed frame with this third axis, the others near to the coordinate axes."""
+    """Return a right-handed frame with this third axis; the first is a coordinate axis, projected."""
     helper = np.eye(3)[np.argmin(np.abs(axis))]
     first = helper - axis * (axis @ helper)
     first /= np.linalg.norm(first)

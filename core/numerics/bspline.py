@@ -178,7 +178,7 @@ class SplineSpace:
     def collocation_matrix(
         self, parameters: ArrayLike, derivative: int = 0, spans: NDArray[np.integer] | None = None
     ) -> NDArray[np.float64]:
-        """Return (n, count) weights of the control points at each of n parameters, or in a derivative there.
+        """Return (n, count) weights of the control points in the value, or a derivative, at n parameters.
 
         spans: (n,) the span of each parameter, needed if a knot may end one or begin the next.
         """

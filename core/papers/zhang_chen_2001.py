@@ -12,8 +12,8 @@ integral over the shape's barycentric coordinates λ:
 
 one term for each choice of a corner for every factor of the monomial.
 
-A reference: d^n terms for order n. Generic over the number type, exact in `fractions.Fraction`. The pose that the paper
-derives from the moments (eq. 11) is in `pose`. Its Fourier transform is measured by `core/fourier/transform.py`.
+A reference: d^n terms for order n. Generic over the number type, exact in `fractions.Fraction`. The paper's pose (eq.
+11) is `zhang_chen_frame` in `core/inertia/principal_frames.py`, its Fourier transform `core/fourier/transform.py`.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
 
 
 def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
-    """Return (4,) six volumes and 24 first moments. points: (3, n)."""
+    """Return (4,): 6 times the volume and 24 times the three first moments. points: (3, n)."""
     a, b, c = (points.take(corner, axis=1) for corner in triangles.T)
     return _sums((dot(cross(b, c), a), a + b + c))
 

@@ -12,7 +12,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ..mesh.surface import Surface
-from .close_components import (
+from .duplicate_faces import drop_duplicate_faces
+from .hole_caps import (
     cap_holes,
     close_gaps,
     find_t_junctions,
@@ -21,7 +22,6 @@ from .close_components import (
     report_closedness,
     turn_faces,
 )
-from .duplicate_faces import drop_duplicate_faces
 from .repaired_mesh import UNKNOWN, RepairedMesh
 from .weld_open_parts import drop_collapsed_triangles, split_into_triangles, weld_equal_positions, weld_near_positions
 

@@ -82,7 +82,7 @@ class OBJECT_OT_body_moments_copy_section(Operator):
 
 
 def _objects_with_sections(context: Context) -> list[Object]:
-    """Return the meshes being edited, else the selected objects that may have a section."""
+    """Return edited meshes with selected faces (all if none has), else selected objects that may have a section."""
     if context.mode != "EDIT_MESH":
         return [obj for obj in context.view_layer.objects.selected if obj.type in SECTION_TYPES]
     edited = [obj for obj in context.view_layer.objects if obj.type == "MESH" and obj.data.is_editmode]

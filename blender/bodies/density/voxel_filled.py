@@ -129,7 +129,7 @@ def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, h
 
 
 def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
-    """Return the effect of float32 coordinates, as large a share of the largest moment as in the solid itself."""
+    """Return the effect of float32 coordinates: the solid's, by the ratio of largest moments or totals."""
     solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
     solid = solid.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)

@@ -332,7 +332,7 @@ def _placed(moments: Moments, matrices: NDArray) -> Moments:
 
 
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """Return the areas of the images, of uneven ones from the mapped surfaces."""
+    """Return the areas of the images; if a matrix is no similarity, those of the mapped surfaces."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return _placed(area, matrices)

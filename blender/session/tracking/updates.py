@@ -116,7 +116,7 @@ def depsgraph_of(stamp: Update) -> Depsgraph | None:
 
 
 def note_updates(updates: handlers.Updates) -> None:
-    """Write down the updated data-blocks."""
+    """Sort the updated data-blocks into edits, returns by undo, and moves; none while tracking is paused."""
     global _count, _undo_pending, _set_since
     if tracking_paused.depth:
         return

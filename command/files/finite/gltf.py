@@ -47,7 +47,7 @@ def _bad_numbers(numbers: Iterable[float]) -> int:
 
 
 def _placing_accessors(document: dict[str, Any]) -> dict[int, str | None]:
-    """Return the accessors with numbers that place points, and the name of the mesh of each that holds vertices."""
+    """Return the accessors that place points, each with its mesh's name: None for skins, animations and instances."""
     found: dict[int, str | None] = {}
     for number, mesh in enumerate(document.get("meshes", [])):
         for primitive in mesh["primitives"]:

@@ -3,7 +3,7 @@
 """MJCF, for MuJoCo, with the inertia as principal pair, `diaginertia` and `quat`.
 
 MuJoCo's test that no principal moment exceeds the sum of the others has no tolerance, and its moments of a
-`fullinertia` are off by rounding, which refuses thin plates.
+`fullinertia` are off by rounding, so that it refuses thin plates.
 """
 
 from __future__ import annotations
