@@ -9,6 +9,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.files.whole_file import whole_file
 from ..core.measurement.plain_text import counted, print_message
 from ..core.robots.audit import Audit, Auditor
@@ -18,7 +19,6 @@ from ..core.robots.repair import repaired_copy
 from ..core.robots.write import audit_report
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
-from .findings import RESULT_NOT_WRITTEN
 from .options import targets
 from .parser import Parser
 
@@ -103,5 +103,5 @@ def _write_copy(path: Path, audit: Audit, options: argparse.Namespace) -> str | 
         with whole_file(target) as file:
             file.write(copy)
     except OSError as error:
-        raise FileError(RESULT_NOT_WRITTEN, file=str(target), error=system_reason(error)) from error
+        raise FileError(FILE_NOT_WRITTEN, file=str(target), error=system_reason(error)) from error
     return str(target)

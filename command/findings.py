@@ -15,9 +15,6 @@ SIGNATURE_OF_DISPLAY_MESH = warning(
 FOURIER_OBJECT_COUNT = error(
     "fourier_object_count", "--fourier needs one object that is no array, and there are {count}. Use --object."
 )
-RESULT_NOT_WRITTEN = error("result_not_written", "“{file}” cannot be written: {error}.")
-OTHER_SCENES = warning("other_scenes", "Only the scene “{scene}” was measured; left out: {scenes}.")
-IMPORT_FAILED = error("import_failed", "Blender cannot read the file: {error}.")
 NO_MEASURABLE_OBJECT = error(
     "no_measurable_object", "Nothing was measured: there is no object with a surface or volume."
 )
@@ -54,10 +51,6 @@ ASSETS_NOT_MEASURED = warning(
     "collection: {names}. --all measures what is not rendered.",
 )
 AT_GLTF_ROW = note("at_gltf_row", "row {row} of {part} “{name}”")
-GLTF_BUFFER_SHORT = error(
-    "gltf_buffer_short", "The buffer “{buffer}” is cut short: {size} of {expected} bytes. Export the file again."
-)
-OBJECT_NOT_IN_FILE = error("object_not_in_file", "No object of this name in the file or its scene.")
 PART_UNAVAILABLE = error("part_unavailable", "No {part}: {cause}")
 OPTIONS_UNUSED = warning(
     "options_unused", "Options that do not apply to this body, or to how its file is read, were not used: {options}."
@@ -66,9 +59,6 @@ STREAM_OPTIONS = error(
     "stream_options", "A mesh that is read in blocks cannot be measured with {options}. Use --stream never."
 )
 UNIT_ASSUMED = warning("unit_assumed", "The file has no unit: 1 unit was taken as 1 m. Use --unit-scale.")
-DENSITY_VOLUME_UNKNOWN = error(
-    "density_volume_unknown", "There is no Volume object “{name}” in the scene. Name one that is."
-)
 RESULTS_NEED_BLEND = error(
     "results_need_blend", "Results can only be stored in a .blend file that was saved before; --write did nothing."
 )

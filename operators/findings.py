@@ -15,7 +15,6 @@ ROBOT_NAMES_ALIKE = error("robot_names_alike", "Blender gives {names} one name i
 ROBOT_GEOMETRY_NOT_WRITTEN = error("robot_geometry_not_written", "Blender's exporter failed: {error}.")
 PRIMITIVE_HAS_PARENT = error("primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it.")
 FILE_EXISTS = error("file_exists", "The file “{file}” exists. Turn on Overwrite.")
-FILE_NOT_WRITTEN = error("file_not_written", "The file cannot be written: {error}.")
 
 OBJECT_WARNINGS = warning("object_warnings", "{object}: {causes}")
 FLAT_AND_BODY = error(

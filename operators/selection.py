@@ -19,8 +19,8 @@ from ..blender.scene.changes import ancestors
 from ..blender.session.stored import outcome
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
+from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.verdict.finding import FileError, Finding, MeasureError, Severity, system_reason
-from .findings import FILE_NOT_WRITTEN
 
 NO_FILE = "No file is named. Choose one."
 MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
@@ -178,7 +178,7 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
         with core.files.whole_file.whole_file(path) as file:
             file.writelines(piece if isinstance(piece, bytes) else piece.encode() for piece in pieces)
     except OSError as error:
-        raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
+        raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error
 
 
 def ask_for_table(operator: Operator, context: Context) -> set[str]:

@@ -11,9 +11,6 @@ from collections.abc import Sequence
 
 from bpy.types import Context, UILayout
 
-from ..blender.bodies.findings import (
-    DUPLICATE_FACES_OF_SHELL,
-)
 from ..blender.session.stored import outcome
 from ..blender.write.properties import StoredProperties
 from ..blender.write.translations import localized
@@ -54,7 +51,6 @@ REMEDIES = {
     HOLES_CAPPED: (DEFECTS, SHELL),
     DUPLICATE_FACES_IGNORED: (DEFECTS,),
     DUPLICATE_FACES_COUNTED: (DEFECTS,),
-    DUPLICATE_FACES_OF_SHELL: (DEFECTS,),
     VERTICES_WELDED: (DEFECTS,),
     ONE_SIDED_COMPONENTS: (SHELL,),
     NON_MANIFOLD_COMPONENTS: (DEFECTS, SHELL),

@@ -8,11 +8,6 @@ NON_PLANAR_FACES_OF_DISPLAY_MESH = note(
     "non_planar_faces_of_display_mesh",
     "Non-planar faces of the display mesh: their triangulation can change the volume by up to {share:percent}.",
 )
-DUPLICATE_FACES_OF_SHELL = warning(
-    "duplicate_faces_of_shell",
-    "{count} duplicate face counts as material. Delete it.",
-    "{count} duplicate faces count as material. Delete them.",
-)
 UNION_BY_BOOLEAN = note(
     "union_by_boolean", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits."
 )
@@ -43,9 +38,6 @@ INSTANCE_OVERLAP_UNCHECKED = warning(
 )
 CURVE_FILL_MEASURED = warning(
     "curve_fill_measured", "Blender's fill of the curves was measured, overlapping or not: {cause}"
-)
-WALL_ERROR_ESTIMATE_LARGE = warning(
-    "wall_error_estimate_large", "The estimated error of the wall's volume is above the target."
 )
 WALL_UNORIENTED = warning(
     "wall_unoriented",

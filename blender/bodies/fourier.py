@@ -16,7 +16,7 @@ from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
 from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
 from ...core.fourier.spectrum import APPROXIMATE, Spectrum
 from ...core.fourier.wave_vectors import FrequencyGrid
-from ...core.measurement.findings import NO_THICKNESS, WALL_UNSUPPORTED
+from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ...core.measurement.settings import Settings
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
@@ -124,7 +124,7 @@ def _require_thin(settings: Settings) -> None:
     if settings.wall != "thin":
         raise ReadError(WALL_UNSUPPORTED, quantity="The Fourier transform")
     if not settings.thickness > 0.0:
-        raise ReadError(NO_THICKNESS)
+        raise ReadError(ZERO_QUANTITY, quantity="thickness")
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:

@@ -23,6 +23,7 @@ from ...core.moments.affine_maps import are_similarities, distinct_linear_parts,
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
 from ...core.nurbs.creases import sharpest_crease
+from ...core.nurbs.findings import ERROR_ESTIMATE_LARGE
 from ...core.nurbs.patch import Patch
 from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volume_moments
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
@@ -34,7 +35,6 @@ from .findings import (
     DISPLAY_MESH_NEEDED,
     INSTANCE_OVERLAP_UNCHECKED,
     WALL_CREASES,
-    WALL_ERROR_ESTIMATE_LARGE,
     ZERO_SCALE,
 )
 from .mesh.instances import (
@@ -267,7 +267,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
             sheets.append(sum_of_images(sheet, translations_of_image))
             areas.append(sum_of_images(area, translations_of_image))
             if not fine:
-                by_part.append((part.source_object_name, [finding(WALL_ERROR_ESTIMATE_LARGE)]))
+                by_part.append((part.source_object_name, [finding(ERROR_ESTIMATE_LARGE, quantity="wall's volume")]))
     findings = findings_by_part(by_part, reading.name)
     polygons = None
     if meshes.parts:

@@ -12,7 +12,7 @@ from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.measurement.builder import Extent, add_extents, extent_of, measure_total
-from ...core.measurement.findings import DENSITY_FROM_MEMBERS, NO_VOLUME, ZERO_DENSITY
+from ...core.measurement.findings import DENSITY_FROM_MEMBERS, NO_VOLUME, ZERO_QUANTITY
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities
@@ -207,7 +207,7 @@ class _Measuring:
             density = measurement.mass_properties.mass / measurement.volume
             self.findings.append(finding(RIG_MEAN_DENSITY).of_sources([obj.name]))
         if not density > 0.0:
-            raise ReadError(ZERO_DENSITY)
+            raise ReadError(ZERO_QUANTITY, quantity="density")
         for name, moments, area, surface, matrix, verdict in pieces:
             found = self._sum_of(name, obj)
             carrier = replace(moments.truncate(KNOWN_ORDER), measure=Measure.MASS)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.measurement.body import Body
-from ...core.measurement.findings import NO_THICKNESS, WALL_UNSUPPORTED
+from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ...core.mesh.boxes import boxes_overlap
 from ...core.mesh.surface import Surface
 from ...core.moments.exponents import KNOWN_ORDER
@@ -108,7 +108,7 @@ class Walls:
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
         """Return the body with walls of a thickness, m, or raise ReadError; finding walls that meet takes time."""
         if not thickness > 0.0:
-            raise ReadError(NO_THICKNESS)
+            raise ReadError(ZERO_QUANTITY, quantity="thickness")
         if any(piece.folds(self.side, thickness) for piece in self.pieces):
             raise ReadError(self._folded_reason(thickness))
         wall = sum_moments([piece.moments(self.side, thickness) for piece in self.pieces])

@@ -151,7 +151,7 @@ class _Walk:
             return finding(NOT_RENDERED) if obj.hide_render or obj.hide_viewport else None
         reason = self.reasons.get(obj)
         if reason is None and obj.hide_viewport:
-            return finding(HIDDEN_IN_VIEWPORT, switch="monitor icon")
+            return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="monitor icon")
         if reason is None or reason.code != NOT_RENDERED or obj.hide_render:
             return reason
         return hidden_reason(obj, self.depsgraph) or reason

@@ -31,14 +31,12 @@ from .findings import (
     MODIFIER_ERROR,
     MODIFIERS_LEFT_OUT,
     NO_GEOMETRY,
-    ONLY_LOOSE_GEOMETRY,
     ONLY_WITHOUT_SURFACE,
     READ_IN_MODE,
     RENDER_DIFFERS,
     RENDER_LEVELS_DIFFER,
     RENDER_MODIFIER_DIFFERS,
     RENDER_ONLY_MEMBERS,
-    RENDER_RESOLUTION_DIFFERS,
     SCALE_ZERO_AXIS,
     SPLINES_WITHOUT_SURFACE,
     SURFACELESS_LEFT_OUT,
@@ -70,7 +68,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
     if gathered.left_out:
         return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds(gathered.left_out))
     if vertices:
-        return finding(ONLY_LOOSE_GEOMETRY, vertices=vertices, edges=edges)
+        return finding(ONLY_WITHOUT_SURFACE, kinds=_kinds({"vertices": vertices, "edges": edges}))
     if obj.instance_type == "COLLECTION":
         return finding(EMPTY_WITHOUT_INSTANCES)
     if obj.type in SURFACE_TYPES and not shows_itself(obj, False):
@@ -194,22 +192,23 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
             yield finding(RENDER_MODIFIER_DIFFERS, modifier=modifier.name, place=place)
         elif shown:
             here, there = _levels(modifier, scene.render)
+            quoted = "“{}”".format(modifier.name)
             if here != there:
-                yield finding(RENDER_LEVELS_DIFFER, modifier=modifier.name, viewport=here, render=there)
+                yield finding(RENDER_LEVELS_DIFFER, name=quoted, viewport=here, render=there)
             system = getattr(modifier, "particle_system", None)
             if system is not None and system.settings.display_percentage < 100:
                 share = "{:d}%".format(system.settings.display_percentage)
-                yield finding(RENDER_LEVELS_DIFFER, modifier=modifier.name, viewport=share, render="100%")
+                yield finding(RENDER_LEVELS_DIFFER, name=quoted, viewport=share, render="100%")
     data = obj.data
     if not exact and obj.type in {"CURVE", "FONT", "SURFACE"}:
         for axis in "uv" if obj.type == "SURFACE" else "u":
             shown, rendered = getattr(data, "resolution_" + axis), getattr(data, "render_resolution_" + axis)
             if rendered not in (0, shown):
                 name = "Resolution " + axis.upper()
-                yield finding(RENDER_RESOLUTION_DIFFERS, name=name, viewport=shown, render=rendered)
+                yield finding(RENDER_LEVELS_DIFFER, name=name, viewport=shown, render=rendered)
     if obj.type == "META" and data.resolution != data.render_resolution:
         yield finding(
-            RENDER_RESOLUTION_DIFFERS,
+            RENDER_LEVELS_DIFFER,
             name="Resolution",
             viewport=shortest_decimal(data.resolution),
             render=shortest_decimal(data.render_resolution),

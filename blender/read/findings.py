@@ -29,10 +29,7 @@ INSTANCER_HIDDEN = error(
 )
 NOT_IN_SCENE = error("not_in_scene", "Not in the scene “{scene}”. Link the object to a collection of the scene.")
 HIDDEN_IN_VIEWPORT = error(
-    "hidden_in_viewport", "Not shown in the viewport. Turn on the {switch:word} in the Outliner."
-)
-COLLECTION_HIDDEN = error(
-    "collection_hidden", "The collection “{collection}” is not shown. Turn on its {switch:word} in the Outliner."
+    "hidden_in_viewport", "“{name}” is not shown in the viewport. Turn on its {switch:word} in the Outliner."
 )
 NOT_EVALUATED = error("not_evaluated", "Blender has not evaluated the object. Update the view layer.")
 HIDDEN_OBJECT_MEASURED = warning("hidden_object_measured", "Measured although not shown: {cause}")
@@ -57,18 +54,9 @@ RENDER_DIFFERS = warning("render_differs", "Measured as in the viewport; the ren
 RENDER_ONLY_MEMBERS = warning("render_only_members", "Left out, as only the render shows them: {objects}.")
 VIEWPORT_ONLY_MEMBERS = warning("viewport_only_members", "Measured, although the render does not show them: {objects}.")
 RENDER_MODIFIER_DIFFERS = note("render_modifier_differs", "“{modifier}” is only in the {place:word}")
-RENDER_LEVELS_DIFFER = note(
-    "render_levels_differ", "“{modifier}” has {viewport} in the viewport and {render} in the render"
-)
-RENDER_RESOLUTION_DIFFERS = note(
-    "render_resolution_differs", "{name:word} is {viewport:.3g} in the viewport and {render:.3g} in the render"
-)
+RENDER_LEVELS_DIFFER = note("render_levels_differ", "{name:word}: {viewport} in the viewport, {render} in the render")
 ONLY_WITHOUT_SURFACE = error(
-    "only_without_surface", "No surface, only {kinds}. Add a surface, for example with a modifier."
-)
-ONLY_LOOSE_GEOMETRY = error(
-    "only_loose_geometry",
-    "No faces, only {vertices} vertices and {edges} edges. Fill faces, or add thickness with a modifier.",
+    "only_without_surface", "No surface, only {kinds}. Fill faces, or add a surface with a modifier."
 )
 SURFACELESS_LEFT_OUT = warning("surfaceless_left_out", "Left out: {kinds}.")
 LINES_ONLY = error(
@@ -145,7 +133,6 @@ GRID_FAR_FROM_ORIGIN = error(
 GRID_NAMES_REPEATED = warning(
     "grid_names_repeated", "Several grids have the same name; only the first counts. Rename the others."
 )
-GRIDS_LEFT_OUT = warning("grids_left_out", "The grid “{grid}” was measured; left out: {grids}.")
 GRID_SIMPLIFIED = warning(
     "grid_simplified",
     "Simplify reduces the voxels to {share:percent} of their resolution. Turn off Simplify in Render Properties.",
@@ -181,13 +168,8 @@ SECTION_EXTRUDED = error(
     "Object > Convert > Mesh.",
 )
 SCALE_ZERO_AXIS = error("scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it.")
-TOTAL_BOOLEAN_OPERANDS = warning(
-    "total_boolean_operands", "Boolean operands count as bodies: {operands}. Leave out what is not a part."
-)
-TOTAL_HIDDEN_OBJECTS = warning(
-    "total_hidden_objects",
-    "Objects that are hidden, not rendered or displayed as wire or bounds count: {objects}. Leave out what is"
-    " not a part.",
+TOTAL_DOUBTFUL_PARTS = warning(
+    "total_doubtful_parts", "{kind:word} count as bodies: {objects}. Leave out what is not a part."
 )
 TOTAL_OF_OPEN_OBJECTS = warning(
     "total_of_open_objects",

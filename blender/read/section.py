@@ -27,7 +27,7 @@ from .findings import (
     FLAT_OF_TYPE,
     MODIFIERS_LEFT_OUT,
     RENDER_DIFFERS,
-    RENDER_RESOLUTION_DIFFERS,
+    RENDER_LEVELS_DIFFER,
     SECTION_EXTRUDED,
     SECTION_MODIFIED_FILL,
     SECTION_NO_OUTLINE,
@@ -201,7 +201,7 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
     yield finding(DRAWN_AS_POLYGONS)
     shown, rendered = obj.data.resolution_u, obj.data.render_resolution_u
     if rendered not in (0, shown):
-        difference = finding(RENDER_RESOLUTION_DIFFERS, name="Resolution U", viewport=shown, render=rendered)
+        difference = finding(RENDER_LEVELS_DIFFER, name="Resolution U", viewport=shown, render=rendered)
         yield finding(RENDER_DIFFERS, differences=[difference.as_record()])
 
 

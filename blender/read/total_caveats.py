@@ -10,7 +10,7 @@ from bpy.types import LayerCollection, Object, Scene, ViewLayer
 
 from ...core.verdict.finding import Finding, finding
 from ...core.verdict.method import Method, Verdict
-from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_BOOLEAN_OPERANDS, TOTAL_HIDDEN_OBJECTS, TOTAL_OF_OPEN_OBJECTS
+from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_DOUBTFUL_PARTS, TOTAL_OF_OPEN_OBJECTS
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
@@ -63,9 +63,15 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
     ]
     findings = []
     if cutters:
-        findings.append(finding(TOTAL_BOOLEAN_OPERANDS, operands=cutters))
+        findings.append(finding(TOTAL_DOUBTFUL_PARTS, kind="Boolean operands", objects=cutters))
     if unseen:
-        findings.append(finding(TOTAL_HIDDEN_OBJECTS, objects=unseen))
+        findings.append(
+            finding(
+                TOTAL_DOUBTFUL_PARTS,
+                kind="Objects that are hidden, not rendered or displayed as wire or bounds",
+                objects=unseen,
+            )
+        )
     return findings
 
 

@@ -16,7 +16,6 @@ from itertools import islice
 from ...core.verdict.finding import Finding, ReadError, finding
 from ..settings.given import is_point_mass, shows_collection
 from .findings import (
-    COLLECTION_HIDDEN,
     EMPTY_WITHOUT_INSTANCES,
     HIDDEN_IN_VIEWPORT,
     NOT_EVALUATED,
@@ -155,7 +154,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if not branches:
         return finding(NOT_IN_SCENE, scene=depsgraph.scene.name)
     if obj.hide_viewport:
-        return finding(HIDDEN_IN_VIEWPORT, switch="monitor icon")
+        return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="monitor icon")
     reasons, barred = [], set()
     for blocks, switch in (
         (lambda layer: layer.exclude, "check box"),
@@ -163,9 +162,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
         (lambda layer: layer.hide_viewport, "eye icon"),
     ):
         blocking = {k: layer for k, path in enumerate(branches) for layer in islice(filter(blocks, path), 1)}
-        named = [
-            finding(COLLECTION_HIDDEN, collection=layer.collection.name, switch=switch) for layer in blocking.values()
-        ]
+        named = [finding(HIDDEN_IN_VIEWPORT, name=layer.collection.name, switch=switch) for layer in blocking.values()]
         if len(blocking) == len(branches):
             return named[0]
         reasons += named
@@ -173,7 +170,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
     if len(barred) == len(branches):
         return reasons[-1]  # one for each of its collections: the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):
-        return finding(HIDDEN_IN_VIEWPORT, switch="eye icon")
+        return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="eye icon")
     return None
 
 

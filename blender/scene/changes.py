@@ -16,7 +16,7 @@ import bpy
 from bpy.types import ID, Context, Depsgraph, Object
 
 from ...core.verdict.finding import EditRefusedError
-from .findings import LINKED_OBJECT
+from ...core.verdict.findings import LINKED_OBJECT
 
 Planned = TypeVar("Planned")
 SceneChange = Generator[None, Depsgraph, None]  # yields once before it does anything

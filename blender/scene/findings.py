@@ -4,11 +4,6 @@
 
 from ...core.verdict.finding import error, note, warning
 
-LINKED_OBJECT = error(
-    "linked_object",
-    "Linked from another file, or an override of something linked, which would lose the change. Use Object > Relations "
-    "> Make Local for the object and its data.",
-)
 OPEN_OBJECT = error(
     "open_object",
     "The surface is open and cannot be capped, so it has no center of mass. Close it, or set Kind to Shell.",

@@ -14,7 +14,8 @@ from bpy.types import Object
 
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import EditRefusedError
-from .findings import LINKED_OBJECT, SHAPE_OF_MODIFIERS
+from ...core.verdict.findings import LINKED_OBJECT
+from .findings import SHAPE_OF_MODIFIERS
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
 DEFORMING_MODIFIERS = {

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from ...core.verdict import internal_error
 from ...core.verdict.finding import EditRefusedError, Finding, finding
+from ...core.verdict.findings import LINKED_OBJECT
 from ..read.findings import SCALE_ZERO_AXIS
 from ..settings.density import density_anchor
 from .changes import SceneChange, ancestors, dependents, independent_rounds, run_change, run_together
@@ -36,7 +37,6 @@ from .findings import (
     DATA_COPIED,
     DATA_WITHOUT_TRANSFORM,
     DENSITY_COORDINATES,
-    LINKED_OBJECT,
     MODIFIERS_CHANGE_SHAPE,
     RENDER_ONLY_MODIFIER,
     SHAPE_WOULD_CHANGE,

@@ -24,6 +24,7 @@ from ...core.moments.moments import Measure
 from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.balancing import BalanceResult, balance
 from ...core.verdict.finding import EditRefusedError
+from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import measure_object
 from ..read.findings import SCALE_ZERO_AXIS
@@ -35,7 +36,6 @@ from .findings import (
     BALANCE_SETTINGS,
     BALANCE_TRIANGULATION_VARIES,
     BALANCE_UNCLEAN,
-    LINKED_OBJECT,
     SHAPE_NOT_OF_MESH,
     SHAPE_OF_MODIFIERS,
 )

@@ -19,7 +19,7 @@ from ..bodies.assembly.assembly import measure_assembly
 from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
-from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_COLLECTION
+from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_NAME
 from .live.motion import Motion
 from .stored import balance_groups, stability
 
@@ -124,7 +124,7 @@ class BalanceGroup:
 def _collection(name: str) -> Collection:
     collection = bpy.data.collections.get(name)
     if collection is None:
-        raise EditRefusedError(NO_SUCH_COLLECTION, collection=name)
+        raise EditRefusedError(NO_SUCH_NAME, kind="collection", name=name)
     return collection
 
 

@@ -16,7 +16,7 @@ DENSITY_DEFAULTED = warning("density_defaulted", "No density is set: {density} w
 DENSITY_DEFAULT_KEPT = note("density_default_kept", "No density is set: {density} was used. Set Density or a material.")
 ROBOT_WITHOUT_BONES = error("robot_without_bones", "There is no link. Select an armature with what it moves.")
 LEFT_OUT_OF_ROBOT = warning("left_out_of_robot", "{count} of {total} objects are no links: {causes}")
-NO_SUCH_COLLECTION = error("no_such_collection", "There is no collection “{collection}”. Choose another one.")
+NO_SUCH_NAME = error("no_such_name", "There is no {kind:word} “{name}” in the file or its scene. Choose another one.")
 BALANCE_GROUP_WITHOUT_CONTACTS = error(
     "balance_group_without_contacts", "“{collection}” has no object with a surface. Choose another collection."
 )

@@ -20,9 +20,9 @@ from ...core import inertia
 from ...core.measurement.documents import TENSOR, plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
+from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.sentences import of_severity, sentence
-from .findings import LINKED_RESULTS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -319,7 +319,7 @@ def require_storable(obj: Owner) -> None:
     """Raise EditRefusedError for an owner that cannot hold results."""
     data = obj.id_data
     if not data.is_editable or data.override_library is not None:  # saving drops an override's new ID properties
-        raise EditRefusedError(LINKED_RESULTS, subject=data.name_full)
+        raise EditRefusedError(LINKED_OBJECT, subject=data.name_full)
 
 
 def clear(obj: Owner) -> bool:

@@ -16,13 +16,13 @@ from typing import Any
 from ...blender.bodies.files.array import ArrayOptions, measure_array
 from ...blender.bodies.files.stream import measure_mesh_file
 from ...blender.bodies.findings import SHAPE_OF_GRID
-from ...blender.session.findings import DENSITY_DEFAULTED
+from ...blender.session.findings import DENSITY_DEFAULTED, NO_SUCH_NAME
 from ...blender.settings.options import MeasureOptions
 from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.scans import formats as scans
 from ...core.verdict.finding import MeasureError, QueryError, finding
-from ..findings import FOURIER_OBJECT_COUNT, OBJECT_NOT_IN_FILE, STREAM_OPTIONS
+from ..findings import FOURIER_OBJECT_COUNT, STREAM_OPTIONS
 from ..measure.objects import failure
 from ..options.file import OF_ARRAYS, body_findings, file_findings, unused, words
 from .files import STREAMED, check_file, file_suffix
@@ -52,7 +52,9 @@ class BareFile:
         is_scan = bool(scans.scan_suffix(self.path))
         name = os.path.basename(self.path)[: -len(file_suffix(self.path))]
         names = [name] if self.options.object is None else self.options.object
-        self.errors = [failure(other, finding(OBJECT_NOT_IN_FILE)) for other in names if other != name]
+        self.errors = [
+            failure(other, finding(NO_SUCH_NAME, kind="object", name=other)) for other in names if other != name
+        ]
         if is_scan and self.options.fourier:
             self.errors.append(failure(None, finding(FOURIER_OBJECT_COUNT, count=0)))
         if name not in names:

@@ -30,7 +30,7 @@ from ...core.scans.scan import damaged
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS, STL_CUT_SHORT
 from ...core.streams.stl_text import BY_COUNT, BY_WORD
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
-from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED, IMPORT_FAILED
+from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from .finite import check_numbers
 from .import_3mf import import_3mf
 from .import_surfaces import import_iges, import_obj
@@ -89,9 +89,9 @@ def _opened(path: str) -> Opened:
             addon_utils.enable("io_scene_gltf2")
         found = _IMPORTERS[kind](absolute)
     except AttributeError as error:
-        raise FileError(IMPORT_FAILED, error="it has no importer for {} files".format(kind)) from error
+        raise FileError(FILE_UNREADABLE, error="it has no importer for {} files".format(kind)) from error
     except RuntimeError as error:
-        raise FileError(IMPORT_FAILED, error=reason(error)) from error
+        raise FileError(FILE_UNREADABLE, error=reason(error)) from error
     opened = found if isinstance(found, Opened) else Opened()
     if not bpy.context.scene.objects:
         raise FileError(opened.errors[0] if opened.errors else finding(FILE_WITHOUT_OBJECTS, content="objects"))
@@ -106,7 +106,7 @@ def _open_blend(path: str) -> None:
         version = _saved_by(path)
         is_readable = version is not None and _OLDEST <= version <= tuple(bpy.app.version[:2])
         if version is None or is_readable:
-            raise FileError(IMPORT_FAILED, error=reason(error)) from error
+            raise FileError(FILE_UNREADABLE, error=reason(error)) from error
         values = {"blender": bpy.app.version_string, "version": "{}.{}".format(*version) if version > (0, 0) else "-"}
         raise FileError(FILE_VERSION_UNSUPPORTED, **values) from error
 
@@ -155,7 +155,7 @@ def check_file(path: str) -> None:
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
     if not size:
-        raise FileError(IMPORT_FAILED, error="it is empty")
+        raise FileError(FILE_UNREADABLE, error="it is empty")
     if kind == ".stl":
         _check_stl(head, tail, size)
     elif kind == ".usdz":

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import bpy
 
+from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.files.whole_file import partial_file, replace
 from ...core.verdict.finding import FileError
-from ..findings import FILE_CHANGED_MEANWHILE, RESULT_NOT_WRITTEN
+from ..findings import FILE_CHANGED_MEANWHILE
 from .files import reason
 
 _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # start of a .blend compressed with zstd or gzip
@@ -36,14 +37,14 @@ class Place:
         try:
             return cls(real, _digest(real))
         except OSError as error:
-            raise FileError(RESULT_NOT_WRITTEN, file=real.name, error=reason(error)) from error
+            raise FileError(FILE_NOT_WRITTEN, file=real.name, error=reason(error)) from error
 
     def save(self) -> None:
         """Save the open scene, whole or not at all. Raises FileError."""
         try:
             self._save()
         except (RuntimeError, OSError) as error:
-            raise FileError(RESULT_NOT_WRITTEN, file=self.path.name, error=reason(error)) from error
+            raise FileError(FILE_NOT_WRITTEN, file=self.path.name, error=reason(error)) from error
 
     def _save(self) -> None:
         if not os.access(self.path, os.W_OK):  # the folder alone decides whether a file can be replaced

@@ -12,11 +12,12 @@ import bpy
 
 from ...blender.read.assembly import Root
 from ...blender.settings.given import shows_collection
+from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.files.whole_file import partial_file, replace
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import FileError, Finding, finding
 from ..files.files import reason
-from ..findings import ASSETS_NOT_MEASURED, RESULT_NOT_WRITTEN
+from ..findings import ASSETS_NOT_MEASURED
 from ..supervisor.listing import COPY_SUFFIX
 
 _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
@@ -72,4 +73,4 @@ def save_copy(path: str) -> None:
             bpy.ops.wm.save_as_mainfile(filepath=str(partial), copy=True, relative_remap=False, check_existing=False)
             replace(partial, target)
     except (RuntimeError, OSError) as error:
-        raise FileError(RESULT_NOT_WRITTEN, file=target.name, error=reason(error)) from error
+        raise FileError(FILE_NOT_WRITTEN, file=target.name, error=reason(error)) from error

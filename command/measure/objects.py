@@ -12,9 +12,11 @@ import bpy
 
 from ...blender.read.total_caveats import left_out_reasons
 from ...blender.read.visibility import measurable, measurable_objects
+from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
+from ...core.scans.findings import OTHERS_LEFT_OUT
 from ...core.verdict.finding import Finding, finding
-from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED, OBJECT_NOT_IN_FILE, OTHER_SCENES
+from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:
@@ -53,7 +55,7 @@ def objects_to_measure(
         matches = matches or [(label, obj) for obj, label in labels.items() if obj.name == name]
         chosen += [pair for pair in matches if pair not in chosen]
         if not matches:
-            errors.append(failure(name, finding(OBJECT_NOT_IN_FILE)))
+            errors.append(failure(name, finding(NO_SUCH_NAME, kind="object", name=name)))
     return chosen, [], errors
 
 
@@ -72,4 +74,4 @@ def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     here = {*scene.objects}
     other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
     if other_scenes:
-        yield finding(OTHER_SCENES, scene=scene.name, scenes=other_scenes)
+        yield finding(OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=other_scenes)

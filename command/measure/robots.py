@@ -19,6 +19,7 @@ import bpy
 from ...blender.read.robots import object_candidate
 from ...blender.session.robots import SceneLinks, bone_links, collection_links
 from ...blender.settings.options import MeasureOptions
+from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
 from ...core.robots.formats import FORMATS
@@ -29,7 +30,6 @@ from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ...core.verdict.sentences import sentence, severity
 from ..files.output import is_stream
-from ..findings import RESULT_NOT_WRITTEN
 from .objects import failure
 
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
@@ -60,7 +60,7 @@ def complete(
         try:
             robot, told = with_geometry(made.robot, options.format, surface_of, options.output, read, options.force)
         except OSError as error:
-            failed = [finding(RESULT_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error))]
+            failed = [finding(FILE_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error))]
     text, findings = robot_text(robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only)
     findings += failed
     for one in findings:

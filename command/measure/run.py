@@ -26,12 +26,14 @@ from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
 from ...blender.settings.options import MeasureOptions
+from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
 from ...core.measurement import record
 from ...core.measurement.documents import document
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
 from ...core.scans.findings import FILE_MISSING
+from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict import internal_error
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..files.bare_files import BareFile, is_bare
@@ -42,9 +44,7 @@ from ..files.scripts import blocked_scripts, scripts_of_open_file
 from ..findings import (
     FILE_VERSION_UNSUPPORTED,
     FOURIER_OBJECT_COUNT,
-    IMPORT_FAILED,
     PART_UNAVAILABLE,
-    RESULT_NOT_WRITTEN,
     RESULTS_NEED_BLEND,
     SOLID_OPERAND_MEASURED,
 )
@@ -166,7 +166,7 @@ class Run:
                 is_changed, caveats = is_changed or in_file, [*caveats, *told]
             if is_changed:
                 if place is None:
-                    raise FileError(RESULT_NOT_WRITTEN, file=file, error="it is gone")
+                    raise FileError(FILE_NOT_WRITTEN, file=file, error="it is gone")
                 place.save()
                 self.has_saved = True
         except MeasureError as refusal:
@@ -278,7 +278,7 @@ class Run:
             self.has_opened = True
             return unresolved
         if file and not bpy.data.filepath:
-            raise FileError(IMPORT_FAILED, error="it is missing or incomplete")
+            raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
         return Opened()
 
     def _fourier(
@@ -300,7 +300,7 @@ class Run:
             yield failure(label, _unavailable("Fourier transform", refusal))
         except OSError as error:
             file = str(self.options.fourier)
-            yield failure(label, finding(RESULT_NOT_WRITTEN, file=file, error=system_reason(error)))
+            yield failure(label, finding(FILE_NOT_WRITTEN, file=file, error=system_reason(error)))
         except Exception as error:
             yield self._internal_error(label, error)
 

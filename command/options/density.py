@@ -11,10 +11,10 @@ from argparse import Namespace
 
 import bpy
 
+from ...blender.session.findings import NO_SUCH_NAME
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
 from ...core.verdict.finding import QueryError
-from ..findings import DENSITY_VOLUME_UNKNOWN
 from ..parser import UsageError
 from .option_types import split_source
 
@@ -48,5 +48,5 @@ def apply(obj: bpy.types.Object, options: Namespace) -> None:
         elif source == "volume":
             volume = bpy.context.scene.objects.get(name)
             if volume is None or volume.type != "VOLUME":
-                raise QueryError(DENSITY_VOLUME_UNKNOWN, name=name)
+                raise QueryError(NO_SUCH_NAME, kind="Volume object", name=name)
             settings.density_volume = volume

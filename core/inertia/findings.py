@@ -28,12 +28,7 @@ AXES_FREE_BY_SHAPE = note(
 AXES_AMBIGUOUS = note(
     "axes_ambiguous", "The body is symmetric under half a turn; the directions nearest to the object's axes are used."
 )
-STRICT_RULE_EQUAL_MOMENTS = error(
-    "strict_rule_equal_moments", "Zhang and Chen's rule is undefined for equal principal moments. Turn it off."
-)
-STRICT_RULE_NO_SKEWNESS = error(
-    "strict_rule_no_skewness", "Zhang and Chen's rule is undefined without skewness along axes 1 and 2. Turn it off."
-)
+STRICT_RULE_UNDEFINED = error("strict_rule_undefined", "Zhang and Chen's rule is undefined {where:word}. Turn it off.")
 AXIS_POINTS_COINCIDE = error(
     "axis_points_coincide", "The two points of the axis are too near to each other. Move one of them."
 )

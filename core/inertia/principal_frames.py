@@ -37,8 +37,7 @@ from .findings import (
     AXES_FREE,
     AXES_FREE_BY_SHAPE,
     NEGATIVE_INERTIA,
-    STRICT_RULE_EQUAL_MOMENTS,
-    STRICT_RULE_NO_SKEWNESS,
+    STRICT_RULE_UNDEFINED,
 )
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .shared_search import shared_frames
@@ -293,9 +292,9 @@ def zhang_chen_frame(moments: Moments, refine: Callable[[], Moments] | None = No
     if refine is not None and not (np.abs(fixed.skewness[0, :2]) > 2.0 * fixed.skewness_error[0, :2]).all():
         fixed = _of_one_body(refine())
     if fixed.symmetry[0]:
-        raise MeasureError(STRICT_RULE_EQUAL_MOMENTS)
+        raise MeasureError(STRICT_RULE_UNDEFINED, where="for equal principal moments")
     if not (np.abs(fixed.skewness[0, :2]) > fixed.skewness_error[0, :2]).all():
-        raise MeasureError(STRICT_RULE_NO_SKEWNESS)
+        raise MeasureError(STRICT_RULE_UNDEFINED, where="without skewness along axes 1 and 2")
     axes = fixed.axes[0].copy()
     axes[:, :2] *= np.sign(fixed.skewness[0, :2])
     axes[:, 2] = np.cross(axes[:, 0], axes[:, 1])

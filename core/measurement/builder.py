@@ -26,11 +26,9 @@ from .body import Body
 from .findings import (
     AXES_FROM_THIRD_ORDER,
     DENSITY_FROM_MEMBERS,
-    NO_THICKNESS,
     NO_VOLUME,
     WALL_UNSUPPORTED,
-    ZERO_DENSITY,
-    ZERO_MASS,
+    ZERO_QUANTITY,
 )
 from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from .settings import Settings
@@ -170,7 +168,9 @@ def find_extent(body: Body, settings: Settings) -> Moments:
     if not volume.raw[0] > 0.0:
         if body.face_count and not body.area.total > 0.0:
             raise ReadError(NO_FACE_AREA)
-        raise ReadError(NO_THICKNESS if settings.kind == "shell" and body.area.total > 0.0 else NO_VOLUME)
+        if settings.kind == "shell" and body.area.total > 0.0:
+            raise ReadError(ZERO_QUANTITY, quantity="thickness")
+        raise ReadError(NO_VOLUME)
     return volume
 
 
@@ -188,7 +188,7 @@ def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, 
         thin = _is_thin(body, settings)
         moments, factor = (body.area, density * settings.thickness) if thin else (measured, density)
     if not density > 0.0:
-        raise ReadError(ZERO_DENSITY if settings.mass is None else ZERO_MASS)
+        raise ReadError(ZERO_QUANTITY, quantity="density" if settings.mass is None else "mass")
     return moments, factor, density
 
 

@@ -10,9 +10,7 @@ NO_VOLUME = error(
     "no_volume",
     "The faces enclose no volume. Set Kind to Shell, close the mesh, or use Measure Section for a flat shape.",
 )
-NO_THICKNESS = error("no_thickness", "The shell has no thickness. Set Thickness.")
-ZERO_DENSITY = error("zero_density", "The density is zero. Set Density.")
-ZERO_MASS = error("zero_mass", "The mass is zero. Set Mass.")
+ZERO_QUANTITY = error("zero_quantity", "The {quantity:word} is zero. Set it.")
 WALL_UNSUPPORTED = error(
     "wall_unsupported", "{quantity:word} is not available for walls of real thickness. Set Wall to Thin."
 )

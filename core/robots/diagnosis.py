@@ -26,11 +26,9 @@ from .findings import (
     AUDIT_INERTIA_ELSEWHERE,
     AUDIT_INERTIA_OF_UNIT,
     AUDIT_INERTIA_SHIFTED_TWICE,
-    AUDIT_MESH_UNIT,
     AUDIT_MIRRORED,
     AUDIT_NOT_UNIFORM,
     AUDIT_ORDER,
-    AUDIT_QUATERNION_ORDER,
     AUDIT_SIGN,
     AUDIT_TRANSPOSED,
     AUDIT_TURNED,
@@ -135,7 +133,7 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
     factor, density = found.finding.values["factor"], stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
     if DENSITIES[0] <= other <= DENSITIES[1]:  # then `density` is not: cubes of factors are farther apart
-        return Diagnosis(finding(AUDIT_MESH_UNIT, factor=1.0 / factor), is_of_geometry=True)
+        return Diagnosis(finding(AUDIT_UNIT, part="lengths of the mesh", factor=1.0 / factor), is_of_geometry=True)
     return found
 
 
@@ -201,8 +199,9 @@ def _frames(stated: StatedInertial) -> Iterator[Change]:
             yield AUDIT_ANGLES, values, replace(stated, rotation=turned)
     if stated.quaternion is not None:
         w, x, y, z = stated.quaternion
-        for order in ((z, w, x, y), (x, y, z, w)):
-            yield AUDIT_QUATERNION_ORDER, {}, replace(stated, rotation=rotation_matrix(order))
+        for order, wanted in (((z, w, x, y), "w x y z"), ((x, y, z, w), "x y z w")):
+            values = {"part": "quaternion of the inertial", "order": wanted}
+            yield AUDIT_ORDER, values, replace(stated, rotation=rotation_matrix(order))
     yield AUDIT_TRANSPOSED, {"part": "rotation of the inertial"}, replace(stated, rotation=stated.rotation.T)
     yield AUDIT_FRAME_NOT_MEANT, {}, replace(stated, rotation=np.eye(3))
 

@@ -120,8 +120,7 @@ AUDIT_UP_AXIS = warning(
     "Export the mesh with z up.",
 )
 AUDIT_DENSITY = warning("audit_density", "The density is {density:.3g} kg/m³. Check mass and mesh.")
-AUDIT_UNIT = warning("audit_unit", "Multiply the {part:word} by {factor:g}: it then agrees with the geometry.")
-AUDIT_MESH_UNIT = warning("audit_mesh_unit", "Scale the mesh by {factor:g}: the inertial then agrees with it.")
+AUDIT_UNIT = warning("audit_unit", "Multiply the {part:word} by {factor:g}: inertial and geometry then agree.")
 AUDIT_INERTIA_OF_UNIT = warning(
     "audit_inertia_of_unit", "The inertia is that of {part:word} 1. Multiply it by the {part:word}, {factor:.6g}."
 )
@@ -133,9 +132,6 @@ AUDIT_INERTIA_SHIFTED_TWICE = warning(
     "The inertia was shifted away from the center of mass with the wrong sign. Add the parallel-axis term.",
 )
 AUDIT_ANGLES = warning("audit_angles", "The angles of the {part:word} are in {unit:word}. State them in {wanted:word}.")
-AUDIT_QUATERNION_ORDER = warning(
-    "audit_quaternion_order", "The quaternion of the inertial is in the other order. Move w to its place."
-)
 AUDIT_FRAME_NOT_MEANT = warning(
     "audit_frame_not_meant",
     "The inertia is along the axes of the link, though the inertial is rotated. Remove the rotation.",

@@ -10,7 +10,7 @@ FILE_TYPE = error("file_type", "Unsupported file type. Supported: {suffixes}.")
 FILE_UNRECOGNIZED = error("file_unrecognized", "This is no {format} file, or its header is damaged. Export it again.")
 FILE_DAMAGED = error("file_damaged", "The file “{file}” is damaged: {cause}. Obtain it again, or export it again.")
 DAMAGE_CUT_SHORT = error("damage_cut_short", "it ends within its {part:word}")
-DAMAGE_SIZE = error("damage_size", "it has {bytes} bytes for samples, and its sizes require {total}")
+DAMAGE_SIZE = error("damage_size", "it has {bytes} bytes of data, and its sizes require {total}")
 DAMAGE_INCOMPLETE = error("damage_incomplete", "it is not a complete {kind:word} ({error})")
 FILE_EXCEEDS_LIMIT = error(
     "file_exceeds_limit",
@@ -31,7 +31,7 @@ NRRD_DATA_FILE_OUTSIDE = error(
     "The data file “{file:.80s}” is outside of the header's folder. Move it there; or, if you trust the header, "
     "turn on Allow Outside, or use --allow-outside.",
 )
-ARRAYS_LEFT_OUT = warning("arrays_left_out", "The array “{array}” was measured; left out: {arrays}.")
+OTHERS_LEFT_OUT = warning("others_left_out", "The {kind:word} “{name}” was measured; left out: {others}.")
 RAW_WITHOUT_LAYOUT = error(
     "raw_without_layout",
     "A raw file does not describe its samples. Name it NAME_XxYxZ_TYPE.raw, such as head_128x128x54_uint16.raw, or add "

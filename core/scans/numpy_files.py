@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
-from .findings import ARRAYS_LEFT_OUT, DAMAGE_INCOMPLETE, RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
+from .findings import DAMAGE_INCOMPLETE, OTHERS_LEFT_OUT, RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
 from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
 from .suffixes import SAMPLE_TYPES
@@ -49,7 +49,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
             raise FileError(SCAN_SIZE, samples=next(map(list, shapes.values()), []))
         name = "density" if "density" in volumes else volumes[0]
         others = [volume for volume in volumes if volume != name]
-        findings = (finding(ARRAYS_LEFT_OUT, array=name, arrays=others),) if others else ()
+        findings = (finding(OTHERS_LEFT_OUT, kind="array", name=name, others=others),) if others else ()
         return Scan(real_samples(_unpack(archive, path, name, limits)), np.eye(4), findings=findings)
 
 

@@ -17,16 +17,11 @@ SELF_INTERSECTION = warning(
     "The surface intersects itself: about {share:percent} of the volume counts twice or as negative. Set Overlaps "
     "to Count as Union, or repair the mesh.",
 )
+LINKED_OBJECT = error(
+    "linked_object",
+    "Linked from another file, or an override of something linked, which would lose the change. Use Object > Relations "
+    "> Make Local for the object and its data.",
+)
 OUT_OF_MEMORY = error("out_of_memory", "Too little memory. Measure it alone, reduce it, or use a larger machine.")
 INTERNAL_ERROR = error("internal_error", "Internal error: {type}: {error} ({where}). Please report it.")
 AND_MORE = note("and_more", "and {count} more")
-
-# Clauses of a list of defects.
-DEFECT_BOUNDARY_EDGES = note("defect_boundary_edges", "{count} boundary edge", "{count} boundary edges")
-DEFECT_NON_MANIFOLD_EDGES = note("defect_non_manifold_edges", "{count} non-manifold edge", "{count} non-manifold edges")
-DEFECT_INCONSISTENT_EDGES = note(
-    "defect_inconsistent_edges", "{count} edge with opposite normals", "{count} edges with opposite normals"
-)
-DEFECT_DUPLICATE_FACES = note("defect_duplicate_faces", "{count} duplicate face", "{count} duplicate faces")
-DEFECT_DEGENERATE_FACES = note("defect_degenerate_faces", "{count} zero-area face", "{count} zero-area faces")
-DEFECT_FLIPPED_FACES = note("defect_flipped_faces", "{count} flipped face", "{count} flipped faces")

@@ -16,13 +16,14 @@ from bpy_extras.io_utils import ExportHelper
 
 from ...blender import read, session
 from ...blender.write import reports
+from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.robots import write
 from ...core.robots.findings import ROBOT_SCALED
 from ...core.robots.formats import FORMATS, RobotFormat
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
 from ...core.verdict.sentences import sentence
 from .. import selection
-from ..findings import FILE_NOT_WRITTEN, ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE, ROBOT_SHEARED
+from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE, ROBOT_SHEARED
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
             try:
                 robot, bare = write.texts.with_geometry(robot, self.FORMAT, partial(made.surface, context), path)
             except OSError as error:
-                raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
+                raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error
         found = [*made.findings, *bare]
         text, findings = write.texts.robot_text(robot, self.FORMAT, found, inertial_only=self.inertial_only)
         selection.write_file(path, [self._encode(text, path)])

@@ -13,11 +13,12 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...blender import read, scene, settings
 from ...blender.write import reports
+from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.suffixes import SAMPLE_TYPES, SUFFIXES
 from ...core.verdict.finding import FileError, Finding, MeasureError
 from .. import selection
-from ..findings import FILE_EXISTS, FILE_NOT_WRITTEN
+from ..findings import FILE_EXISTS
 
 
 class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, ImportHelper):
@@ -119,7 +120,9 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         try:
             low = scene.write_volume(module, placed, unit)
         except (OSError, RuntimeError) as error:  # OpenVDB's own errors are RuntimeErrors
-            raise FileError(FILE_NOT_WRITTEN, error=getattr(error, "strerror", None) or str(error)) from error
+            raise FileError(
+                FILE_NOT_WRITTEN, file=target.name, error=getattr(error, "strerror", None) or str(error)
+            ) from error
         obj = scene.add_volume(context, placed)
         samples = list(placed.scan.samples.shape)
         texts = [reports.phrase("Imported {samples:size} samples as “{file}”", samples=samples, file=target.name)]

@@ -19,10 +19,10 @@ from ...blender import bodies, write
 from ...blender.read.visibility import measurable
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import reports
+from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import FileError, system_reason
 from .. import selection
-from ..findings import FILE_NOT_WRITTEN
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
@@ -144,7 +144,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         obj, depsgraph = context.object, context.evaluated_depsgraph_get()
         self._path = Path(bpy.path.abspath(bpy.path.ensure_ext(self.filepath, SUFFIX)))
         if not self._path.parent.is_dir():
-            raise FileError(FILE_NOT_WRITTEN, error=os.strerror(ENOENT))
+            raise FileError(FILE_NOT_WRITTEN, file=self._path.name, error=os.strerror(ENOENT))
         self._dimension, frame = 2 if self.of == "FLAT" else 3, self.frame.lower()
         self._work: ObjectTransform | FlatTransform
         if self.of == "FLAT":
@@ -168,7 +168,7 @@ class OBJECT_OT_body_moments_fourier_run(ModalSteps, _Settings, Operator):
         try:
             write.spectrum.save(self._path, transform, self.frame.lower(), plane=self._work.arrays)
         except OSError as error:
-            raise FileError(FILE_NOT_WRITTEN, error=system_reason(error)) from error
+            raise FileError(FILE_NOT_WRITTEN, file=self._path.name, error=system_reason(error)) from error
         name = "Fourier Transform of {:s}".format(self._work.name)
         image = write.spectrum.picture(name, transform.values, self.count, self._dimension)
         for area in context.screen.areas if context.screen else ():

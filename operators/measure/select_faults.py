@@ -11,6 +11,7 @@ from bpy.props import EnumProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender import bodies, scene
+from ...blender.read.findings import KIND_COUNT
 from ...blender.session import stored
 from ...blender.session.tracking import staleness
 from ...blender.write import properties, reports
@@ -105,7 +106,8 @@ class OBJECT_OT_body_moments_select_faults(Operator):
 
 
 def _counts(found: dict[str, Any]) -> list[dict]:
-    return [finding("defect_" + kind, count=len(indices)).as_record() for kind, indices in found.items()]
+    names = {kind: name for kind, name, _ in KINDS}
+    return [finding(KIND_COUNT, kind=names[kind], count=len(indices)).as_record() for kind, indices in found.items()]
 
 
 def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> None:

@@ -94,7 +94,7 @@ def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
     assert "mine" not in notes.read_text(encoding="utf-8")
     copy.write_text("mine", encoding="utf-8")
     found = json.loads(answer("--repair", tmp_path / "out", path)[0])
-    assert found["errors"][0]["code"] == "result_not_written" and copy.read_text(encoding="utf-8") == "mine"
+    assert found["errors"][0]["code"] == "file_not_written" and copy.read_text(encoding="utf-8") == "mine"
     for words in (["--force"], []):  # and the same once more is no loss
         assert not json.loads(answer("--repair", tmp_path / "out", *words, path)[0])["errors"]
     assert "mine" not in copy.read_text(encoding="utf-8")

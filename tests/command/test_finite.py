@@ -244,7 +244,8 @@ def test_gltf_checks_cover_only_placed_points(tmp_path):
 def test_gltf_error_names_its_missing_or_short_buffer(tmp_path, gltf):
     text, binary = gltf
     (tmp_path / "box.bin").write_bytes(binary[:50])
-    expected = sentence("gltf_buffer_short", buffer="box.bin", size=50, expected=len(binary))
+    cause = finding("damage_size", bytes=50, total=len(binary))
+    expected = sentence("file_damaged", file="box.bin", cause=cause.as_record())
     assert reason(tmp_path / "box.gltf") == expected
     text["buffers"][0]["uri"] = "no%20more.bin"
     files.write_text(tmp_path / "box.gltf", json.dumps(text))

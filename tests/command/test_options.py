@@ -95,12 +95,12 @@ def test_unrendered_objects_and_wire_operands_are_listed():
     assert left_out(found) == {"Cutter": operand, "Joined": operand, "Blank": sentence("not_rendered")}
     assert [entry["name"] for entry in found["left_out"]] == ["Blank", "Cutter", "Joined"]
     assert found["total"]["mass"] == pytest.approx(12000.0)
-    assert codes(found["total"]) == ["total_hidden_objects"]
-    assert values(found["total"], "total_hidden_objects") == {"objects": ["Helper"]}
+    assert codes(found["total"]) == ["total_doubtful_parts"]
+    assert values(found["total"], "total_doubtful_parts")["objects"] == ["Helper"]
     every = document("--all")
     assert names(every) == ["Blank", "Body", "Cutter", "Helper", "Joined"] and every["left_out"] == []
-    assert codes(every["total"]) == ["total_boolean_operands", "total_hidden_objects"]
-    assert values(every["total"], "total_boolean_operands") == {"operands": [["Cutter", "Body"], ["Joined", "Body"]]}
+    assert codes(every["total"]) == ["total_doubtful_parts"] * 2
+    assert every["total"]["findings"][0]["values"]["objects"] == [["Cutter", "Body"], ["Joined", "Body"]]
     named = document("--object", "Blank", "--object", "Cutter")
     assert names(named) == ["Blank", "Cutter"] and named["left_out"] == []
     assert named["total"]["warnings"] == [] and codes(named["objects"][1]) == ["density_defaulted"]
@@ -119,7 +119,7 @@ def test_an_operand_drawn_as_a_solid_is_a_part_with_a_warning():
     assert values(cut, "solid_operand_measured") == {"object": "Body"}
     assert sentence("solid_operand_measured", object="Body") in cut["warnings"]
     assert "solid_operand_measured" not in codes(found["objects"][0])
-    assert codes(found["total"]) == ["total_boolean_operands"]
+    assert codes(found["total"]) == ["total_doubtful_parts"]
 
 
 def test_collection_operands_and_unrendered_ones_are_left_out():
@@ -139,7 +139,7 @@ def test_collection_operands_and_unrendered_ones_are_left_out():
     found = document()
     assert names(found) == ["Body", "Both", "Two"]
     assert left_out(found) == {"One": sentence("boolean_operand"), "Other": sentence("not_rendered")}
-    assert values(found["total"], "total_boolean_operands") == {"operands": [["Two", "Body"]]}
+    assert values(found["total"], "total_doubtful_parts")["objects"] == [["Two", "Body"]]
 
 
 def test_objects_rendered_by_another_view_layer_count():
@@ -151,7 +151,7 @@ def test_objects_rendered_by_another_view_layer_count():
     assert left_out(document()) == {"hidden": sentence("not_rendered")}
     second = bpy.context.scene.view_layers.new("Second")
     found = document()
-    assert errors(found) == {"hidden": sentence("collection_hidden", collection="Away", switch="check box")}
+    assert errors(found) == {"hidden": sentence("hidden_in_viewport", name="Away", switch="check box")}
     assert found["left_out"] == []
     second.use = False
     assert left_out(document()) == {"hidden": sentence("not_rendered")}
@@ -170,7 +170,7 @@ def test_file_without_measurable_objects_is_an_error(tmp_path):
     assert errors(line.documents[0]) == {None: sentence("nothing_rendered", count=2)} and line.errors == 1
     assert list(left_out(line.documents[0])) == ["a", "b"]
     assert document(path, "--all")["errors"] == []
-    assert errors(document(path, "--object", "z")) == {"z": sentence("object_not_in_file")}
+    assert errors(document(path, "--object", "z")) == {"z": sentence("no_such_name", kind="object", name="z")}
 
 
 def test_a_density_that_nobody_set_is_a_finding():

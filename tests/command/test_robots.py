@@ -328,6 +328,6 @@ def test_unwritable_meshes_are_an_error_beside_the_robot(tmp_path):
     line.measure()
     (entry,) = line.documents[0]["errors"]
     assert line.errors == 1 and line.internal_errors == 0 and (tmp_path / "meshes").read_text() == "mine"
-    expected = finding("result_not_written", file=str(tmp_path / "meshes"), error="File exists")
+    expected = finding("file_not_written", file=str(tmp_path / "meshes"), error="File exists")
     assert entry == {"name": None, "reason": str(expected)}
     assert line.documents[0]["robot"].startswith("<?xml") and "mesh" not in line.documents[0]["robot"]

@@ -112,7 +112,7 @@ def test_a_file_that_cannot_be_replaced_is_left_as_it_was(tmp_path, monkeypatch)
     (error,) = found["errors"]
     assert error == {
         "name": None,
-        "reason": files.sentence("result_not_written", file="part.blend", error="No space left on device"),
+        "reason": files.sentence("file_not_written", file="part.blend", error="No space left on device"),
     }
     assert path.read_bytes() == before and [file.name for file in tmp_path.iterdir()] == ["part.blend"]
 
@@ -181,7 +181,7 @@ def test_linked_object_keeps_its_record_but_is_not_written(tmp_path):
     path = files.save(tmp_path / "part.blend")
     found = document(path, "--write")
     assert sorted(entry["name"] for entry in found["objects"]) == ["Local", files.BOX_NAME]
-    assert found["errors"] == [{"name": files.BOX_NAME, "reason": files.sentence("linked_results")}]
+    assert found["errors"] == [{"name": files.BOX_NAME, "reason": files.sentence("linked_object")}]
     assert "body_mass" in reopened(path)["Local"]
 
 
@@ -295,7 +295,7 @@ def test_a_file_that_may_not_be_written_stays(tmp_path, monkeypatch):
     before, real = path.read_bytes(), os.access
     monkeypatch.setattr(os, "access", lambda one, mode: str(one) != str(path) and real(one, mode))
     assert error_of(document(path, "--write")) == files.sentence(
-        "result_not_written", file="part.blend", error="it is gone, or read-only"
+        "file_not_written", file="part.blend", error="it is gone, or read-only"
     )
     assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
 
@@ -312,6 +312,6 @@ def test_failed_copy_is_an_error_and_the_file_stays(tmp_path, monkeypatch):
 
     monkeypatch.setattr(os, "fsync", full)
     for where, name in (("copy", "part.body_moments.blend"), ("file", "part.blend")):
-        expected = files.sentence("result_not_written", file=name, error="No space left on device")
+        expected = files.sentence("file_not_written", file=name, error="No space left on device")
         assert error_of(document(path, "--asset-metadata", where)) == expected
         assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]

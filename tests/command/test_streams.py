@@ -120,7 +120,9 @@ def test_the_usual_findings_are_there(tmp_path):
 
 def test_a_sheet_without_a_thickness_has_no_mass(tmp_path):
     code, document = run(tmp_path, written(tmp_path), "--stream", "always", "--kind", "shell")
-    assert code == 1 and [error["reason"] for error in document["errors"]] == [sentence("no_thickness")]
+    assert code == 1 and [error["reason"] for error in document["errors"]] == [
+        sentence("zero_quantity", quantity="thickness")
+    ]
 
 
 @pytest.mark.parametrize(
@@ -147,7 +149,7 @@ def test_damaged_and_empty_files_are_errors(tmp_path):
     place = {"code": "at_row", "values": {"element": "triangle", "row": 2}}
     for data, reason in (
         (whole[:-1], sentence("stl_cut_short", end=BY_COUNT)),
-        (b"", sentence("import_failed", error="it is empty")),
+        (b"", sentence("file_unreadable", error="it is empty")),
         (stl((points, triangles)), sentence("non_finite_coordinates", count=3, place=place)),
         (stl((points[:0], triangles[:0])), sentence("file_without_objects", content="faces")),
         (stl_text(part())[:-40], sentence("stl_cut_short", end=BY_WORD)),

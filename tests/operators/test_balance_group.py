@@ -355,7 +355,7 @@ def test_missing_groups_are_refused(scene, reported, arguments):
     codes = {"": "balance_group_empty_group", "Lamps": "balance_group_without_contacts"}
     with pytest.raises(RuntimeError, match=r"\A.+\n?\Z"):
         bpy.ops.object.body_moments_balance_group(**arguments)
-    assert reported.codes[-1] == codes.get("".join(arguments.values()), "no_such_collection")
+    assert reported.codes[-1] == codes.get("".join(arguments.values()), "no_such_name")
     assert not groups()
 
 

@@ -156,8 +156,9 @@ def test_boundary_edges_and_flipped_faces_are_selected(reported):
     assert set(np.flatnonzero(uses == 1)) <= boundary
     assert mesh.polygons[3].select
     assert sum(face.select for face in mesh.polygons) == 1
-    assert reported.values("object_warnings")["object"] == obj.name
-    assert {"defect_flipped_faces", "defect_boundary_edges"} <= set(reported.codes)
+    told = reported.values("object_warnings")
+    assert told["object"] == obj.name
+    assert {"Flipped Faces", "Boundary Edges"} <= {cause["values"]["kind"] for cause in told["causes"]}
 
 
 @pytest.mark.parametrize(("face", "kinds"), [("flipped", {"flipped_faces"}), ("missing", {"boundary_edges"})])

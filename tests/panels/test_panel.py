@@ -64,13 +64,13 @@ def test_total_names_boolean_operands(capfd):
     only(body, cutter)
     bpy.ops.object.body_moments_measure()
     (caveat,) = displayed.total(bpy.context).findings
-    assert caveat.code == "total_boolean_operands" and "“Cutter” of “Body”" in str(caveat)
+    assert caveat.code == "total_doubtful_parts" and "“Cutter” of “Body”" in str(caveat)
     assert shows(shown(), caveat.code, **caveat.values)
     bpy.ops.object.body_moments_copy_report()
     assert str(caveat) in capfd.readouterr().out
     body.modifiers.clear()
     bpy.context.view_layer.update()
-    assert [one.code for one in displayed.total(bpy.context).findings] == ["total_hidden_objects"]
+    assert [one.code for one in displayed.total(bpy.context).findings] == ["total_doubtful_parts"]
     only(cutter)
     bpy.context.view_layer.update()
     assert displayed.total(bpy.context).findings == ()

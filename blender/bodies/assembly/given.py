@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ....core.measurement.body import Body
 from ....core.measurement.builder import find_extent, measure_total
-from ....core.measurement.findings import ZERO_MASS
+from ....core.measurement.findings import ZERO_QUANTITY
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
@@ -43,7 +43,7 @@ def given_moments(
     a point at its origin. Raise ReadError if the mass or the tensor is impossible.
     """
     if not mass > 0.0:
-        raise ReadError(ZERO_MASS)
+        raise ReadError(ZERO_QUANTITY, quantity="mass")
     raw, rounding, inputs = np.zeros((3, COUNT))
     raw[0], center = mass, location
     if geometry is not None:

@@ -15,7 +15,7 @@ from ....core.mesh.surface import Surface, join_surfaces, normals
 from ....core.moments.images import sum_of_images
 from ....core.moments.moments import Moments, sum_moments
 from ....core.polyhedron import polyhedron_moments
-from ....core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS, NON_PLANAR_FACES
+from ....core.solid.findings import DUPLICATE_FACES_COUNTED, HOLES_CAPPED, INVERTED_COMPONENTS, NON_PLANAR_FACES
 from ....core.solid.instance_overlaps import compare_places
 from ....core.solid.measure import SolidIntegrals, measure_solid
 from ....core.verdict.finding import Finding, ReadError, finding
@@ -31,7 +31,6 @@ from ..body import MeshBody, triangle_count
 from ..density.varying_density import weigh
 from ..findings import (
     DISPLAY_MESH_NEEDED,
-    DUPLICATE_FACES_OF_SHELL,
     FLAT_SURFACES,
     INSTANCE_OVERLAP_UNCHECKED,
     NON_PLANAR_FACES_OF_DISPLAY_MESH,
@@ -158,7 +157,7 @@ def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
     triangles, faces = surface.all_triangles()
     area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
     slight = area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum()
-    return finding(DUPLICATE_FACES_OF_SHELL, copies, slight=slight, count=len(copies))
+    return finding(DUPLICATE_FACES_COUNTED, copies, slight=slight, count=len(copies))
 
 
 def _area(threads: int) -> Callable[[Surface], Moments]:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ....core.mesh.surface import Surface
 from ....core.numerics.float32 import shortest_decimal
+from ....core.scans.findings import OTHERS_LEFT_OUT
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ..decisions import modifier_findings
 from ..findings import (
@@ -29,7 +30,6 @@ from ..findings import (
     GRID_SIMPLIFIED,
     GRID_TYPE,
     GRID_UNREADABLE,
-    GRIDS_LEFT_OUT,
     HIDDEN_OBJECT_MEASURED,
     KIND_COUNT,
     NO_SCALAR_GRID,
@@ -156,7 +156,7 @@ def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
     chosen = scalars.get(PREFERRED) or next(iter(scalars.values()))
     if len(grids) > 1:
         left_out = [other for other in grids if other != chosen.name]
-        findings.append(finding(GRIDS_LEFT_OUT, grid=chosen.name, grids=left_out))
+        findings.append(finding(OTHERS_LEFT_OUT, kind="grid", name=chosen.name, others=left_out))
     return chosen
 
 

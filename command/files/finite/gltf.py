@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
 from ....core.streams.misread import MAX_FLOAT32, Data, map_file
 from ....core.verdict.finding import FileError, finding
-from ...findings import AT_GLTF_ROW, GLTF_BUFFER_SHORT, MISSING_REFERENCES
+from ...findings import AT_GLTF_ROW, MISSING_REFERENCES
 from .numbers import MALFORMED, bad_in_table, refuse
 
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -128,5 +129,6 @@ class Buffers:
             except (OSError, ValueError) as error:  # ValueError: it is empty
                 raise FileError(MISSING_REFERENCES, names=[name]) from error
         if len(data) - start < size:
-            raise FileError(GLTF_BUFFER_SHORT, buffer=name, size=len(data) - start, expected=size)
+            cause = finding(DAMAGE_SIZE, bytes=len(data) - start, total=size)
+            raise FileError(FILE_DAMAGED, file=name, cause=cause.as_record())
         return data, start

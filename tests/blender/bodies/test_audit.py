@@ -403,7 +403,7 @@ def test_density_tells_the_mesh_from_the_inertial(tmp_path):
     path.write_text(text, encoding="utf-8")
     (found,) = audit(path).links
     changes = {one.code: one.values for one in found.findings if one.code.startswith("audit_")}
-    assert math.isclose(changes["audit_mesh_unit"]["factor"], 1e-3, rel_tol=1e-12) and link.inertial.mass > 0
+    assert math.isclose(changes["audit_unit"]["factor"], 1e-3, rel_tol=1e-12) and link.inertial.mass > 0
 
 
 def test_published_descriptions_are_judged_as_by_hand(tmp_path):

@@ -270,7 +270,7 @@ def test_the_grid_is_chosen(tmp_path):
     obj = volume_object(tmp_path / "a.vdb", vdb_grid(one, "alpha"), vdb_grid(two, "density"))
     found = measure(obj)
     assert found.mass_properties.mass == pytest.approx(two.sum(dtype=float), rel=1e-12)
-    assert said(found)["grids_left_out"] == {"grid": "density", "grids": ["alpha"]}
+    assert said(found)["others_left_out"] == {"kind": "grid", "name": "density", "others": ["alpha"]}
     obj.body_moments.grid = "alpha"
     assert measure(obj).mass_properties.mass == pytest.approx(one.sum(dtype=float), rel=1e-12)
     obj.body_moments.grid = "nothing"

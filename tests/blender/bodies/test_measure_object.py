@@ -193,7 +193,7 @@ def test_zero_scale_and_zero_density_are_refused():
         measure(flat)
     weightless = add(box())
     weightless.body_moments.density = 0.0
-    with refused("zero_density"):
+    with refused("zero_quantity"):
         measure(weightless)
 
 
@@ -365,7 +365,7 @@ def test_library_override_results_are_refused(tmp_path):
 
     with pytest.raises(EditRefusedError) as caught:
         properties.store(override, measure(override))
-    assert caught.value.finding.code == "linked_results"
+    assert caught.value.finding.code == "linked_object"
     assert not properties.is_stored(override)
 
 

@@ -155,5 +155,5 @@ def test_a_mixed_selection_is_each_measured_by_itself(seed, tmp_path, reported):
     assert list(bpy.context.selected_objects) == objects
     assert_total_is(total, displayed.total(bpy.context))
     assert refused(shown) == [values for findings in alone for values in refused(findings)]
-    assert {"linked_results", "linked_object"} & {values["cause"]["code"] for values in refused(shown)}
+    assert {"linked_object"} & {values["cause"]["code"] for values in refused(shown)}
     assert expected == list(warnings)

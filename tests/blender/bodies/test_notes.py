@@ -39,9 +39,9 @@ def test_flat_instances(side, slight):
 
 
 @SIDES
-def test_duplicate_faces_of_shells(side, slight):
+def test_duplicate_faces_counteds(side, slight):
     corners = [(3 + x * side, y * side, 0) for y in range(2) for x in range(3)]
     part = add(UNIT, {"points": corners, "faces": [(0, 1, 4, 3), (1, 2, 5, 4), (1, 2, 5, 4)]})
     part.body_moments.kind = "SHELL"
     found = measure(part)
-    assert said(found)["duplicate_faces_of_shell"] == {"count": 1, **slight}
+    assert said(found)["duplicate_faces_counted"] == {"count": 1, **slight}

@@ -199,7 +199,7 @@ def test_an_empty_without_instances_is_refused():
 
 def test_objects_without_faces_are_refused_with_their_content():
     wire = link("Wire", mesh("Wire", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1), (1, 2)]))
-    assert refused(wire, "only_loose_geometry", vertices=3, edges=2)
+    assert refused(wire, "only_without_surface")
     assert refused(link("Nothing", mesh("Nothing", [], [])), "no_geometry")
     bpy.ops.curve.primitive_bezier_circle_add()
     circle = bpy.context.object
@@ -217,7 +217,7 @@ def test_objects_without_faces_are_refused_with_their_content():
     assert refused(letters, "empty_text")
     wire = circle_without_fill()
     wire.modifiers.new("Array", "ARRAY")
-    assert refused(wire, "only_loose_geometry")
+    assert refused(wire, "only_without_surface")
     hidden = link("Hidden", mesh("Nothing", [], []))
     hidden.show_instancer_for_viewport = False  # of which it is none
     assert refused(hidden, "no_geometry")
@@ -288,7 +288,7 @@ def test_hiding_is_that_of_the_given_view_layer():
 
 
 def hidden(name):
-    return finding("collection_hidden", collection=name).as_record()
+    return finding("hidden_in_viewport", name=name).as_record()
 
 
 def test_an_object_disabled_in_viewports_is_refused():
@@ -301,7 +301,7 @@ def test_an_object_in_an_excluded_collection_is_refused():
     home = collection("Home")
     obj = doubled("Body", home)
     layer_of(home).exclude = True
-    assert refused(obj, "collection_hidden", collection="Home")
+    assert refused(obj, "hidden_in_viewport", name="Home")
 
 
 def test_an_object_of_another_scene_or_of_none_is_refused():
@@ -332,9 +332,9 @@ def test_different_levels_for_the_render_are_said():
     modifier.levels, modifier.render_levels = 1, 3
     reading = read(obj)
     assert len(reading.parts[0].surface.quads) == 24
-    differing = finding("render_levels_differ", modifier="Smooth", viewport=1, render=3)
+    differing = finding("render_levels_differ", name="“Smooth”", viewport=1, render=3)
     assert said(reading) == {"render_differs": {"differences": [differing.as_record()]}}
-    assert "“Smooth” has 1 in the viewport and 3 in the render." in str(reading.findings[0])
+    assert "“Smooth”: 1 in the viewport, 3 in the render." in str(reading.findings[0])
     bpy.context.scene.render.use_simplify = True
     bpy.context.scene.render.simplify_subdivision = bpy.context.scene.render.simplify_subdivision_render = 1
     assert read(obj).findings == []

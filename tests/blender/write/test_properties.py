@@ -65,4 +65,4 @@ def test_a_library_override_is_refused_and_left_as_it_is(tmp_path):
     for obj in (linked, linked.override_create()):
         with pytest.raises(EditRefusedError) as refused:
             properties.store(obj, numbers)
-        assert refused.value.finding.code == "linked_results" and "body_mass" not in obj
+        assert refused.value.finding.code == "linked_object" and "body_mass" not in obj

@@ -26,7 +26,7 @@ HEALTH = {
     "volume_spread": 0.0,
     "flipped_faces": [],
 }
-CAUSE = {"cause": {"code": "hidden_in_viewport", "values": {"switch": "eye icon"}}}
+CAUSE = {"cause": {"code": "hidden_in_viewport", "values": {"name": "Box", "switch": "eye icon"}}}
 UNTURNED = np.eye(3)
 QUARTER_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # about z: x to y
 

@@ -216,7 +216,7 @@ def test_numpy_arrays_are_read(tmp_path, layout):
     np.savez_compressed(tmp_path / "a.npz", table=np.eye(3), other=expected + 1, density=expected)
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, expected)
-    assert scan.findings == (finding("arrays_left_out", array="density", arrays=["other"]),)
+    assert scan.findings == (finding("others_left_out", kind="array", name="density", others=["other"]),)
 
 
 @pytest.mark.parametrize(
@@ -510,7 +510,7 @@ def test_first_volume_of_an_archive_is_taken(tmp_path):
     np.savez(tmp_path / "a.npz", table=np.eye(3), first=values(), second=values() + 1)
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, values())
-    assert scan.findings == (finding("arrays_left_out", array="first", arrays=["second"]),)
+    assert scan.findings == (finding("others_left_out", kind="array", name="first", others=["second"]),)
     np.savez(tmp_path / "a.npz", first=values(), density=np.eye(3))
     scan = read_scan(tmp_path / "a.npz")
     assert np.array_equal(scan.samples, values()) and scan.findings == ()
