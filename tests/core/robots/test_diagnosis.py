@@ -65,8 +65,9 @@ def mistakes():
         values = {"part": "inertial", "unit": unit, "wanted": wanted}
         yield "angles", values, along(turn, rotation_of_angles(*angles), angles=angles)
     w, x, y, z = quaternion(turn).tolist()
-    for wrong in ((x, y, z, w), (z, w, x, y)):
-        yield "quaternion_order", {}, along(turn, np.eye(3), quaternion=wrong)
+    for wrong, wanted in (((x, y, z, w), "w x y z"), ((z, w, x, y), "x y z w")):
+        values = {"part": "quaternion of the inertial", "order": wanted}
+        yield "order", values, along(turn, np.eye(3), quaternion=wrong)
     yield "transposed", {"part": "rotation of the inertial"}, along(turn, turn.T)
     yield "frame_not_meant", {}, replace(TRUTH, rotation=turn)
     for signs in list(product((1.0, -1.0), repeat=3))[1:]:
@@ -141,12 +142,13 @@ def test_a_mistake_is_found_named_and_repaired():
 @pytest.mark.parametrize("size", LENGTH_UNITS)
 def test_a_mesh_in_another_unit_shows_in_the_density(size):
     scaled = Reference(REFERENCE.volume * size**3, CENTER * size, INERTIA / MASS * size**2)
-    assert said(TRUTH, scaled) == ("mesh_unit", {"factor": 1.0 / size})
+    assert said(TRUTH, scaled) == ("unit", {"part": "lengths of the mesh", "factor": 1.0 / size})
     assert diagnose(TRUTH, [scaled]).repaired is None
     # with a density that is usual for the mesh as it is, the file is wrong
     assert said(TRUTH, replace(scaled, volume=MASS / DENSITY)) == ("unit", {"part": LENGTHS, "factor": size})
-    for density, code in ((9.0, "unit"), (11.0, "mesh_unit"), (29e3, "mesh_unit"), (31e3, "unit")):
-        assert said(TRUTH, replace(scaled, volume=MASS / density * size**3))[0] == code
+    mesh = "lengths of the mesh"
+    for density, part in ((9.0, LENGTHS), (11.0, mesh), (29e3, mesh), (31e3, LENGTHS)):
+        assert said(TRUTH, replace(scaled, volume=MASS / density * size**3))[1]["part"] == part
 
 
 @pytest.mark.parametrize(
