@@ -24,5 +24,5 @@ def check_size(*sides: float) -> None:
 
 
 def welding_tolerance(size: float, error: float) -> float:
-    """Return how near to each other points of a body are the same: of its diagonal and its coordinates' error."""
+    """Return the distance below which a body's points count as one. size: its diagonal; error: of its coordinates."""
     return max(WELDING_RTOL * size, 4.0 * error)
