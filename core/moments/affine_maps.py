@@ -175,7 +175,7 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
     """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) without negative density.
 
     An even degree n is bounded by the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), an odd one by the
-    root of the product of its neighbors' bounds (Cauchy and Schwarz), the highest, if odd, by an estimate from lower ones.
+    root of the product of its neighbors' bounds (Cauchy and Schwarz). An odd highest one is estimated from lower ones.
     """
     out = np.abs(raw)
     largest = [
@@ -201,7 +201,7 @@ def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """Return (k,) bounds of how much (3, 3, k) maps' squared stretch varies, relative to its mean; infinite for 0."""
+    """Return (k,) bounds of the variation of (3, 3, k) maps' squared stretch, relative to its mean; infinite for 0."""
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
     ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]

@@ -135,7 +135,7 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """Return (order + 1, order + 1, order + 1) array[p, q, r], like `skimage.measure.moments`; 0 beyond the order."""
+        """Return (order + 1, order + 1, order + 1) array[p, q, r] as in `skimage.measure.moments`; 0 elsewhere."""
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
         return dense

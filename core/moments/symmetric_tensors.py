@@ -27,7 +27,7 @@ def invert_through_point(moments: Moments) -> Moments:
 
 
 def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times` times, at least once."""
+    """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times` times (at least 1)."""
     out = np.tensordot(points, tensor, axes=(1, 0))
     for _ in range(times - 1):
         out = np.einsum("n...i,ni->n...", out, points)

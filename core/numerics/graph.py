@@ -19,7 +19,7 @@ NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
 def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """Return (count,) components of nodes joined by links a-b, (k,), numbered by their first nodes, and their number."""
+    """Return (count,) components of nodes joined by links a-b, (k,), numbered by first nodes, and their number."""
     label, number = None, count
     while True:
         blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]

@@ -67,8 +67,8 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
     """Return (k,) the mesh faces on the same vertices as an earlier one, sorted.
 
-    Of a solid two such faces bound nothing, and their edges close, so nothing looks for them; a sheet has their area
-    twice.
+    In a solid two such faces bound nothing, and their edges close, so that no repair looks for them; in a sheet their
+    area counts twice.
     """
     triangles, face = surface.all_triangles()
     return np.unique(face[same_vertices_groups(triangles, face) != face])

@@ -61,7 +61,7 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Weld the vertices along open edges that differ by less than the tolerance, and by little of their triangles."""
+    """Weld vertices along open edges that are nearer than the tolerance, and near compared with their triangles."""
     parts = mesh.state.open_parts
     if parts is None:
         return mesh
