@@ -38,7 +38,7 @@ from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
 
 SCRATCH_NUMBERS = 1_400_000  # limit of a block's scratch; with fewer, two threads wait for each other
-# faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
+# faces in a block, at least: numpy copies reused rows that are shorter than half its buffer of 8192
 MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
 MAX_UNSCALED_EXPONENT = 8  # powers of two up to which coordinates are left as they are
@@ -101,7 +101,7 @@ class _CompensatedSum:
 
 @dataclass(eq=False)
 class StreamIntegrator:
-    """One body being measured, piece by piece: `center` and `exponent` are those of its first piece unless given."""
+    """One body being measured, piece by piece. Without `center` and `reach`, its first piece sets point and scale."""
 
     order: int
     area: bool
@@ -204,7 +204,7 @@ class StreamIntegrator:
 
     @staticmethod
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """Yield corners of blocks of faces, quads as cut, pairs of triangles or triangles, and a full size."""
+        """Yield the corners of each block's faces (cut quads, paired or single triangles), and a full block's size."""
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
@@ -237,7 +237,7 @@ class StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """Return the change if vertices move by half ulps, over the volume that they sweep, or added area."""
+        """Return bounds of the change if vertices move by half ulps: over the volume that they sweep, or added area."""
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept

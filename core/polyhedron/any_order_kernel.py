@@ -201,7 +201,7 @@ class _Block:
         """Append the calls for sums of the last degree, of rows one degree lower and weighted coordinates."""
         degree, weighted_products, powers = self.order, self.weighted_products, self.powers
         count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
-        # in place of the corners at last
+        # The last products replace the corners.
         for row, both, apex_vectors in zip(weighted_products, self.both, self.apex_vectors):
             self._append_call(np.multiply, self.corners[:, ::2], both, row[:, ::2])
             self._append_call(np.multiply, self.corners[:, 1::2], apex_vectors, row[:, 1::2])
@@ -303,7 +303,7 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
-    """Compute, or note by `do`, x^α of one degree from the degree below, row by row, perhaps in its place."""
+    """Compute x^α of one degree from the degree below, perhaps in its place. do: calls, or records, each step."""
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])
     do(np.multiply, old[count - 1], vector[2], powers[count + degree])
@@ -311,7 +311,7 @@ def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powe
 
 
 def _first_row(run: int) -> int:
-    """Return the first of the rows of one degree with this q+r."""
+    """Return the first row, among the rows of one degree, with q + r = `run`."""
     return run * (run + 1) // 2
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The volume moments of a stack of small bodies beyond third order, for the axes of many.
+"""Volume moments beyond third order of a stack of small bodies, for the principal axes of many bodies.
 
 The recursion is that of `any_order_kernel`, on all triangles of all bodies at once; each body's sums run over its own
 segment of the rows.
@@ -30,7 +30,7 @@ def extend_small_moments(
 ) -> Moments:
     """Return the moments of n bodies, `volume` (n, 20), each about a point in its body, to a higher order.
 
-    Triangles are sorted by body. reach: (n, 3) of the points from there, with their possible shifts by storing.
+    Triangles are sorted by body. reach: (n, 3) of its points from there, with their possible shifts by storing.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers = monomials(order)[known:]

@@ -6,10 +6,10 @@ Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the or
 
     ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,    S_α the coefficient of ξ^α in Π_i 1 / (1 - v_i·ξ),
 
-and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, for det and |α|+n-1 for |α|+n. Each
-factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices. det = v_1·N,
-with N, the generalized cross product of the facet's edges, from minors. As there are but products and sums, each step's
-rounding is relative to the same expression in absolute values, which is computed beside it: a rigorous bound.
+and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, in place of det, and |α|+n-1 in place of
+|α|+n. Each factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices.
+det = v_1·N, with N, the generalized cross product of the facet's edges, from minors. As there are only products
+and sums, rounding is relative to the same expression in absolute values, which gives a rigorous bound.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ UNDERFLOW = 2.0**-1000  # relative to a body of size 1: far above the loss of pr
 
 @dataclass(frozen=True, eq=False)
 class SimplexMoments:
-    """Moments in n dimensions to some order; `moments[p, q, …]` is one of them.
+    """Moments in n dimensions to some order; `moments[p, q, …]` is one moment.
 
     raw: (K,) ∫ x^α about `about`, (n,), in the order of `multi_indices`. rounding_error: (K,) bounds of |raw - exact|
     for the coordinates and the point as given.
@@ -278,7 +278,7 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 
 @lru_cache
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
-    """Return the starts of degrees, and by degree and axis the indices, in the next degree, of products with it."""
+    """Return starts of degrees, and by degree and axis the indices, in the next degree, of products with the axis."""
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()
     raised = []

@@ -5,12 +5,12 @@
 The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle a, b,
 c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is its
 mean over the triangle; over the triangle itself to half its doubled area times E[f] (Sheynin and Tuzikov 2001, put so
-that triangles which share an edge share work). In third order everything follows from lower ones about the middle of an
-edge but the third moments about that middle: for a triangle with edge e and f from the middle to the third corner
+that triangles which share an edge share work). Third moments follow from lower ones about the middle of an edge, except
+for the third moments about that middle: for a triangle with edge e, and f from the middle to the third corner, they are
 
     E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120,
 
-of the order of an edge cubed: large meshes leave them out, unless asked, and add their bound to `rounding_error`.
+of the order of an edge cubed: unless `exact`, large meshes leave them out and add their bound to `rounding_error`.
 
 Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the product of
 its edges. With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at
@@ -55,8 +55,8 @@ from .third_order_small import (
 )
 
 MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
-SCRATCH_BYTES = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
-# triangles up to which the exact third order, half as much again, costs no time to speak of
+SCRATCH_BYTES = 16, 6_000_000  # limit of all threads' scratch together: bytes for each triangle, and a constant
+# triangles up to which the third order is always exact, which takes half as long again
 MAX_TRIANGLES_EXACT_THIRD = 100_000
 MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small_moments` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
@@ -83,7 +83,7 @@ def integrate(
 ) -> tuple[Moments, Moments]:
     """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`.
 
-    exact: to rounding for every size of mesh. about: (3,), by default the box's center. planarity: is shown the faces.
+    exact: to rounding for every size of mesh. about: (3,), by default the box's center. planarity: gets faces' sizes.
     """
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
@@ -149,7 +149,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 def _measure_rescaled(
     surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, area_moments: bool, exact: bool
 ) -> tuple[Moments, Moments]:
-    """Return the moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
+    """Return the moments by measuring a copy of about unit size, 2^exponent times smaller: scaling rounds nothing."""
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
     small = Surface(points, surface.all_triangles()[0], displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
@@ -171,7 +171,7 @@ def _measure_rescaled(
 
 @dataclass(frozen=True, eq=False)
 class _Integration:
-    """Surface to be measured.
+    """The integration over a surface in blocks of faces, by several threads.
 
     points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count: triangles; size: triangles in a block.
     """
@@ -205,7 +205,7 @@ class _Integration:
         ]
 
     def block_sums(self, blocks: list[_Block]) -> list[BlockResult]:
-        """Return the sums of the blocks, in their order, from several threads."""
+        """Return the sums of the blocks, computed by several threads, in the order of the blocks, turned quads last."""
         queue = iter(enumerate(blocks))
         threads = min(self.threads, len(blocks))
         if threads == 1:
@@ -302,7 +302,7 @@ def quad_corners(triangles: NDArray) -> list[NDArray] | None:
 
 
 def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
-    """Return the corners of quads if triangle i of `first` and triangle i of `second` are halves of one; else None."""
+    """Return the corners of quads if triangles i of `first` and `second` are halves of one for every i; else None."""
     if not len(second) or len(first) != len(second):
         return None
     for i in range(3):

@@ -81,10 +81,10 @@ def small_moments(
 def _segment_sums(
     corners: NDArray, counts: NDArray[np.integer], center: NDArray, area: bool, area_moments: bool
 ) -> tuple[NDArray, ...]:
-    """Return the sums of some bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
+    """Return five arrays of sums for n bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
 
-    They are (n, 20) Σ w f, made moments by `DIVISORS`; the same with doubled areas, or (n, 0); the largest components
-    of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
+    These are (n, 20) Σ w f, which `DIVISORS` turn into moments; the same with doubled areas, or (n, 0); the largest
+    components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
@@ -133,7 +133,7 @@ def error_bounds(
     """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled areas as weights w.
 
     tau: (n, 3) the sums of τ (see `third_order`). edges: (n, 1) the sum of two edges of each triangle. sizes: (n, 2)
-    Σ |w|. counts: (n, 1) triangles. sum_roundings: u, of the sums.
+    Σ |w|. counts: (n, 1) triangles. sum_roundings: of the sums, in units u.
     """
     moved_reach = reach + half_ulp
     powers, displaced = monomial_bounds(reach), monomial_bounds(moved_reach)

@@ -46,14 +46,14 @@ class Workspace(Generic[Block]):
         return block
 
     def take(self, *shape: int) -> NDArray[np.float64]:
-        """Return the next contiguous array."""
+        """Return the next contiguous array of this shape."""
         start = self._position
         end = start + prod(shape)
         self._position = end + ROW_PADDING
         return self._buffer[start:end].reshape(shape)
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
-        """Return arrays of these shapes, group by group; the groups share memory, for their times differ."""
+        """Return arrays of these shapes, group by group; the groups share memory, as only one is in use."""
         start, end, arrays = self._position, self._position, []
         for group in groups:
             self._position = start
