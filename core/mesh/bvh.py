@@ -45,7 +45,7 @@ class SortedComponents:
 def sort_components(
     points: NDArray[np.floating], triangles: NDArray[np.integer], component: NDArray[np.intp], number: int
 ) -> SortedComponents:
-    """Sort triangles by component and measure each component about a point of its own."""
+    """Sort triangles by component, and measure each component about one of its own vertices."""
     if np.any(component[1:] < component[:-1]):
         order = radix_argsort(component)
         triangles, component = triangles[order], component[order]
@@ -159,7 +159,7 @@ class Bvh:
 
     @cached_property
     def _shadows(self) -> NDArray[np.float64]:
-        """(5, n) the heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
+        """(5, n) the top heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
         (*low, bottom), (*high, top) = self.low.T, self.high.T
         sides = [(below - slope * top, above - slope * bottom) for below, above, slope in zip(low, high, RAY_SLOPES)]
         return np.stack([top, *sides[0], *sides[1]])

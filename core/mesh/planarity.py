@@ -105,7 +105,7 @@ class PlanarityAccumulator:
         self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
-        """Add every `step`-th triangle from each of these rows on. lengths: (len(starts), k) of their normals."""
+        """Add every `step`-th triangle from each row in `starts` on. lengths: (len(starts), k) of their normals."""
         for start, normal in zip(starts, lengths):
             self.triangles[start] = _PlanarityPartial(
                 len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.degenerate_limit)
@@ -239,7 +239,7 @@ def _tetrahedra(
 
 
 def _sum_in_order(volumes: NDArray[np.float64]) -> float:
-    """Return the sum, one after the other, like the sum of a stack: `np.add.reduce` would add in another order."""
+    """Return the sum, added one by one as in a stack of bodies: `np.add.reduce` would add in another order."""
     return float(sums_by_index(np.zeros(len(volumes), np.intp), volumes, 1)[0])
 
 

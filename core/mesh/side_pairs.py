@@ -22,7 +22,7 @@ HASH_FACTORS = 0x9E3779B1, 0x85EBCA77, 0xC2B2AE3D, 0x27D4EB2F, 0x165667B1  # pri
 SAMPLED_VERTICES = 512  # by which the hash is chosen
 NOBODY = -1
 
-# the numbers of some sides, their starts and their stops
+# Sides as three arrays: their indices, their starts and their stops.
 Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 

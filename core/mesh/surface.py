@@ -169,7 +169,7 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
 
 
 def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return half an ulp of float32 numbers; the largest one has the ulp of 2^127, though no number is above it."""
+    """Return half an ulp of float32 numbers. From 2^127 on it is that of 2^127, which stays finite."""
     return np.spacing(np.minimum(largest, 2.0**127).astype(np.float32)).astype(np.float64) / 2.0
 
 

@@ -38,7 +38,7 @@ from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
 
 SCRATCH_NUMBERS = 1_400_000  # limit of a block's scratch; with fewer, two threads wait for each other
-# faces in a block, at least: numpy copies reused rows that are shorter than half its buffer of 8192
+# Least faces in a block: numpy copies reused rows that are shorter than half its buffer of 8192.
 MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
 MAX_UNSCALED_EXPONENT = 8  # powers of two up to which coordinates are left as they are

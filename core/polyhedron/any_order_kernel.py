@@ -34,7 +34,7 @@ FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
 SLICES_PER_ROW = 16  # slices of a row that einsum adds up: a divisor of FACES_PER_CHUNK
 # Rounding of a determinant, and of a doubled area, relative to the sizes of their terms: see `third_order`.
 DETERMINANT_ROUNDING = 9.0 * U
-# underflow loses less than its root of a length, and than `DETERMINANT_ROUNDING` times it of a doubled area
+# Underflow loses less than its root of a length, and less than `DETERMINANT_ROUNDING` times it of a doubled area.
 MIN_SQUARED_LENGTH = 1e-145
 UNDERFLOW_BOUND = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
 
@@ -283,7 +283,7 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
     high, low, weight_sums, squares = np.split(chunks, (3, 6, 6 + weights))
     reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
     edges, weight_sums = np.sqrt(squares + MIN_SQUARED_LENGTH) * (1.0 + 1e-9), weight_sums * (1.0 + 1e-9)
-    # bounds Σ |normal|, and what its components are made from
+    # This bounds Σ |normal|, and the products that make up its components.
     terms = FACES_PER_CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)
     rounding, step = DETERMINANT_ROUNDING * terms, np.linalg.norm(half_ulp)
     double = weight_sums[1] + 3.0 * rounding if weights == 2 else terms

@@ -47,7 +47,7 @@ def extend_small_moments(
         sizes.append(np.add.reduceat(np.abs(det), starts))
     raw = np.concatenate(sums) * factors
     largest = np.multiply.reduce(reach[:, None] ** powers, axis=2)
-    # a coefficient is off by (6 n + 8) u, a determinant by what the known total is, and the sums by their lengths
+    # A coefficient is off by (6 n + 8) u, a determinant as much as the known total, and the sums by their lengths.
     relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
     size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
     error = (relative * size + 2.0 * volume.rounding_error[:, :1]) * largest + 8.0 * U * np.abs(raw)

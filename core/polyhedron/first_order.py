@@ -40,7 +40,7 @@ def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> N
 def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[np.float64]:
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
     u, v, diagonal = b - a, d - a, c - a
-    # if the normals of the two triangles along ac face away from each other, by Lagrange's identity
+    # True if the normals of the two triangles along ac face away from each other, by Lagrange's identity.
     flipped = dot(u, v) * dot(diagonal, diagonal) > dot(u, diagonal) * dot(v, diagonal)
     if flipped.any():  # cut from b to d
         a, b, c, d = (np.where(flipped, other, corner) for corner, other in ((a, b), (b, c), (c, d), (d, a)))

@@ -59,7 +59,7 @@ class SimplexMoments:
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
-    """Return (K, n) all exponents to an order, by degree, the first ones largest first; read-only."""
+    """Return all (K, n) exponents to an order, by degree, then by descending first exponents; read-only."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
@@ -67,7 +67,7 @@ def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
 
 
 def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...]) -> int:
-    """Return the index of one moment. IndexError beyond the order."""
+    """Return the index of the moment with these exponents. IndexError if they are negative or beyond the order."""
     return _positions(dimension, order)[check_exponents(exponents, dimension, order)]
 
 
@@ -190,8 +190,8 @@ def _measure(
         raw += np.add.reduce(_recursion(corners, order) * weight, axis=1)
         size += np.add.reduce(_recursion(np.abs(corners), order) * weight_size, axis=1)
 
-    # Roundings that one product of coordinates goes through: of each coordinate, product and sum of the recursion, of
-    # the passes that only carry it on, of the weight, and of the sum over all simplices.
+    # Count the roundings of one product of coordinates: in each coordinate, product and sum of the recursion, in the
+    # passes that only carry it on, in the weight, and in the sum over all simplices.
     steps = (
         degree * (dimension + 2)
         + dimension * dimension
@@ -226,7 +226,7 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k,) det or |N| of each simplex, and the same in absolute values."""
+    """Return (k,) det or |N| of each simplex, and (k,) the same expressions in absolute values."""
     normal, size = _normals(edges)
     nothing = np.zeros(edges.shape[2])
     if enclosed:

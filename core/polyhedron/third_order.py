@@ -56,13 +56,13 @@ from .third_order_small import (
 
 MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
 SCRATCH_BYTES = 16, 6_000_000  # limit of all threads' scratch together: bytes for each triangle, and a constant
-# triangles up to which the third order is always exact, which takes half as long again
+# Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000
 MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small_moments` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
-# triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
+# Triangles that are worth a thread: with fewer, calls are short, and wait for the interpreter.
 MIN_TRIANGLES_PER_THREAD = 250_000
-# reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish
+# Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish.
 MAX_UNSCALED_REACH = 2.0**100
 DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `blocks`
 

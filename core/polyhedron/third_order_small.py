@@ -146,7 +146,7 @@ def error_bounds(
     if half_ulp.any():
         step = np.sqrt(np.add.reduce(half_ulp * half_ulp, axis=1))[:, None]
         double = size[1] if area else np.sqrt(np.add.reduce(tau * tau, axis=1))[:, None]
-        # the volume that a closed surface sweeps where float32 has moved its points
+        # This is the volume that a closed surface sweeps as float32 moves its points.
         swept = double / 2.0 + step * edges + 2.0 * step * step * counts
         tilted = step * (edges + 2.0 * step * counts)
         share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # 1 for an axis without extent

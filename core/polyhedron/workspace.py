@@ -64,7 +64,7 @@ class Workspace(Generic[Block]):
 
 
 def gather(points: NDArray, index: NDArray[np.intp], single: NDArray[np.float32], corners: NDArray[np.float64]) -> None:
-    """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked; multiplied by 3."""
+    """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked; gets tripled."""
     flat, target = points.reshape(-1), single if points.dtype == np.float32 else corners
     np.multiply(index, 3, index)
     for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""First stages of measuring a solid: whether it can be measured, and whether its own edges prove it closed."""
+"""The first stages of measuring a solid: a check that it can be measured, and a proof of closedness by its edges."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh that the steps of a repair hand on to each other. No step changes the one it was given."""
+"""The mesh that the steps of a repair hand on to each other. No step changes the mesh that it receives."""
 
 from __future__ import annotations
 

@@ -118,7 +118,7 @@ def _find_open_parts(
 def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
-    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each."""
+    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each vertex."""
     triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]

@@ -25,7 +25,7 @@ class Elements(Protocol):
 
 
 class Severity(StrEnum):
-    """The weight of a finding: a note does not question the numbers, an error means there are none.
+    """The weight of a finding: a note does not question the numbers, a warning does, an error means there are none.
 
     Examples
     --------

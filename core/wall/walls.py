@@ -49,7 +49,7 @@ WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 
 @dataclass(frozen=True, eq=False)
 class OffsetSolid:
-    """The solid that a surface sweeps as it moves along its directions by s, per unit of s, as polynomials in s.
+    """The solid that a surface sweeps as it moves along its directions by s; its growth per s, as polynomials in s.
 
     points, vectors, triangles: (n, 3), (n, 3) and (m, 3), the moving surface and its directions. about: (3,) of the
     moments. coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for each moment to third order, and bounds
@@ -106,7 +106,7 @@ class OffsetSolid:
     def self_intersects(self, inward: float, outward: float) -> bool:
         """Return whether the wall's sides go through each other or themselves, or walls of separate parts overlap.
 
-        Only a moved side is compared with itself. The search ends without a result after a limited amount of work.
+        Only a moved side is compared with itself. The work is limited: an intersection may be missed.
         """
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
@@ -283,7 +283,7 @@ class _Prisms:
             np.stack(cross(first, second)) for first in (b - a, v - u) for second in (c - a, w - u)
         )
         self.normals = plain, first + second, turned
-        # power of s, corner, prism
+        # Axes: power of s, corner, prism.
         self.own_size = np.array(
             [[np.einsum("im,im->m", normal, vector) for vector in self.vectors] for normal in self.normals]
         )
