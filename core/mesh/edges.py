@@ -219,6 +219,6 @@ def group_components(
     unfinished[used[odd] % parts] = True
     side = np.flatnonzero(non_manifold[edges.of_side] & unfinished[part].repeat(3))
     meet = np.empty(len(non_manifold), np.intp)
-    meet[edges.of_side[side]] = part[side // 3]  # any of them
+    meet[edges.of_side[side]] = part[side // 3]  # any part at the edge
     component, number = connected_components(parts, part[side // 3], meet[edges.of_side[side]])
     return component[part], number

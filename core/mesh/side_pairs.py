@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 FACES_PER_BLOCK = 1 << 14  # in the cache with all that is made of them
 MAX_SORTED_SIDES = 3 << 10  # a table is made for more
 HASH_FACTORS = 0x9E3779B1, 0x85EBCA77, 0xC2B2AE3D, 0x27D4EB2F, 0x165667B1  # primes of xxHash, by Yann Collet
-SAMPLED_VERTICES = 512  # by which the hash is chosen
+SAMPLED_VERTICES = 512  # vertices with sides that decide on the hash
 NOBODY = -1
 
 # Sides as three arrays: their indices, their starts and their stops.

@@ -210,7 +210,7 @@ class SurfaceStack(TriangleStack):
         if wrong.any():  # edges that do not fit the vertices
             oriented[self.point_owners[corners[above[wrong]]]] = False
         component, _ = connected_components(len(sizes), face[above], face[below])
-        last = np.maximum.reduceat(component, first_face)  # they are numbered in the order of their first faces
+        last = np.maximum.reduceat(component, first_face)  # components are numbered by first face
         is_open = oriented & (single > 0)
         sides = np.empty((2, 0), np.intp)
         if is_open.any():

@@ -16,7 +16,7 @@ PerBody: TypeAlias = Any
 
 def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
     """Return whether all indices are from 0 to count - 1."""
-    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
+    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # a negative index becomes a large one
     return not indices.size or bool(unsigned.max() < count)
 
 

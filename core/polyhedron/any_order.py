@@ -133,8 +133,8 @@ class StreamIntegrator:
         """Yield the results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
         first = list(islice(tasks, min(self.threads, 2)))
         alone, tasks = len(first) < 2, chain(first, tasks)
-        del first  # it holds pieces of a stream
-        if alone:  # or a body of one task, for which starting threads takes longer than the work
+        del first  # the list holds pieces of a stream
+        if alone:  # one thread, or one task: starting threads would take longer than the work
             yield from map(self._run, tasks)
             return
         with ThreadPoolExecutor(self.threads) as pool:
@@ -168,7 +168,7 @@ class StreamIntegrator:
     def _size(self, faces: NDArray) -> int:
         """Return the number of faces in a block: even, equal for each of 2 or 4 threads."""
         corners = faces.shape[1]
-        # 2 if two triangles make one face here
+        # The kernel takes two triangles that share an edge as one face.
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
         most = ours * max(SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK)
         blocks = -(-len(faces) // (4 * most)) * 4

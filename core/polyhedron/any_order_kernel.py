@@ -183,7 +183,7 @@ class _Block:
         self._append_call(np.add, new[:, 1:-1], by_z, new[:, 1:-1])
         end = degree - 1
         while end:
-            first = end  # and the runs before it that fit into the room
+            first = end  # extended to the runs before that fit into the room
             while first > 1 and _first_row(end) - _first_row(first - 2) < self.order:
                 first -= 1
             products = self._room(2, len(levels), _first_row(end) - _first_row(first - 1))

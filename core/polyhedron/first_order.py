@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..numerics.vectors import cross, dot
 
-FACES_PER_BLOCK = 1 << 13  # so that what is computed of them stays in the cache
+FACES_PER_BLOCK = 1 << 13  # faces whose intermediate arrays stay in the cache
 
 
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:

@@ -115,7 +115,7 @@ def polyhedron_moments(
         stream = iter([body])
     else:
         check_type("body", body, Iterable)
-        planarity = None  # it is for one surface
+        planarity = None  # the accumulator is for one surface
         if isinstance(body, (list, tuple)):
             body = [_as_surface(piece) for piece in body]
             about = _center(body) if about is None else about

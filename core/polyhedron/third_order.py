@@ -272,7 +272,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
     They are bounds from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
     """
     sizes, count = np.add.reduce(sums.sizes, axis=1), np.array([[np.add.reduce(sums.counts)]])
-    # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
+    # einsum instead of a matrix product, after which the threads of some BLAS keep a core busy for a while.
     products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts)
     tau = np.array([[products[i, j] + products[j, i] for i, j in AXIS_PAIRS]])
     lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
@@ -282,7 +282,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
         job.reach[None], job.half_ulp[None], tau, edges, sizes[None], count, float(roundings), job.area
     )
     rounding, inputs = bounds[0][:, 0], bounds[1][:, 0]
-    if not job.exact:  # and the rest of the third order
+    if not job.exact:  # then add the bound of the omitted third order
         e, f = sums.base, sums.side + sums.base / 2.0
         rest = [
             f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0

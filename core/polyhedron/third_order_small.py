@@ -31,7 +31,7 @@ PRODUCT_ROUNDINGS = 8.0 * DEGREE  # in u: errors of products of weights and node
 THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
-TRIANGLES_PER_BLOCK = 2048  # whose products stay in the cache
+TRIANGLES_PER_BLOCK = 2048  # triangles whose products stay in the cache
 ROWS, COLUMNS = np.triu_indices(3)
 NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
 AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
@@ -94,7 +94,7 @@ def _segment_sums(
     middle = center.T[:, None] if len(counts) == 1 else np.repeat(center.T, counts, axis=1)[:, None]
     np.subtract(corners, middle, nodes[:, :3])
     np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
-    sums = np.empty((20, nodes.shape[2]))  # for each triangle with weight 1
+    sums = np.empty((20, nodes.shape[2]))  # the sums of each triangle, for a weight of 1
     sums[0] = 1.0
     sums[1:4] = nodes[:, 3]
     products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, t)

@@ -38,7 +38,7 @@ class Workspace(Generic[Block]):
             self._shape = self._block = block = None
             needed = numbers + MAX_ARRAYS * ROW_PADDING
             if len(self._buffer) < needed:
-                self._buffer = np.empty(0)  # never two of them
+                self._buffer = np.empty(0)  # frees the old buffer before the new one is made
                 self._buffer = np.empty(needed)
             self._position = -(self._buffer.ctypes.data // 8) % 8  # aligned to 64 bytes
             self._block = block = self._make(self, *shape)

@@ -86,7 +86,7 @@ def bones_of_caps(
 def _cut_edges(
     count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) bones, starts and ends of the sides that bound each bone's triangles, each as often as unpaired."""
+    """Return (k,) bones, starts and ends of the sides of each bone's triangles that no opposite side cancels."""
     start = triangles.ravel().astype(np.int64)
     stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     shape = int(bone.max(initial=0)) + 1, count, count

@@ -91,7 +91,7 @@ def _regions_of_one_layer(
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
     meet = np.empty(len(edges.count), np.intp)
-    meet[edge] = owner  # any of them
+    meet[edge] = owner  # any triangle at the edge, the last write
     region, number = connected_components(len(copied), owner, meet[edge])
     single_count = np.bincount(edges.of_side, np.repeat(~copied, 3))[edge]
     vote = np.where(single_count % 2 == 1, 1, -1) * (single_count > 0)

@@ -149,7 +149,7 @@ def judge(
     else:
         verdict = Verdict.REORIENTED if len(flipped) or len(inverted) else Verdict.EXACT
     findings: list[Finding] = []
-    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # of float32
+    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # one ulp of float32
     if mesh.max_displacement > step:  # less is how the same place is written twice
         slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume.total)
         findings.append(finding(VERTICES_WELDED, slight=slight, share=float(mesh.max_displacement / checked.size)))

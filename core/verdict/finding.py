@@ -128,7 +128,7 @@ class Finding:
         return hash((self.code, repr(sorted(self.values.items()))))
 
     def __str__(self) -> str:
-        from .sentences import sentence  # it imports this module
+        from .sentences import sentence  # late, as `sentences` imports this module
 
         return sentence(self)
 
@@ -160,7 +160,7 @@ def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Ele
 
 def truncate_findings(findings: Sequence[Any], limit: int) -> list[Any]:
     """Return the first `limit` findings or texts, and an ``and_more`` finding if there are others."""
-    from .findings import AND_MORE  # it imports this module
+    from .findings import AND_MORE  # late, as `findings` imports this module
 
     shown, more = truncate(findings, limit)
     return [*shown, finding(AND_MORE, count=more)] if more else [*shown]

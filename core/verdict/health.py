@@ -21,7 +21,7 @@ class Intersection(StrEnum):
 
     FOUND = "found"
     NOT_CHECKED = "not_checked"
-    NOT_FOUND = "not_found"  # searched
+    NOT_FOUND = "not_found"  # a search found none
     EXCLUDED = "excluded"  # proved to be impossible
 
 

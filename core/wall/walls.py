@@ -147,7 +147,7 @@ class OffsetSolid:
         return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
 
     def first_fold_location(self, side: str) -> NDArray[np.float64]:
-        """Return the (3,) middle of the triangle that folds first: "inward", "outward" or "centered"."""
+        """Return the (3,) middle of the triangle that folds first. side: "inward", "outward" or "centered"."""
         at = (
             self.inward_at if side == "inward" or side == "centered" and self.inward < self.outward else self.outward_at
         )
@@ -210,7 +210,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         sums += prisms.sums()
         slide, lift = directions.tangential_error[:, part].max(axis=2), directions.normal_error[:, part].max(axis=2)
         if stored:
-            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # it should have moved by one
+            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # such a triangle should have moved by one
         bounds += prisms.bounds(slide, lift, stored)
         swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
         swept[1] += prisms.swept(slide[1], lift[1], stored)
