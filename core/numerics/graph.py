@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Connected components of a graph.
 
-They are found by hooking: every node takes its lowest neighbor as its parent if that is lower, which cannot make a
-cycle, paths are halved by pointer jumping, the trees are contracted and the rest is done again (after Shiloach and
-Vishkin, J. Algorithms 3, 1982). A node that a round leaves alone has a lower neighbor after it, so two rounds at least
-halve the trees; with any lower neighbor in place of the lowest, a star could take as many rounds as it has links.
+Components are found by hooking (after Shiloach and Vishkin, J. Algorithms 3, 1982): every node takes its lowest
+neighbor as its parent if that is lower, which cannot make a cycle; pointer jumping halves the paths; the trees become
+the nodes of the next round. A node that a round leaves alone has a lower neighbor after it, so two rounds at least
+halve the trees. With any lower neighbor in place of the lowest, a star could take as many rounds as it has links.
 """
 
 from __future__ import annotations

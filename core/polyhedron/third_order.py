@@ -64,7 +64,7 @@ MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs mo
 MIN_TRIANGLES_PER_THREAD = 250_000
 # Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish.
 MAX_UNSCALED_REACH = 2.0**100
-DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `blocks`
+DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `BlockSums`
 
 # Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows that may be
 # halves of one quad, with the surface's first row of each array; or, without rows, (4, k) corners of turned quads.

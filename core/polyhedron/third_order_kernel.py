@@ -77,8 +77,8 @@ class _BlockCalls:
 
     For faces with c corners there are chunks times width, k columns:
     corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
-    First index: (c, k), and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
-    First edges: (3, c-1, k), b-a, c-a and a-d, with normals and spare: (3, f, k), with f = c-2, or f = 1 if not each
+    In one memory, index: (c, k) and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
+    In another, edges: (3, c-1, k), b-a, c-a, a-d, and normals and spare: (3, f, k), f = c-2, or f = 1 if not each
     triangle's normal is wanted; then table: (13, k), the tensors' six rows, two vectors and a number, and middle:
     (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
 
