@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 
 from .surface import Surface
 
-FACES_PER_BLOCK = 1 << 14  # whose hashes stay in the cache
+FACES_PER_BLOCK = 1 << 14  # faces whose hashes stay in the cache
 HALF = np.uint64(32)
-# Odd factors: one for each coordinate, two for sides; and what the first coordinate begins with.
+# Odd factors, one for each coordinate and two for sides; and the number that starts a hash.
 KEYS = np.frombuffer(os.urandom(48), np.uint64) | np.uint64(1)
 
 
 class BoundarySum:
-    """The sum over the sides of faces, of pieces that are added one after the other."""
+    """The sum over the sides of a surface's faces, added piece by piece."""
 
     def __init__(self) -> None:
         self._total = np.zeros((), np.uint64)

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells with a tree of boxes each, for two questions: is a place inside one, does one go through another.
+"""Shells with a tree of boxes each, to locate places inside them and to find shells that go through each other.
 
 A place is located by the winding number, counted along a ray that is parallel to no axis; the crossings are counted in
 the plane across the ray with signs that neighboring triangles share, so that no ray slips through between two of them
-(half-open edges, the watertight rule of rasterizers). Both questions walk down the trees with all pairs and points at
+(half-open edges, the watertight rule of rasterizers). Both searches walk down the trees with all pairs and points at
 once, in bounded pieces of work.
 """
 
@@ -45,7 +45,7 @@ class SortedComponents:
 def sort_components(
     points: NDArray[np.floating], triangles: NDArray[np.integer], component: NDArray[np.intp], number: int
 ) -> SortedComponents:
-    """Sort triangles by component and measure each component about a point of its own."""
+    """Sort triangles by component, and measure each component about one of its own vertices."""
     if np.any(component[1:] < component[:-1]):
         order = radix_argsort(component)
         triangles, component = triangles[order], component[order]
@@ -84,8 +84,8 @@ class Bvh:
 
     vertex_columns: (3, n) the vertices about `origin`; ids: (3, m) the vertices of the sorted triangles; bottom, top:
     (3, m) their boxes.
-    root: (c,) that of each component's tree. A node's first child is `child`, -1 for leaves; the second one follows.
-    A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes; of an empty node they are inverted.
+    root: (c,) root node of each component's tree, or -1. A node's first child is `child`, -1 for leaves; the second one
+    follows. A leaf holds triangles `first` to `last`. low, high: (n, 3) boxes of nodes; inverted if a node is empty.
     """
 
     def __init__(self, points: NDArray[np.floating], components: SortedComponents, selected: NDArray[np.bool_]) -> None:
@@ -159,7 +159,7 @@ class Bvh:
 
     @cached_property
     def _shadows(self) -> NDArray[np.float64]:
-        """(5, n) the heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
+        """(5, n) the top heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
         (*low, bottom), (*high, top) = self.low.T, self.high.T
         sides = [(below - slope * top, above - slope * bottom) for below, above, slope in zip(low, high, RAY_SLOPES)]
         return np.stack([top, *sides[0], *sides[1]])
@@ -169,7 +169,7 @@ class Bvh:
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
         """Return (k,) winding numbers of components around places (about `origin`), and whether each is sure.
 
-        It is unsure if the place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
+        A number is unsure if its place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
         """
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
@@ -200,7 +200,7 @@ class Bvh:
     def _count_crossings(
         self, query: NDArray, place: NDArray, leaf: NDArray, tolerance: float, winding: NDArray, sure: NDArray
     ) -> None:
-        """Add the crossings of the rays with the triangles of leaves. query: (3, k) starts of the rays."""
+        """Add the rays' crossings with triangles of leaves to `winding`; update `sure`. query: (3, k) ray starts."""
         first = self.first.take(leaf)
         size = self.last.take(leaf) - first
         triangle, place = np.repeat(first, size) + segment_ranges(size), np.repeat(place, size)
@@ -294,7 +294,7 @@ def intersecting_pairs(
 def _intersect_leaves(
     tree: Bvh, pair: NDArray, a: NDArray, b: NDArray, tolerance: float, intersects: NDArray, vertex: NDArray | None
 ) -> None:
-    """Mark the pairs with a triangle in one leaf that is pierced by an edge in the other."""
+    """Mark, in `intersects`, the pairs with a triangle in one leaf that is pierced by an edge in the other."""
     size_a, size_b = tree.last[a] - tree.first[a], tree.last[b] - tree.first[b]
     k = segment_ranges(size_a * size_b)
     row = np.repeat(np.arange(len(a)), size_a * size_b)

@@ -57,7 +57,7 @@ def _sides_at(
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
     """Return a function of a block's first corner, or None if faces and corners do not fit.
 
-    It returns the face of each corner, and whether its side runs to a higher vertex.
+    The function returns the face of each of the block's corners, and whether the corner's side runs to a higher vertex.
     """
     quads, triangles = len(surface.quads), len(surface.triangles)
     if not triangles and surface.quad_faces is None:
@@ -114,7 +114,7 @@ class Edges:
     """The undirected edges of m triangles. Side 3t + i runs from corner i of triangle t to the next one.
 
     of_side: (3m,) the edge of each side; upward: (3m,) if the side runs from the lower vertex to the higher; first:
-    (e,) the first side of each edge, ascending; count: (e,) sides of each.
+    (e,) the first side of each edge, ascending; count: (e,) number of sides.
     """
 
     of_side: NDArray[np.intp]
@@ -134,7 +134,7 @@ class Edges:
         return self.first[two], last[two]
 
     def adjacency(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return links between triangles that connect all the sides of an edge, for any number of them."""
+        """Return (k,) and (k,) triangles, linked so that all the triangles at an edge are connected."""
         side = np.arange(len(self.of_side))
         first = self.first[self.of_side]
         later = first != side
@@ -153,7 +153,7 @@ class Edges:
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     """Return the edges of (m, 3) triangles with three different vertices each.
 
-    The last of them are the halves of so many quads, a, b, c and a, c, d, whose diagonals are edges of their own.
+    quads: the last 2 * `quads` triangles are halves a, b, c and a, c, d of quads, and diagonals are edges of their own.
     """
     start, stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
@@ -205,7 +205,7 @@ def group_components(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m,) components of triangles, made of whole parts, and their number.
 
-    part: (m,) parts connected across edges of two sides; even: (e,) edges of one side that close otherwise. A part that
+    part: (m,) parts connected across edges of two sides; even: (e,) edges of one side that gaps close. A part that
     closes by itself is a component, though it may share edges (two boxes that meet in an edge); others that share an
     edge belong together (a box with an inner wall).
     """
@@ -219,6 +219,6 @@ def group_components(
     unfinished[used[odd] % parts] = True
     side = np.flatnonzero(non_manifold[edges.of_side] & unfinished[part].repeat(3))
     meet = np.empty(len(non_manifold), np.intp)
-    meet[edges.of_side[side]] = part[side // 3]  # any of them
+    meet[edges.of_side[side]] = part[side // 3]  # any part at the edge
     component, number = connected_components(parts, part[side // 3], meet[edges.of_side[side]])
     return component[part], number

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls of points in space, by quickhull with many points at a time and exact decisions.
 
-Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds all of
-these, in a few operations on arrays, that see no common face and none across the other's horizon: then their order does
-not matter, as a face over a horizon's edge is a positive combination of the two faces at that edge.
+Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds, in
+a few operations on arrays, all of these that see no common face, nor a face across another's horizon: their order does
+not matter then, as a face over a horizon's edge is a positive combination of the two faces at that edge.
 
 The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it, on which integers decide without
 rounding on which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
@@ -33,7 +33,7 @@ NEXT = np.array([1, 2, 0])
 class ConvexHull:
     """A closed convex surface of triangles; for points in one plane, both sides of their polygon.
 
-    points, indices: (h, 3) corners as given, and (h,) which of the given points they are. triangles: (m, 3) rows of
+    points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3) rows of
     `points`, outward counter-clockwise. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to
     2, from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distance of points outside: above
     the tolerance if the limit of corners was reached.
@@ -67,9 +67,9 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
     points : (n, 3) array_like
         Finite.
     tolerance : float
-        Of the largest extent: points that are outside by less are left out. Below 1e-8 the grid shows.
+        Relative to the largest extent: points outside by less are left out. Below 1e-8 the grid's steps show.
     max_corners : int, optional
-        When the hull has so many corners, the others, which are outside by the least, are left out.
+        Once the hull has so many corners, the other points, which are outside by the least, are left out.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
     Raises
     ------
     MeasureError
-        If the points are all on one line.
+        If the points are all on one line, or there are none.
 
     Examples
     --------
@@ -127,7 +127,7 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
-    """Return the index of the largest distance; among those equal to `least`, of the largest reach: a corner."""
+    """Return the index of the largest distance, among equal ones (to `least`) that of the largest reach: a corner."""
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
 
@@ -136,7 +136,7 @@ class _GrowingHull:
     """A hull on the grid, and the points that are still outside it, each with one face that it sees.
 
     corners: (m, 3) of its faces. normals: (m, 3) exact integers. outside, seen, height: the points, their faces, and
-    their heights in steps of the grid. reach: of all points, squared distances from the middle.
+    their heights in steps of the grid. reach: squared distances of all points from the middle.
     """
 
     def __init__(self, grid: NDArray[np.int64], corners: list[int], step: float) -> None:
@@ -168,7 +168,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return points, and the face, of `counts` from `firsts` on, that each is highest above, with the height."""
+        """Return points outside, the face, of `counts` from `firsts` on, that each is highest above, and the height."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -184,7 +184,7 @@ class _GrowingHull:
         return points, faces, height
 
     def add_points(self) -> bool:
-        """Add the farthest points outside, as many as leave each other alone. Return whether there were any."""
+        """Add the farthest points outside, as many as do not disturb each other. Return whether there were any."""
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))
@@ -223,7 +223,7 @@ class _GrowingHull:
         return np.stack(np.divmod(known, size), axis=1), np.concatenate(edges)
 
     def _independent(self, count: int, visible: NDArray[np.intp], horizon: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Return (count,) the apexes that no earlier one disturbs."""
+        """Return a (count,) mask of the apexes that no earlier apex disturbs."""
         beyond = self.neighbors[horizon[:, 1], horizon[:, 2]]
         seen_by = np.full(len(self.corners), count)
         np.minimum.at(seen_by, visible[:, 1], visible[:, 0])
@@ -233,7 +233,7 @@ class _GrowingHull:
         return keeps
 
     def _replace_faces(self, apexes: NDArray[np.intp], visible: NDArray[np.intp], horizon: NDArray[np.intp]) -> None:
-        """Put a cone to each apex in the place of the faces that it sees. horizon: by apex."""
+        """Replace the faces that each apex sees by a cone to that apex. horizon: sorted by apex."""
         apex, face, side = horizon.T
         size, added = len(self.corners), len(horizon)
         start, end = self.corners[face, side], self.corners[face, NEXT[side]]
@@ -295,7 +295,7 @@ def _flat_hull(points: NDArray[np.float64], corners: list[int], tolerance: float
 
 
 def convex_polygon(points: NDArray[np.float64], tolerance: float = 0.0) -> NDArray[np.intp]:
-    """Return (k,) the counter-clockwise corners around (n, 2) points; two on a line, one if all are the same."""
+    """Return (k,) indices of the counter-clockwise corners of (n, 2) points; two on a line, one if all are the same."""
     ends = np.lexsort((points[:, 1], points[:, 0]))[[0, -1]]
     least = tolerance * float(np.ptp(points, axis=0).max())
     if np.abs(points[ends[1]] - points[ends[0]]).max() <= least:

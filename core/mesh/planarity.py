@@ -7,9 +7,9 @@ by the tetrahedron of its corners, |(b-a)·((c-a)×(d-b))|/6; for a polygon the 
 differ by the tetrahedra on their common edge and each further one. A face counts as not flat if its diagonals pass each
 other by more than its coordinates' own errors and a millionth of its size, and it has an area.
 
-The sums over the faces show most of that, at hand, to a `PlanarityAccumulator`, a block at a time. The normal of a quad
-is the sum of the normals of its triangles: with their lengths p and q at most p + q, and at least 0.7 of that unless
-they face away from each other. Faces that this does not decide are looked at one by one.
+The kernel of the moments hands most of these numbers to a `PlanarityAccumulator`, a block at a time. A quad's normal is
+the sum of its triangles' normals, of lengths p and q: it is at most p + q long, and at least 0.7 (p + q) unless they
+face away from each other. Faces that this does not decide are looked at one by one.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Planarity:
 
 @dataclass(frozen=True, eq=False)
 class _PlanarityPartial:
-    """Counts of faces, and of surely not flat ones, 6 times their spread, and the rows of the undecided ones."""
+    """Results of one block: counts of faces and of surely non-planar ones, 6 times their spread, and undecided rows."""
 
     count: int
     non_planar_count: int
@@ -58,10 +58,10 @@ class _PlanarityPartial:
 
 
 class PlanarityAccumulator:
-    """The faces' planarity, of quads, and of polygons if the surface has the mesh's corners. Safe in threads.
+    """Planarity of a surface's quads, and of its polygons if it has the mesh's corners. Safe in threads.
 
-    error: bound of the distance of points from their intended places (unit). cones: sums of the cones over all faces
-    from the reference point, each counted as positive, and signed; None if not at hand.
+    error: bound of the distance of points from their intended places (unit). cones: sums, absolute and
+    signed, of the cones from the reference point over all faces; None if unknown.
     """
 
     def __init__(self, surface: Surface, error: float):
@@ -77,7 +77,7 @@ class PlanarityAccumulator:
 
     @cached_property
     def degenerate_limit(self) -> float:
-        """The largest sum of the lengths of a quad's normals that a face without area may have."""
+        """The largest length of a triangle's normal, or sum for a quad's triangles, that a face without area has."""
         longest = 3.0 * self.extent * self.extent  # no face is longer than √3 times the extent
         return float(2.0 * np.sqrt(_degenerate_limit(longest, self.error)))
 
@@ -105,14 +105,14 @@ class PlanarityAccumulator:
         self.quads[start] = _PlanarityPartial(len(bent), int(count), float(np.add.reduce(volume)), unsure)
 
     def add_triangles(self, starts: Sequence[int], step: int, lengths: NDArray) -> None:
-        """Add every `step`-th triangle from each of these rows on. lengths: (len(starts), k) of their normals."""
+        """Add every `step`-th triangle from each row in `starts` on. lengths: (len(starts), k) of their normals."""
         for start, normal in zip(starts, lengths):
             self.triangles[start] = _PlanarityPartial(
                 len(normal), 0, 0.0, start + step * np.flatnonzero(normal <= self.degenerate_limit)
             )
 
     def planarity(self) -> Planarity:
-        """Return the result of the kernel's reports; if they are missing or do not decide, of a pass over the faces."""
+        """Return the planarity from the kernel's reports, and from a pass over the faces that these leave undecided."""
         surface, triangle_faces = self.surface, self.surface.triangle_faces
         non_planar_count, seen_volume, total_volume, degenerate = 0, 0.0, 0.0, NO_FACES
         if len(surface.quads):
@@ -207,7 +207,7 @@ def _classify_rows(
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return (m,) 6 times the tetrahedron on each face's corners, scaled, 0 if flat, and (m,) whether it has no area.
 
-    pairs: of corners, QUAD or TRIANGLE. error, exponent: of the surface, or (m,) of each row.
+    pairs: QUAD, or TRIANGLE for no tetrahedra. error, exponent: of the surface, or (m,) of each row.
     """
     volumes, bare = [np.empty(0)], [np.empty(0, bool)]
     for start in range(0, len(corners), FACES_PER_BLOCK):
@@ -239,7 +239,7 @@ def _tetrahedra(
 
 
 def _sum_in_order(volumes: NDArray[np.float64]) -> float:
-    """Return the sum, one after the other, like the sum of a stack: `np.add.reduce` would add in another order."""
+    """Return the sum, added one by one as in a stack of bodies: `np.add.reduce` would add in another order."""
     return float(sums_by_index(np.zeros(len(volumes), np.intp), volumes, 1)[0])
 
 

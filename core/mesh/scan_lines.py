@@ -3,12 +3,12 @@
 """Crossings of parallel lines with the faces of bodies.
 
 The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, in a lattice
-of rows and columns across it. As a picture is drawn, a row crosses a triangle between two of its edges, and the columns
-in between meet it: work only for faces with corners in several rows and columns. A row crosses an edge that has one end
-above it, at a place that is computed from the edge's vertex of lower number on: triangles that share the edge see the
-same, and no line slips through between them.
+of rows and columns across it. As in drawing a picture, a row crosses a triangle between two of its edges, and columns
+in between meet it: only faces with corners in several rows and columns cause work. A row crosses an edge with one end
+above the row, at a place that is computed from the vertex with the lower index on: triangles that share the edge get
+the same place, and no line slips through between them.
 
-Bodies share a scan, each with lines of its own, with the result that each has alone. Fewer rows are taken of a body if
+Several bodies share a scan, each with its own lines and the same result as alone. Fewer rows are taken of a body if
 the work would exceed the limit for its number of triangles.
 """
 
@@ -28,7 +28,7 @@ COLUMN_SLOPE = 0.6180339887498949  # shift of columns from row to row, in column
 POINTS_PER_BLOCK = 1 << 14
 FACES_PER_BLOCK = 1 << 16
 PAIRS_PER_BLOCK = 1 << 16  # pairs of triangles and rows
-MIN_LINES, MAX_LINES, LINES_PER_SQRT = 576, 2048, 5.0  # through a body; and by the root of its number of triangles
+MIN_LINES, MAX_LINES, LINES_PER_SQRT = 576, 2048, 5.0  # lines through a body; and for each √triangles
 MAX_PAIRS = 8192, 1.0  # pairs of triangles and rows of a body; and more for each of its triangles
 MAX_CROSSINGS = 16384, 0.5  # pairs of lines and triangles; likewise
 
@@ -51,7 +51,7 @@ class LineGrids:
 
     @classmethod
     def over_boxes(cls, low: NDArray, high: NDArray, lines: NDArray[np.integer]) -> LineGrids:
-        """Make grids of about so many lines, (b,), over boxes, (b, 3)."""
+        """Make grids of about `lines`, (b,), lines each over boxes, (b, 3)."""
         axes = np.argsort(low - high, axis=1, kind="stable")
         extent, center = (np.take_along_axis(sides, axes, 1) for sides in (high - low, (low + high) / 2.0))
         width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
@@ -71,7 +71,7 @@ class LineGrids:
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
-        """Return (3, n) points in rows, in columns, and along the lines. body: (n,), None for a single one."""
+        """Return (3, n) row, column and length along the lines of each point. body: (n,), None for a single one."""
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
@@ -103,8 +103,8 @@ class Crossings:
 
     `triangle`: 2q and 2q + 1 for quad q, then the triangles. `along`: the distance along the line from the body's
     center.
-    `sign`: 1 if a line enters and -1 if it leaves a body that faces outward. `rows_apart`: (b,) every so many rows were
-    taken.
+    `sign`: 1 if a line enters and -1 if it leaves a body that faces outward. `rows_apart`: (b,) distance of the
+    rows that were taken.
     """
 
     body: NDArray[np.intp]
@@ -117,7 +117,7 @@ class Crossings:
 
 
 def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return (b,) the numbers of lines for bodies of so many triangles."""
+    """Return (b,) numbers of lines for bodies of these numbers of triangles."""
     return np.clip(LINES_PER_SQRT * np.sqrt(triangles), MIN_LINES, MAX_LINES).astype(np.intp)
 
 
@@ -169,7 +169,7 @@ def _cells(
 
 
 def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
-    """Return (b,) the triangles of each body."""
+    """Return (b,) the number of triangles of each body."""
     if body is None:
         return np.array([len(surface.triangles) + 2 * len(surface.quads)])
     quads, triangles = (

@@ -19,17 +19,17 @@ from numpy.typing import NDArray
 FACES_PER_BLOCK = 1 << 14  # in the cache with all that is made of them
 MAX_SORTED_SIDES = 3 << 10  # a table is made for more
 HASH_FACTORS = 0x9E3779B1, 0x85EBCA77, 0xC2B2AE3D, 0x27D4EB2F, 0x165667B1  # primes of xxHash, by Yann Collet
-SAMPLED_VERTICES = 512  # by which the hash is chosen
+SAMPLED_VERTICES = 512  # vertices with sides that decide on the hash
 NOBODY = -1
 
-# the numbers of some sides, their starts and their stops
+# Sides as three arrays: their indices, their starts and their stops.
 Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
     """Return (n, k) the face across each side of (n, k) faces, or None unless every edge has two opposite sides.
 
-    None also if there are too many for 32 bits. All of the vertices are used.
+    None also if the sides are too many for 32 bits. Faces must use all of the vertices.
     """
     if 2 * vertex_count > faces.size or faces.size % 2:  # a vertex has one face
         return None
@@ -58,7 +58,7 @@ def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray
 
 
 class _Table:
-    """Sides by the row of a vertex and a hash of another."""
+    """A table of sides, by the row of one end vertex and a hash of the other."""
 
     def __init__(self, vertex_count: int, bits: int):
         self.bits, self.sides = bits, np.zeros(vertex_count << bits, np.int32)  # counted from 1
@@ -74,7 +74,7 @@ class _Table:
         return place
 
     def at(self, places: NDArray[np.intp]) -> NDArray[np.int32]:
-        """Return the sides in these places."""
+        """Return the sides in these slots, NOBODY for an empty slot."""
         return self.sides.take(places, mode="clip") - np.int32(1)
 
     def factors_by_distinct_places(self, faces: NDArray[np.integer]) -> list[int]:
@@ -89,7 +89,7 @@ class _Table:
 def _pair(
     faces: NDArray[np.integer], left: Sides | None, table: _Table, factor: np.uint32, partner: NDArray[np.int32]
 ) -> Sides | None:
-    """Pair the sides in `left`, at first all, by a hash. Return the sides left then; None if a side is there twice."""
+    """Pair the sides in `left` (None: all) by a hash. Return the sides still unpaired; None if a side occurs twice."""
 
     def blocks() -> Iterator[Sides]:
         return _all_sides(faces, FACES_PER_BLOCK) if left is None else _slices(left)
@@ -114,7 +114,7 @@ def _pair(
 
 
 def _following(number: NDArray[np.integer], corners: int) -> NDArray[np.integer]:
-    """Return the next side of the same face."""
+    """Return the next side of the same face, for each side."""
     return np.where(number % corners == corners - 1, number - (corners - 1), number + 1)
 
 

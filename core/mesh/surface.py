@@ -152,7 +152,7 @@ def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDA
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
-    """Join surfaces, in the same coordinates, into one of float64 triangles; faces are numbered on."""
+    """Join surfaces, in the same coordinates, into one of float64 triangles; the numbers of their faces continue."""
     points, triangles, faces, start, face = [], [], [], 0, 0
     for surface in surfaces:
         cut, source_face = surface.all_triangles()
@@ -169,12 +169,12 @@ def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
 
 
 def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return half an ulp of float32 numbers; the largest one has the ulp of 2^127, though no number is above it."""
+    """Return half an ulp of float32 numbers. From 2^127 on it is that of 2^127, which stays finite."""
     return np.spacing(np.minimum(largest, 2.0**127).astype(np.float32)).astype(np.float64) / 2.0
 
 
 def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
-    """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third, as `HALVES`."""
+    """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third: into `HALVES`."""
     return np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
 
 

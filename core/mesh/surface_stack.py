@@ -19,7 +19,7 @@ from .surface import HALVES, Surface, half_ulp, turned_quads
 
 @dataclass(frozen=True, eq=False)
 class TriangleStack:
-    """The triangles of n surfaces, with indices moved behind the points of the surfaces before. None lacks any.
+    """The triangles of n surfaces, with indices into their concatenated points; each surface has some.
 
     `points` are (p, 3), float32 or float64, `triangles` (t, 3), the counts (n,).
     """
@@ -43,7 +43,7 @@ class TriangleStack:
         )
 
     def owned(self, which: NDArray[np.intp]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Return (p,) the points and (t,) the triangles of some of the surfaces."""
+        """Return masks of the points, (p,), and of the triangles, (t,), of some of the surfaces."""
         chosen = np.zeros(len(self), bool)
         chosen[which] = True
         return np.repeat(chosen, self.point_counts), np.repeat(chosen, self.triangle_counts)
@@ -72,7 +72,7 @@ class TriangleStack:
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
-        """(n, 3) as `Surface.coordinate_error` of each."""
+        """(n, 3) half an ulp of each surface's largest coordinate on each axis: its `Surface.coordinate_error`."""
         low, high = self.box
         return half_ulp(np.maximum(high, -low))
 
@@ -174,7 +174,7 @@ class SurfaceStack(TriangleStack):
         return ring_sizes(self.triangle_faces, self.quad_faces, int(self.face_counts.sum()))
 
     def uses_all_points(self) -> NDArray[np.bool_]:
-        """Return (n,) mask of the surfaces with all points used as corners of faces."""
+        """Return a (n,) mask of the surfaces with all points used as corners of faces."""
         used = np.zeros(len(self.points), bool)
         used[self.triangles] = True
         return np.logical_and.reduceat(used, self.first_point)
@@ -210,7 +210,7 @@ class SurfaceStack(TriangleStack):
         if wrong.any():  # edges that do not fit the vertices
             oriented[self.point_owners[corners[above[wrong]]]] = False
         component, _ = connected_components(len(sizes), face[above], face[below])
-        last = np.maximum.reduceat(component, first_face)  # they are numbered in the order of their first faces
+        last = np.maximum.reduceat(component, first_face)  # components are numbered by first face
         is_open = oriented & (single > 0)
         sides = np.empty((2, 0), np.intp)
         if is_open.any():
@@ -225,8 +225,8 @@ class SurfaceStack(TriangleStack):
 class Connections:
     """Connections of the faces of n surfaces, by their meshes' own edges.
 
-    `is_closed`: every edge with faces has two, which run oppositely; `is_open`: all but some with a single face.
-    `component_counts`: (n,); meaningless unless closed or open. `component`: (f,) of each face, by first faces.
+    `is_closed`: every edge with faces has two, which run oppositely; `is_open`: or some have one face.
+    `component_counts`: (n,); meaningless unless closed or open. `component`: (f,) of each face, by first face.
     `open_sides`: (2, k) start and end vertices of the sides with no other side, for the open surfaces.
     """
 

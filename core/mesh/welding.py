@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices that are one in space, and faces that are one, as needed for triangle soup, text and NURBS meshes.
+"""Vertices at the same position, and faces on the same vertices, as in triangle soup, text and NURBS meshes.
 
 Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: points
 that are within half a cell along each axis share a cell of at least one of them. Within a cell points are compared with
-its first one alone. Only points go there that have neighbors along a line: most meshes have none. Faces are one if the
+its first one alone. Only points with neighbors along a line enter grids: most meshes have none. Faces are one if the
 sums of two hashes over their vertices agree.
 """
 
@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from ..numerics.arrays import first_occurrence, hash_uint64
 from ..numerics.graph import connected_components
 
-# Points that are near to each other are so along it, too; planes and axes of usual bodies are not across it.
+# Points near to each other are near along this direction, too; planes and axes of usual bodies are not across it.
 DIRECTION = 0.5477, 0.3163, 0.7746
-REACH_MARGIN = 1.01  # for what rounding does to places along it, and to its own length
+REACH_MARGIN = 1.01  # allows for the rounding of places along the direction, and of its length
 CELL_DIAGONAL = 3.5  # tolerances, two to a side: farther apart than any two points of one cell
 WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger gaps stay
 
@@ -31,7 +31,7 @@ def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
 def may_have_neighbor(
     points: NDArray[np.floating], reach: float | NDArray[np.float64], owner: NDArray[np.integer] | None = None
 ) -> NDArray[np.bool_]:
-    """Return (n,) True for points with another of their owner within reach (for all, or each), and for some more."""
+    """Return a (n,) mask of all points with another point of their owner within `reach`, and of some more points."""
     x, y, z = points.T.astype(np.float64)
     along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
     order = along.argsort() if owner is None else np.lexsort((along, owner))
@@ -94,7 +94,7 @@ def vertex_tolerance(
 
 
 def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return (m,) for each triangle, of the (m,) mesh faces, the first face on the same vertices as its face."""
+    """Return (m,) for each triangle the first mesh face on the same vertices as its own, given by (m,) `faces`."""
     width = int(faces.max()) + 1
     pieces = np.bincount(faces)
     single = pieces[faces] == 1

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Affine maps of a functional F[p,q,r] = ∫ x^p y^q z^r d(of).
+"""Affine maps of a functional F[p,q,r] = ∫ x^p y^q z^r dm, m a volume, area, length or mass.
 
 Multiplying the integrand by the linear form l(x) = t + a·x sends F to (lF)[α] = t F[α] + Σ_i a_i F[α+e_i], one order
 shorter; the moments of the image are (l0^p l1^q l2^r F)[0,0,0]. Horner's scheme does that for any order and for many
-maps at once; `moments` has a faster way for one map.
+maps at once; `moments.image` is faster for a single map.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from .exponents import count_of_degree, monomial_count, monomial_index, monomial
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
-HIGHEST_ODD = 3.0  # times what the degrees below would have if all were as far away as their mean: 1.3 of a bar
+HIGHEST_ODD = 3.0  # safety factor of the estimate from the two lower even degrees; a thin bar needs 1.3
 
 
 def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -33,21 +33,21 @@ def to_trailing_axis(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np
 
 
 def distinct_linear_parts(matrices: NDArray) -> Iterator[tuple[NDArray[np.float64], NDArray[np.intp]]]:
-    """Return the different linear parts of (k, 4, 4) maps: each of them, (3, 3), and the maps that have it, (j,)."""
+    """Yield each distinct (3, 3) linear part of (k, 4, 4) maps with the (j,) indices of the maps that have it."""
     linear, which = np.unique(matrices[:, :3, :3].reshape(-1, 9), axis=0, return_inverse=True)
     for i, row in enumerate(linear):
         yield row.reshape(3, 3), np.flatnonzero(which.ravel() == i)
 
 
 def translation_matrices(offsets: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) the maps that move by (k, 3) offsets and do nothing else."""
+    """Return (k, 4, 4) maps that move points by (k, 3) offsets."""
     matrices = np.tile(np.eye(4), (len(offsets), 1, 1))
     matrices[:, :3, 3] = offsets
     return matrices
 
 
 def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: NDArray) -> NDArray[np.float64]:
-    """Return (K, k) (l0^p l1^q l2^r F)[0,0,0] of (K, 1) or (K, k) F and k maps, (3, 3, k) linear and (3, k) offset."""
+    """Return (K, k) images of functionals, (K, 1) or (K, k), under maps with (3, 3, k) `linear` and (3, k) `offset`."""
     forms = [(offset[i], *linear[i]) for i in range(3)]
     out = np.zeros((len(values), offset.shape[1]))
     by_p = np.broadcast_to(values, out.shape)
@@ -64,7 +64,7 @@ def transform_by_horner(values: NDArray, order: int, linear: NDArray, offset: ND
 
 
 def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: int) -> NDArray[np.float64]:
-    """Return the functional multiplied by a linear form, one order shorter; nothing is left below order 0."""
+    """Return a functional times the linear form (t, a, b, c), one order shorter: empty if `order` is 0."""
     if not order:
         return values[:0]
     t, a, b, c = form
@@ -78,7 +78,7 @@ def multiply_by_linear_form(form: tuple[NDArray, ...], values: NDArray, order: i
 
 
 def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.float64]:
-    """Map functionals (..., m, K): the first of the m by the map (..., 3, 3), the others by its absolute value."""
+    """Map functionals (..., m, K): the first of each m by the map (..., 3, 3), the others by its absolute value."""
     forms, out = np.stack([linear, np.abs(linear)], axis=-3), np.array(values)
     table = np.ones((*forms.shape[:-2], 1, 1))
     for degree in range(1, order + 1):
@@ -90,7 +90,7 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
 
 
 def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
-    """Return (..., K): the moments (..., K) of bodies that are turned by rotations (..., 3, 3), without bounds."""
+    """Return (..., K) moments of bodies after rotations (..., 3, 3), from their moments `raw`; no error bounds."""
     shape = np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2])
     out = np.array(np.broadcast_to(raw, (*shape, raw.shape[-1])))
     table = np.ones((*rotation.shape[:-2], 1, 1))
@@ -102,7 +102,7 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
-    """Return (..., rows, rows) images of the monomials as polynomials, from those, `table`, of one degree less."""
+    """Return (..., rows, rows) coefficients of the images of a degree's monomials. table: those one degree lower."""
     count, below = count_of_degree(degree), count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)
@@ -122,7 +122,7 @@ def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[n
 
 @lru_cache
 def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.intp]]]:
-    """Return, by axis, each term of all moved monomials: old monomial, power, binomial; and (K,) first terms."""
+    """Return, by axis, the terms of all shifted monomials: (t,) old indices, powers, binomials; (K,) first terms."""
     powers, tables = monomials(order), []
     for axis in range(3):
         count = powers[:, axis] + 1
@@ -136,7 +136,7 @@ def _terms(order: int) -> list[tuple[NDArray[np.intp], NDArray[np.intp], NDArray
 
 
 def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[np.float64]:
-    """Return (..., K): each functional F, (..., K), with its own offset, (..., 3): F[(x+t)^α], axis by axis."""
+    """Return (..., K) values F[(x+t)^α] of functionals F, (..., K), each with its own offset t, (..., 3)."""
     moved = offsets.any(axis=-1)
     if not moved.all():  # most images are about the image of their point
         values = values.copy()
@@ -157,9 +157,9 @@ def apply_translation(values: NDArray, order: int, offsets: NDArray) -> NDArray[
 
 
 def are_singular(linear: NDArray) -> NDArray[np.bool_]:
-    """Return (k,) whether (k, 3, 3) maps are singular, as far as entries that were float32 show."""
+    """Return a (k,) mask of the (k, 3, 3) maps that are singular to the accuracy of float32 entries."""
     columns = np.asarray(linear, np.float64).transpose(1, 2, 0).copy()
-    # by the largest entry first, so that no square of a very small or large scale leaves the range of float64
+    # Divide by the largest entry first, so that no square of a very small or large scale leaves float64's range.
     largest = np.abs(columns).max(axis=0)
     columns /= np.where(largest > 0.0, largest, 1.0)
     lengths = np.sqrt((columns * columns).sum(axis=0))
@@ -174,8 +174,8 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
 def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
     """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) without negative density.
 
-    Of an even degree n the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), of an odd one the root of
-    the product of its neighbors (Cauchy and Schwarz), of the highest, if odd, an estimate from the lower ones.
+    An even degree n is bounded by the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), an odd one by the
+    root of the product of its neighbors' bounds (Cauchy and Schwarz). An odd highest one is estimated from lower ones.
     """
     out = np.abs(raw)
     largest = [
@@ -196,12 +196,12 @@ def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def are_similarities(linear: NDArray) -> NDArray[np.bool_]:
-    """Return (k,) whether (k, 3, 3) maps are rotations, reflections and uniform scales, as far as float32 goes."""
+    """Return a (k,) mask of the (k, 3, 3) maps that are similarities to the accuracy of float32 entries."""
     return anisotropy(np.ascontiguousarray(np.asarray(linear, np.float64).transpose(1, 2, 0))) <= SIMILARITY_RTOL
 
 
 def anisotropy(linear: NDArray) -> NDArray[np.float64]:
-    """Return (k,) relative excesses of the stretch of (3, 3, k) maps in a direction over another; infinite if flat."""
+    """Return (k,) bounds of the variation of (3, 3, k) maps' squared stretch, relative to its mean; infinite for 0."""
     columns = linear.transpose(1, 0, 2)
     a, b, c = [np.add.reduce(column * column) for column in columns]
     ab, ac, bc = [np.abs(np.add.reduce(columns[i] * columns[j])) for i, j in ((0, 1), (0, 2), (1, 2))]

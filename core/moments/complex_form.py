@@ -22,12 +22,12 @@ from .moments import Moments, U
 from .solid_harmonics import circular_coefficients
 
 SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-SUM_ROUNDINGS = 8  # u, beside one for each term, that a sum of a few products may be off by
+SUM_ROUNDINGS = 8  # rounding of a sum of a few products, in units u, besides one for each term
 
 
 @dataclass(frozen=True)
 class ComplexBound:
-    """A complex number and a bound of its error. They multiply as numbers do."""
+    """A complex number and a bound of its error; `*` multiplies the numbers and bounds the error of the product."""
 
     value: complex
     bound: float
@@ -41,7 +41,7 @@ class ComplexBound:
         return ComplexBound(self.value.conjugate(), self.bound)
 
     def power(self, exponent: int) -> ComplexBound:
-        """Return a natural power."""
+        """Return the number to a natural power, with its error bound."""
         product = ComplexBound(1.0 + 0.0j, 0.0)
         for _ in range(exponent):
             product = product * self
@@ -50,7 +50,7 @@ class ComplexBound:
 
 @dataclass(frozen=True)
 class Invariant:
-    """A number that does not change when a shape is turned, from moments to `degree`.
+    """A number, computed from moments to `degree`, that does not change when a shape is turned.
 
     The bounds are of changes by rounding, and by storing coordinates as float32.
     """
@@ -64,7 +64,7 @@ class Invariant:
 
 
 def complex_moments(moments: Moments, bounds: NDArray[np.float64] | None = None) -> dict[tuple[int, int], ComplexBound]:
-    """Return {(p, q): c_pq}, p ≥ q, of a plane shape (z = 0) about its point. bounds: (K,), by default of rounding."""
+    """Return {(p, q): c_pq}, p ≥ q, of a plane shape (z = 0). bounds: (K,) errors, by default `rounding_error`."""
     bounds = moments.rounding_error if bounds is None else bounds
     found = {}
     for (p, q), positions, factors in _expansions(moments.order):
@@ -77,7 +77,7 @@ def complex_moments(moments: Moments, bounds: NDArray[np.float64] | None = None)
 
 @lru_cache
 def _expansions(order: int) -> list[tuple[tuple[int, int], NDArray[np.int64], NDArray[np.complex128]]]:
-    """Return for each (p, q), p ≥ q, by degree: the indices of the real moments that make it up, and their factors."""
+    """Return, by degree, each (p, q), p ≥ q, with the indices and factors of the real moments that make up c_pq."""
     expansions = []
     for n in range(order + 1):
         for q in range(n // 2 + 1):
@@ -136,7 +136,7 @@ def _both(moments: Moments, products) -> list[tuple[ComplexBound, ComplexBound]]
 
 
 def _name(p: int, q: int) -> str:
-    """Return c11, c20 c12², or c10,3 c12⁷: with a comma if the digits would run together."""
+    """Return the invariant's name, such as c11, c20 c12², or c10,3 c12⁷: with a comma if digits would run together."""
     first = "c{:d}{:s}{:d}".format(p, "," if p > 9 else "", q)
     power = "" if p - q == 1 else str(p - q).translate(SUPERSCRIPTS)
     return first if p == q else "{:s} c12{:s}".format(first, power)

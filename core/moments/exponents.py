@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 KNOWN_ORDER = 3  # every body has its moments to this order
 
-Index = TypeVar("Index", int, NDArray[np.int64])  # one, or an array of them
+Index = TypeVar("Index", int, NDArray[np.int64])  # an index, or an array of indices
 
 
 @lru_cache
@@ -32,7 +32,7 @@ def order_from_count(count: int) -> int:
 
 
 def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int, ...]:
-    """Return the exponents. TypeError if they are not `dimension` integers, IndexError if beyond the order."""
+    """Return the exponents. TypeError if not `dimension` integers, IndexError if negative or beyond the order."""
     powers = tuple(exponents) if isinstance(exponents, (tuple, list, np.ndarray)) else ()
     if len(powers) != dimension or not all(isinstance(power, (int, np.integer)) for power in powers):
         raise TypeError("not {:d} integer exponents: {!r}".format(dimension, exponents))
@@ -42,7 +42,7 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
 
 
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
-    """Return the index of raw[p, q, r]: graded by degree, within a degree by (q + r, r).
+    """Return the index of the monomial x^p y^q z^r: sorted by degree, within a degree by (q + r, r).
 
     IndexError if an exponent is negative.
     """
@@ -92,7 +92,7 @@ def count_of_degree(degree: int) -> int:
 
 @lru_cache
 def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
-    """Return (3, rows) indices, one degree lower, of x^α without a factor x, y or z; `missing` if it has none."""
+    """Return (3, rows) indices, within the degree below, of x^α / x, x^α / y, x^α / z; `missing` without the factor."""
     table = monomials(degree)[-count_of_degree(degree) :]
     r, s = table[:, 2], table[:, 1] + table[:, 2]
     lower = s * (s - 1) // 2
@@ -101,7 +101,7 @@ def quotient_indices(degree: int, missing: int) -> NDArray[np.intp]:
 
 @lru_cache
 def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
-    """Return for each monomial below `order` the indices of its products with x, with y and with z."""
+    """Return three arrays: the indices of the products with x, y and z of each monomial of a degree below `order`."""
     lower = monomials(order - 1)
     return tuple(np.array([monomial_index(*(row + unit)) for row in lower]) for unit in np.eye(3, dtype=int))
 

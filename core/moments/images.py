@@ -18,10 +18,10 @@ MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their 
 
 
 def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None = None) -> Moments:
-    """Add the images of one body under (k, 4, 4) affine maps, at least one: instances.
+    """Return the summed moments of one body's images under (k, 4, 4) affine maps, at least one.
 
-    They are about the mean of the images of `moments.about`, unless `about` says otherwise. ValueError if matrices are
-    no similarities although areas or lengths need them.
+    The sum is about the mean of the images of `moments.about`, unless `about` is given. ValueError if a map of areas or
+    lengths is no similarity.
     """
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
     check_filled("matrices", matrices)
@@ -60,7 +60,7 @@ def _image_error_bounds(
     weight_error: NDArray,
     uneven: NDArray,
 ) -> tuple[NDArray, NDArray]:
-    """Return (K,) and (K,) `rounding_error`, with the rounding of the maps, and `input_error` of k images together.
+    """Return (K,) `rounding_error`, including the rounding of the maps, and (K,) `input_error` of the sum of k images.
 
     By degree: if the rows of |linear| sum to at most `stretch` and |offset| is at most `reach`, both (k,), a product of
     n linear forms holds binomial(n, j) stretch^j reach^(n-j) of the moments of degree j, each at most the largest of

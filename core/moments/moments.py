@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Raw moments about a stated point: the one thing that every body becomes.
+"""Raw moments about a stated point: the common representation of every body.
 
-raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r d(of), positive integrals, p+q+r ≤ order. They add, they scale by a density
-and they map linearly under an affine map (`affine_maps`), so a sum of objects is a sum and an instance is a map
+raw[p,q,r] = ∫ (x-ox)^p (y-oy)^q (z-oz)^r dm, positive integrals, p+q+r ≤ order. Moments add, scale by a density,
+and map linearly under an affine map (`affine_maps`), so a sum of objects is a sum and an instance is a map
 (`images`). Two bounds go with every number and add and map as it does: `rounding_error`, for rounding (or a stated
 truncation), and `input_error`, for storing coordinates as float32.
 """
@@ -37,7 +37,7 @@ from .exponents import (
 U = np.finfo(np.float64).eps / 2.0  # unit roundoff
 TINY = np.finfo(np.float64).tiny  # smaller numbers lack digits
 FLOAT32_HALF_ULP = 2.0**-24  # relative rounding error of float32
-# u: numpy adds up contiguous rows in pairs of sums of at most 128 in 8 lanes, so this is generous
+# In units u: numpy adds up contiguous rows pairwise, from sums of at most 128 numbers in 8 lanes, so this is generous.
 PAIRWISE_SUM_ROUNDINGS = 64
 
 
@@ -66,16 +66,16 @@ class Moments:
 
     The point is the middle of the body's bounding box unless the measurement was given another one; `about_point`,
     `about_center` and `in_frame` lead to others. Moments add (`+`), scale by a density (`*`) and follow affine maps
-    (`transform`). `moments[p, q, r]` is one of them; iteration yields the exponents (p, q, r), as of a mapping. All
+    (`transform`). `moments[p, q, r]` is one moment; iteration yields all (p, q, r), like the keys of a mapping. All
     arrays may have the same leading axes: then they belong to a stack of bodies, and the arguments and results of
     methods have these axes too.
 
     Parameters
     ----------
     raw : (K,) array
-        All p+q+r ≤ order in the order of `monomials`, in unit^(dimension of `measure` + degree).
+        The moments with p+q+r ≤ order, in the order of `monomials` and in unit^(dimension of `measure` + degree).
     about : (3,) array
-        The point they are taken about, in the body's coordinates.
+        The point that the moments are taken about, in the body's coordinates.
     measure : Measure
         Integrals over volume, area, length or mass.
     rounding_error : (K,) array, optional
@@ -99,7 +99,7 @@ class Moments:
     raw: NDArray[np.float64]
     about: NDArray[np.float64]
     measure: Measure = Measure.VOLUME
-    rounding_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)  # zeros, once it is made
+    rounding_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)  # zeros after `__post_init__`
     input_error: NDArray[np.float64] = cast("NDArray[np.float64]", None)
 
     def __post_init__(self) -> None:
@@ -135,7 +135,7 @@ class Moments:
         return (tuple(row) for row in monomials(self.order).tolist())
 
     def to_dense(self) -> NDArray[np.float64]:
-        """Return (order + 1, order + 1, order + 1) array[p, q, r], as `skimage.measure.moments`; 0 beyond the order."""
+        """Return (order + 1, order + 1, order + 1) array[p, q, r] as in `skimage.measure.moments`; 0 elsewhere."""
         dense = np.zeros((*self.raw.shape[:-1], *3 * (self.order + 1,)))
         dense[(..., *monomials(self.order).T)] = self.raw
         return dense
@@ -146,7 +146,7 @@ class Moments:
         return self.raw[..., 0] if self.raw.ndim > 1 else float(self.raw[0])
 
     def at(self, which: int | slice | list[int] | NDArray | None) -> Moments:
-        """Return one body of a stack, or a stack of some of them."""
+        """Return the bodies of a stack that an index selects; None turns a single body into a stack of one."""
         arrays = self.raw, self.about, self.rounding_error, self.input_error
         raw, about, rounding, inputs = [array[which] for array in arrays]
         return Moments(raw, about, self.measure, rounding, inputs)
@@ -178,7 +178,7 @@ class Moments:
 
     def __mul__(self, factor: float | NDArray) -> Moments:
         """Scale by a constant: a density, a thickness, a sign."""
-        if np.ndim(factor):  # one for each of a stack
+        if np.ndim(factor):  # one factor for each body of a stack
             factor = np.asarray(factor)[..., None]
         size = abs(factor)
         return replace(
@@ -244,7 +244,7 @@ class Moments:
 def sum_moments(parts: Sequence[Moments]) -> Moments:
     """Add several bodies, about the first one's point and to the lowest of their orders.
 
-    ValueError if there are none, or they measure different things.
+    ValueError if `parts` is empty, or the measures differ.
     """
     check_filled("parts", parts)
     first = parts[0]
@@ -266,7 +266,7 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
 
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
-    """Stack at least one body's moments, of one measure, along a leading axis, each about its own point."""
+    """Stack moments of one measure, each about its own point, along a leading axis, to the lowest of their orders."""
     count = min([part.raw.shape[-1] for part in parts])
     raw, rounding, inputs = (
         np.array([getattr(part, name)[:count] for part in parts]) for name in ("raw", "rounding_error", "input_error")
@@ -276,11 +276,11 @@ def stack_moments(parts: Sequence[Moments]) -> Moments:
 
 @np.errstate(over="ignore", invalid="ignore")  # callers check for overflow
 def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
-    """Return the image of a body under an affine map, or of each of a stack under its own.
+    """Return the moments of a body's image under an affine map, or of each stacked body's image under its own map.
 
     `matrices` are (..., 4, 4) or (..., 3, 4) and finite; `center`, (..., 3), is the point of the result.
-    ValueError if areas or lengths are mapped by a map that is no similarity, MeasureError if a map shrinks more than
-    numbers can say.
+    ValueError if a map of areas or lengths is no similarity, MeasureError if an image is too small for its measure to
+    be a number.
     """
     order, about = moments.order, moments.about
     linear, offsets = matrices[..., :3, :3], matrices[..., :3, 3]
@@ -316,7 +316,7 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (k,) factors of (3, 3, k) maps on the measure, bounds of rounding, and deviations from a factor."""
+    """Return (k,) factors by which (3, 3, k) maps scale a measure, bounds of rounding, and bounds of unevenness."""
     exact = np.zeros(linear.shape[2])
     if measure == Measure.MASS:
         return np.ones(linear.shape[2]), exact, exact

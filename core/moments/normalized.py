@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments without unit: the same wherever a body is and however large."""
+"""Moments without unit: independent of a body's place and size."""
 
 from __future__ import annotations
 

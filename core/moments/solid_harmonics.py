@@ -39,7 +39,7 @@ def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
 
 
 def along_first(table: NDArray, values: NDArray) -> NDArray:
-    """Return a table with an axis more for each one of the values but the first: to be multiplied by them."""
+    """Return `table` with trailing axes of length 1, so that it multiplies `values` along their first axis."""
     return table.reshape(*table.shape, *[1] * (values.ndim - 1))
 
 

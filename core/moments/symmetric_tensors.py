@@ -21,13 +21,13 @@ def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
 
 
 def invert_through_point(moments: Moments) -> Moments:
-    """Return the moments of the body's image in its point `about`: its mirror image, turned."""
+    """Return the moments of the body's point reflection in `about`: its mirror image, turned."""
     sign = (-1.0) ** monomials(moments.order).sum(axis=1)
     return replace(moments, raw=moments.raw * sign)
 
 
 def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
-    """Return the symmetric tensor with that many of its slots, one at least, filled with each of the (n, 3) points."""
+    """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times` times (at least 1)."""
     out = np.tensordot(points, tensor, axes=(1, 0))
     for _ in range(times - 1):
         out = np.einsum("n...i,ni->n...", out, points)

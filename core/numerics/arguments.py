@@ -21,7 +21,7 @@ Length = int | str | EllipsisType
 
 
 def number_array(name: str, values: ArrayLike, *shape: Length, finite: bool = False) -> NDArray[Any]:
-    """Return a parameter as an array of real numbers, of the type that they have."""
+    """Return a parameter as an array of real numbers, without a change of their type."""
     array = _array(name, values, shape, "fiub", "real numbers")
     if finite and not np.isfinite(array).all():
         raise ValueError("{} must be finite".format(name))

@@ -10,18 +10,18 @@ from typing import Any, TypeAlias, cast
 import numpy as np
 from numpy.typing import NDArray
 
-# A number, a text or the like of one body; of a stack of bodies an array with one for each.
+# A number, text or the like for one body; for a stack of bodies, an array with one entry for each.
 PerBody: TypeAlias = Any
 
 
 def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
-    """Return whether all indices are in 0 to count - 1."""
-    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # in which a negative index is a large one
+    """Return whether all indices are from 0 to count - 1."""
+    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # a negative index becomes a large one
     return not indices.size or bool(unsigned.max() < count)
 
 
 def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return ten bits with two zeros after each: a third of a Morton code."""
+    """Return 10-bit numbers with two zero bits inserted after each bit: a third of a Morton code."""
     value = (value | value << 16) & 0x030000FF
     value = (value | value << 8) & 0x0300F00F
     value = (value | value << 4) & 0x030C30C3
@@ -45,7 +45,7 @@ def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0
 
 
 def power_table(values: NDArray[np.float64], order: int) -> list[NDArray[np.float64]]:
-    """Return the powers of some values from 0 to an order."""
+    """Return order + 1 arrays: the powers of `values` from 0 to `order`."""
     powers = [np.ones_like(values)]
     for _ in range(order):
         powers.append(powers[-1] * values)
@@ -73,7 +73,7 @@ def following_pairs(
 
 
 def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None) -> NDArray[np.intp]:
-    """Return (n,) the first row that equals each row in all columns: 64-bit values, compared by their bits.
+    """Return (n,) for each row the first row that equals it in all columns: 64-bit values, compared by their bits.
 
     The rows are hashed into a table in which the lowest row of a slot wins. Rows equal to the winner are done; the
     others go into the next round. slots: (n,) for the first round, the same for equal rows.

@@ -91,7 +91,7 @@ class SplineSpace:
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
     def uniform_parameters(self, per_span: int) -> NDArray[np.float64]:
-        """Return (spans * each + 1,) parameters at equal steps in every span, both ends of the domain included."""
+        """Return (spans * per_span + 1,) parameters at equal steps in every span, both ends of the domain included."""
         low, high = self.intervals.T
         inner = low[:, None] + (high - low)[:, None] * (np.arange(per_span) / per_span)
         return np.append(inner.ravel(), high[-1])
@@ -137,12 +137,12 @@ class SplineSpace:
         return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
 
     def find_spans(self, parameters: NDArray) -> NDArray[np.int64]:
-        """Return the span of each parameter, the nearest one outside of the domain."""
+        """Return the span of each parameter, or the nearest span if a parameter is outside the domain."""
         inner = self.intervals[1:, 0]
         return self.spans[np.searchsorted(inner, parameters, side="right")]
 
     def derivatives(self, spans: NDArray[np.integer], parameters: NDArray, highest: int) -> list[NDArray[np.float64]]:
-        """Return the functions that act in spans, and derivatives to an order: arrays (..., order).
+        """Return `highest` + 1 arrays (..., order): values and derivatives of the basis functions that act in spans.
 
         spans, parameters: broadcast against each other to some shape (...).
         """
@@ -180,7 +180,7 @@ class SplineSpace:
     ) -> NDArray[np.float64]:
         """Return (n, count) weights of the control points in the value, or a derivative, at n parameters.
 
-        spans: (n,) the span of each parameter, needed if a knot may end one or begin the next.
+        spans: (n,) the span of each parameter; by default a parameter at a knot is in the span that begins there.
         """
         parameters = float_array("parameters", parameters, "n")
         spans = self.find_spans(parameters) if spans is None else spans

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Connected components of a graph.
 
-They are found by hooking: every node takes its lowest neighbor as its parent if that is lower, which cannot make a
-cycle, paths are halved by pointer jumping, the trees are contracted and the rest is done again (after Shiloach and
-Vishkin, J. Algorithms 3, 1982). A node that a round leaves alone has a lower neighbor after it, so two rounds at least
-halve the trees; with any lower neighbor in place of the lowest, a star could take as many rounds as it has links.
+Components are found by hooking (after Shiloach and Vishkin, J. Algorithms 3, 1982): every node takes its lowest
+neighbor as its parent if that is lower, which cannot make a cycle; pointer jumping halves the paths; the trees become
+the nodes of the next round. A node that a round leaves alone has a lower neighbor after it, so two rounds at least
+halve the trees. With any lower neighbor in place of the lowest, a star could take as many rounds as it has links.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-# corners at a time: large enough for threads to help. A multiple of 3 and 4, so that no face is split
+# Links, or corners of faces, at a time: enough for threads to help; a multiple of 3 and 4, so that no face is split.
 EDGES_PER_BLOCK = 3 << 16
 NODES_PER_BLOCK = 1 << 14  # in the cache with the paths that lead from them
 
 
 def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """Return (count,) components of nodes with links (k,), by their first nodes, and the number of components."""
+    """Return (count,) components of nodes joined by links a-b, (k,), numbered by first nodes, and their number."""
     label, number = None, count
     while True:
         blocks = [slice(start, start + EDGES_PER_BLOCK) for start in range(0, len(a), EDGES_PER_BLOCK)]
@@ -46,7 +46,7 @@ def connected_components(count: int, a: NDArray[np.integer], b: NDArray[np.integ
 
 
 def connected_neighbors(neighbors: NDArray[np.integer]) -> tuple[NDArray[np.intp], int]:
-    """Return `connected_components` of nodes with (n, k) neighbors, each link seen from both ends."""
+    """Return (n,) components of nodes with (n, k) neighbors, and their number; each link is listed at both its ends."""
     count = len(neighbors)
     parent = np.arange(count, dtype=neighbors.dtype)
     for column in neighbors.T:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rotations between matrix and quaternion, in double precision; Blender's own have single."""
+"""Conversions of rotations between matrix and quaternion, in double precision; Blender's own are in single."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .arguments import float_array
 
-ROTATION_ATOL = 1e-5  # a rotation of float32 numbers is one to about 1e-7
+ROTATION_ATOL = 1e-5  # a rotation matrix of float32 numbers is orthonormal to about 1e-7
 
 
 def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
@@ -68,14 +68,14 @@ def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
     return np.where(column[0] >= 0.0, column, -column).T + 0.0  # no negative zeros
 
 
-MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show
+MAX_AXIS_COSINE = 1e-5  # float32 rotations never have axes with a larger cosine
 
 
 def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return (k, 3, 3) right-angled unit axes, as columns, of (k, 4, 4) maps, and (k,) whether a map shears.
 
-    The polar factor of the map with columns of length 1 (Higham, SIAM J. Sci. Stat. Comput. 7, 1986): mirrored if it
-    is.
+    The axes are the polar factor of the map with columns of length 1 (Higham, SIAM J. Sci. Stat. Comput. 7, 1986);
+    they are left-handed if the map mirrors.
     """
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt((linear * linear).sum(axis=1, keepdims=True))

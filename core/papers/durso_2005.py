@@ -8,7 +8,7 @@ products of p_j, p_{j+1} and p⊥; M_1 (D'Urso 2004) is of the same form. No fac
 
 - The printed M_3 is wrong. In its first bracket of 1/3 the third product reads p_{j+1} ⊗ p_j ⊗ p_{j+1}, which stands
   in the second bracket already; it must be p_{j+1} ⊗ p_j ⊗ p_j. As printed the result is not even symmetric. `THIRD` is
-  the corrected sum, `THIRD_AS_PRINTED` the other.
+  the corrected sum, `THIRD_AS_PRINTED` the printed one.
 - In eq. 6 the inner sum ends at V^i, the face's own number of vertices.
 - c_j (p⊥·n) is det(p⊥, p_j, p_{j+1}): the sum is that of Sheynin and Tuzikov over the fan with its apex in p⊥. Hence
   `moments`: any order, with any apex in the face's plane, by the same Σ_pqr.
@@ -100,7 +100,7 @@ def moments(
         As for `tensor`.
     order : int
     apexes : sequence of (x, y, z), optional
-        One for each face: any point of its plane, p⊥ among them; by default its first corner.
+        An apex for each face: any point of its plane, such as p⊥; by default the face's first corner.
 
     Returns
     -------

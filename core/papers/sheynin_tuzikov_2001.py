@@ -6,7 +6,7 @@ The moment of a tetrahedron with one corner in the origin is det·Σ_pqr / (p+q+
 2A·Σ_pqr / (p+q+r+2)!, with Σ_pqr the nine-fold sum of `sigma`. Faces are fans from their first corner.
 
 A reference, not the way to measure a mesh: its cost grows with the ninth power of the order. It computes with any
-number type: `fractions.Fraction` gives exact rational moments, floats the usual ones, numpy arrays those of many
+number type: `fractions.Fraction` gives exact rational moments, floats rounded ones, numpy arrays those of many
 triangles at once. The formulae are about the origin; in floats subtract a point of the body first (`about`), else only
 noise is left after cancellation.
 """
@@ -69,7 +69,7 @@ def volume_moments(
     Parameters
     ----------
     points : sequence of (x, y, z)
-        Of one exact or inexact type.
+        Numbers of one type, exact or not.
     faces : sequence of sequence of int
         Corner indices, counter-clockwise from outside.
     order : int
@@ -106,7 +106,7 @@ def surface_moments(
     points, faces, order, about
         As for `volume_moments`.
     root : callable
-        Returns 2A from (2A)², by default in floats; an exact one keeps the rest exact.
+        Returns 2A from (2A)², by default in floats; an exact root gives exact moments.
 
     Returns
     -------
@@ -131,7 +131,7 @@ def surface_moments(
 def triangle_moments(
     points: NDArray, triangles: NDArray, order: int, about: ArrayLike = (0.0, 0.0, 0.0)
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return volume and surface moments of all triangles at once, in float64.
+    """Return volume and surface moments, summed over all triangles, in float64.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ def signed_area(points: Sequence[Vector], edges: Sequence[tuple[int, int]]) -> N
     Returns
     -------
     number
-        Positive if the inside lies to their left.
+        Positive if the inside lies to the left of the edges.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def signed_volume(points: Sequence[Vector], triangles: Sequence[tuple[int, int, 
     Returns
     -------
     number
-        Positive if they are counter-clockwise from outside.
+        Positive if the triangles are counter-clockwise from outside.
 
     Examples
     --------

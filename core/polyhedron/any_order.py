@@ -38,7 +38,7 @@ from .third_order import box_center, finite_box, nothing, quad_corners
 from .third_order_kernel import NO_VERTEX
 
 SCRATCH_NUMBERS = 1_400_000  # limit of a block's scratch; with fewer, two threads wait for each other
-# faces in a block; of rows less than half its buffer of 8192 long, numpy copies those it uses again
+# Least faces in a block: numpy copies reused rows that are shorter than half its buffer of 8192.
 MIN_FACES_PER_BLOCK = 4608
 BLOCKS_PER_TASK = 8  # blocks that are handed to a thread at once
 MAX_UNSCALED_EXPONENT = 8  # powers of two up to which coordinates are left as they are
@@ -101,7 +101,7 @@ class _CompensatedSum:
 
 @dataclass(eq=False)
 class StreamIntegrator:
-    """One body being measured, piece by piece: `center` and `exponent` are those of its first piece unless given."""
+    """One body being measured, piece by piece. Without `center` and `reach`, its first piece sets point and scale."""
 
     order: int
     area: bool
@@ -133,8 +133,8 @@ class StreamIntegrator:
         """Yield the results of `_run` in the order of the tasks, whichever finishes first; a few run at a time."""
         first = list(islice(tasks, min(self.threads, 2)))
         alone, tasks = len(first) < 2, chain(first, tasks)
-        del first  # it holds pieces of a stream
-        if alone:  # or a body of one task, for which starting threads takes longer than the work
+        del first  # the list holds pieces of a stream
+        if alone:  # one thread, or one task: starting threads would take longer than the work
             yield from map(self._run, tasks)
             return
         with ThreadPoolExecutor(self.threads) as pool:
@@ -168,7 +168,7 @@ class StreamIntegrator:
     def _size(self, faces: NDArray) -> int:
         """Return the number of faces in a block: even, equal for each of 2 or 4 threads."""
         corners = faces.shape[1]
-        # 2 if two triangles make one face here
+        # The kernel takes two triangles that share an edge as one face.
         ours = 2 if corners == 3 and quad_corners(faces[:2]) is not None else 1
         most = ours * max(SCRATCH_NUMBERS // row_count(corners + ours - 1, self.order, 1), MIN_FACES_PER_BLOCK)
         blocks = -(-len(faces) // (4 * most)) * 4
@@ -204,7 +204,7 @@ class StreamIntegrator:
 
     @staticmethod
     def _blocks(task: _FaceBatch) -> Iterator[tuple[Sequence[NDArray] | NDArray, int]]:
-        """Yield corners of blocks of faces, quads as cut, pairs of triangles or triangles, and a full size."""
+        """Yield the corners of each block's faces (cut quads, paired or single triangles), and a full block's size."""
         for start in range(0, len(task.faces), task.size):
             faces = task.faces[start : start + task.size]
             if faces.shape[1] == 4:
@@ -237,7 +237,7 @@ class StreamIntegrator:
         )
 
     def _input_error(self, total: _CompensatedSum, of: Measure) -> NDArray[np.float64]:
-        """Return the change if vertices move by half ulps, over the volume that they sweep, or added area."""
+        """Return bounds of the change if vertices move by half ulps: over the volume that they sweep, or added area."""
         swept = total.sizes[2] * (1.0 + 1e-9)
         if of == Measure.VOLUME:
             return swept

@@ -34,7 +34,7 @@ FACES_PER_CHUNK = 32  # faces that share one bound of their coordinates
 SLICES_PER_ROW = 16  # slices of a row that einsum adds up: a divisor of FACES_PER_CHUNK
 # Rounding of a determinant, and of a doubled area, relative to the sizes of their terms: see `third_order`.
 DETERMINANT_ROUNDING = 9.0 * U
-# underflow loses less than its root of a length, and than `DETERMINANT_ROUNDING` times it of a doubled area
+# Underflow loses less than its root of a length, and less than `DETERMINANT_ROUNDING` times it of a doubled area.
 MIN_SQUARED_LENGTH = 1e-145
 UNDERFLOW_BOUND = 1e-220  # more than underflow can lose of one face whose coordinates are at most 256
 
@@ -183,7 +183,7 @@ class _Block:
         self._append_call(np.add, new[:, 1:-1], by_z, new[:, 1:-1])
         end = degree - 1
         while end:
-            first = end  # and the runs before it that fit into the room
+            first = end  # extended to the runs before that fit into the room
             while first > 1 and _first_row(end) - _first_row(first - 2) < self.order:
                 first -= 1
             products = self._room(2, len(levels), _first_row(end) - _first_row(first - 1))
@@ -201,7 +201,7 @@ class _Block:
         """Append the calls for sums of the last degree, of rows one degree lower and weighted coordinates."""
         degree, weighted_products, powers = self.order, self.weighted_products, self.powers
         count, below, known = count_of_degree(degree), count_of_degree(degree - 1), monomial_count(degree - 1)
-        # in place of the corners at last
+        # The last products replace the corners.
         for row, both, apex_vectors in zip(weighted_products, self.both, self.apex_vectors):
             self._append_call(np.multiply, self.corners[:, ::2], both, row[:, ::2])
             self._append_call(np.multiply, self.corners[:, 1::2], apex_vectors, row[:, 1::2])
@@ -283,7 +283,7 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
     high, low, weight_sums, squares = np.split(chunks, (3, 6, 6 + weights))
     reach = np.maximum(high, -low) * (1.0 + 4.0 * U) + half_ulp[:, None]
     edges, weight_sums = np.sqrt(squares + MIN_SQUARED_LENGTH) * (1.0 + 1e-9), weight_sums * (1.0 + 1e-9)
-    # bounds Σ |normal|, and what its components are made from
+    # This bounds Σ |normal|, and the products that make up its components.
     terms = FACES_PER_CHUNK * (edges[:-1] * edges[1:]).sum(axis=0)
     rounding, step = DETERMINANT_ROUNDING * terms, np.linalg.norm(half_ulp)
     double = weight_sums[1] + 3.0 * rounding if weights == 2 else terms
@@ -303,7 +303,7 @@ def absolute_sums(order: int, weights: int, parts: Sequence[Sums]) -> NDArray[np
 
 
 def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powers: NDArray) -> None:
-    """Compute, or note by `do`, x^α of one degree from the degree below, row by row, perhaps in its place."""
+    """Compute x^α of one degree from the degree below, perhaps in its place. do: calls, or records, each step."""
     count = count_of_degree(degree - 1)
     do(np.multiply, old[count - degree : count], vector[1], powers[count : count + degree])
     do(np.multiply, old[count - 1], vector[2], powers[count + degree])
@@ -311,7 +311,7 @@ def _raise_powers(do: Callable, old: NDArray, degree: int, vector: NDArray, powe
 
 
 def _first_row(run: int) -> int:
-    """Return the first of the rows of one degree with this q+r."""
+    """Return the first row, among the rows of one degree, with q + r = `run`."""
     return run * (run + 1) // 2
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The volume moments of a stack of small bodies beyond third order, for the axes of many.
+"""Volume moments beyond third order of a stack of small bodies, for the principal axes of many bodies.
 
 The recursion is that of `any_order_kernel`, on all triangles of all bodies at once; each body's sums run over its own
 segment of the rows.
@@ -17,7 +17,7 @@ from ..numerics.arrays import batches
 from ..numerics.vectors import cross, dot
 from .any_order import area_factors
 
-TRIANGLES_PER_BLOCK = 512  # whose levels stay in the cache
+TRIANGLES_PER_BLOCK = 512  # triangles whose levels stay in the cache
 
 
 def extend_small_moments(
@@ -30,7 +30,7 @@ def extend_small_moments(
 ) -> Moments:
     """Return the moments of n bodies, `volume` (n, 20), each about a point in its body, to a higher order.
 
-    Triangles are sorted by body. reach: (n, 3) of the points from there, with their possible shifts by storing.
+    Triangles are sorted by body. reach: (n, 3) of its points from there, with their possible shifts by storing.
     """
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers = monomials(order)[known:]
@@ -47,7 +47,7 @@ def extend_small_moments(
         sizes.append(np.add.reduceat(np.abs(det), starts))
     raw = np.concatenate(sums) * factors
     largest = np.multiply.reduce(reach[:, None] ** powers, axis=2)
-    # a coefficient is off by (6 n + 8) u, a determinant by what the known total is, and the sums by their lengths
+    # A coefficient is off by (6 n + 8) u, a determinant as much as the known total, and the sums by their lengths.
     relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
     size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
     error = (relative * size + 2.0 * volume.rounding_error[:, :1]) * largest + 8.0 * U * np.abs(raw)

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..numerics.vectors import cross, dot
 
-FACES_PER_BLOCK = 1 << 13  # so that what is computed of them stays in the cache
+FACES_PER_BLOCK = 1 << 13  # faces whose intermediate arrays stay in the cache
 
 
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
     """Return the volume that a closed surface encloses, negative if inside out, and its (3,) centroid, if finite.
 
-    Sum over the tetrahedra from a point near the middle (Zhang and Chen 2001, eq. 6 and 7). Of a quad abcd that is cut
-    along ac, both have the face of a, c and that point: with w = a × c six times their volumes are -b·w and d·w.
+    Sum over the tetrahedra from a point near the middle (Zhang and Chen 2001, eq. 6 and 7). The two of a quad abcd, cut
+    along ac, share the face of a, c and that point: with w = a × c, six times their volumes are -b·w and d·w.
     """
     points = np.ascontiguousarray(surface.points.T, np.float64)
     middle = points.mean(axis=1)
@@ -40,7 +40,7 @@ def _triangles(points: NDArray[np.float64], triangles: NDArray[np.integer]) -> N
 def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[np.float64]:
     a, b, c, d = (points.take(corner, axis=1) for corner in quads.T)
     u, v, diagonal = b - a, d - a, c - a
-    # if the normals of the two triangles along ac face away from each other, by Lagrange's identity
+    # True if the normals of the two triangles along ac face away from each other, by Lagrange's identity.
     flipped = dot(u, v) * dot(diagonal, diagonal) > dot(u, diagonal) * dot(v, diagonal)
     if flipped.any():  # cut from b to d
         a, b, c, d = (np.where(flipped, other, corner) for corner, other in ((a, b), (b, c), (c, d), (d, a)))

@@ -60,15 +60,15 @@ def polyhedron_moments(
         Pieces, in the same coordinates, are Surfaces or (m, 3, 3) arrays of the corners of outward counter-clockwise
         triangles. Of a stream only a few are held at a time.
     order : int
-        Of the volume's moments: all p+q+r ≤ order.
+        The highest order p+q+r of the volume's moments.
     area_order : int, optional
-        Of the area's moments; 0 for the area alone. To third order that costs little and makes the volume's
-        `input_error` the smaller. By default no areas.
+        The highest order of the area's moments, 0 for the area alone. To third order these cost little and make the
+        volume's `input_error` smaller. By default no areas.
     about : (3,) array_like, optional
-        The reference point. A stream that can be read only once has by default that of its first piece. Far from the
-        body digits are lost, and `rounding_error` states how many: give a point in it.
+        The reference point; of a stream that can be read only once, by default the center of its first piece's box.
+        Give a point in the body: far from it digits are lost, and `rounding_error` states how many.
     reach : float, optional
-        How far the body extends from there, roughly; of such a stream by default that of its first piece.
+        Rough distance from there to the body's farthest point; of such a stream, by default of its first piece.
     exact : bool
         True for a third order that is exact to rounding for every size of mesh. Otherwise meshes of more than
         100,000 triangles leave out terms of the order of an edge cubed, and `rounding_error` bounds it. Other orders
@@ -80,7 +80,7 @@ def polyhedron_moments(
     progress : callable, optional
         Called now and then with the number of faces done.
     planarity : PlanarityAccumulator, optional
-        Is given the faces of a Surface, if that costs little.
+        Receives the measured sizes of a Surface's faces, if that costs little.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def polyhedron_moments(
         stream = iter([body])
     else:
         check_type("body", body, Iterable)
-        planarity = None  # it is for one surface
+        planarity = None  # the accumulator is for one surface
         if isinstance(body, (list, tuple)):
             body = [_as_surface(piece) for piece in body]
             about = _center(body) if about is None else about
@@ -158,7 +158,7 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
 
 
 def _center(surfaces: list[Surface]) -> NDArray[np.float64] | None:
-    """Return (3,) the center of the box around all of them; None if there are no points."""
+    """Return (3,) the center of the box around all surfaces; None if there are no points."""
     boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
     if not boxes:
         return None

@@ -6,10 +6,10 @@ Sheynin and Tuzikov's formulae hold in any dimension. Over the simplex of the or
 
     ∫ x^α = det(v_1 … v_n) · S_α · α! / (|α|+n)!,    S_α the coefficient of ξ^α in Π_i 1 / (1 - v_i·ξ),
 
-and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, for det and |α|+n-1 for |α|+n. Each
-factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices. det = v_1·N,
-with N, the generalized cross product of the facet's edges, from minors. As there are but products and sums, each step's
-rounding is relative to the same expression in absolute values, which is computed beside it: a rigorous bound.
+and over the facet v_1 … v_n alone the same with |N|, (n-1)! times its measure, in place of det, and |α|+n-1 in place of
+|α|+n. Each factor is one pass of the recursion S_α ← S_α + Σ_k v_k S_{α-e_k} (Pozo et al.), over blocks of simplices.
+det = v_1·N, with N, the generalized cross product of the facet's edges, from minors. As there are only products
+and sums, rounding is relative to the same expression in absolute values, which gives a rigorous bound.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ UNDERFLOW = 2.0**-1000  # relative to a body of size 1: far above the loss of pr
 
 @dataclass(frozen=True, eq=False)
 class SimplexMoments:
-    """Moments in n dimensions to some order; `moments[p, q, …]` is one of them.
+    """Moments in n dimensions to some order; `moments[p, q, …]` is one moment.
 
     raw: (K,) ∫ x^α about `about`, (n,), in the order of `multi_indices`. rounding_error: (K,) bounds of |raw - exact|
     for the coordinates and the point as given.
@@ -59,7 +59,7 @@ class SimplexMoments:
 
 @lru_cache
 def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
-    """Return (K, n) all exponents to an order, by degree, the first ones largest first; read-only."""
+    """Return all (K, n) exponents to an order, by degree, then by descending first exponents; read-only."""
     exponents = [row for degree in range(order + 1) for row in _exponents_of_degree(dimension, degree)]
     table = np.array(exponents, np.int64).reshape(-1, dimension)
     table.flags.writeable = False
@@ -67,7 +67,7 @@ def multi_indices(dimension: int, order: int) -> NDArray[np.int64]:
 
 
 def multi_index_position(dimension: int, order: int, exponents: tuple[int, ...]) -> int:
-    """Return the index of one moment. IndexError beyond the order."""
+    """Return the index of the moment with these exponents. IndexError if they are negative or beyond the order."""
     return _positions(dimension, order)[check_exponents(exponents, dimension, order)]
 
 
@@ -190,8 +190,8 @@ def _measure(
         raw += np.add.reduce(_recursion(corners, order) * weight, axis=1)
         size += np.add.reduce(_recursion(np.abs(corners), order) * weight_size, axis=1)
 
-    # Roundings that one product of coordinates goes through: of each coordinate, product and sum of the recursion, of
-    # the passes that only carry it on, of the weight, and of the sum over all simplices.
+    # Count the roundings of one product of coordinates: in each coordinate, product and sum of the recursion, in the
+    # passes that only carry it on, in the weight, and in the sum over all simplices.
     steps = (
         degree * (dimension + 2)
         + dimension * dimension
@@ -226,7 +226,7 @@ def _recursion(corners: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def _weights(corners: NDArray, edges: NDArray, enclosed: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k,) det or |N| of each simplex, and the same in absolute values."""
+    """Return (k,) det or |N| of each simplex, and (k,) the same expressions in absolute values."""
     normal, size = _normals(edges)
     nothing = np.zeros(edges.shape[2])
     if enclosed:
@@ -278,7 +278,7 @@ def _positions(dimension: int, order: int) -> dict[tuple[int, ...], int]:
 
 @lru_cache
 def _degree_steps(dimension: int, order: int) -> tuple[list[int], list[list[NDArray]]]:
-    """Return the starts of degrees, and by degree and axis the indices, in the next degree, of products with it."""
+    """Return starts of degrees, and by degree and axis the indices, in the next degree, of products with the axis."""
     starts = [0] + [comb(n + dimension, dimension) for n in range(order + 1)]
     positions, table = _positions(dimension, order), multi_indices(dimension, order).tolist()
     raised = []

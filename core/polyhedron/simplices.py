@@ -11,7 +11,7 @@ from ..numerics.arguments import check_filled, float_array, index_array
 
 
 def facets_of(points: ArrayLike, simplices: ArrayLike) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
-    """Return the facets around full simplices, each turned so that the enclosed volume is positive.
+    """Return the facets around full simplices, with signs that make the enclosed volume positive.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def closes(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = No
 
 
 def outer_facets(points: ArrayLike, simplices: ArrayLike, signs: ArrayLike | None = None) -> NDArray[np.intp]:
-    """Return the (j, n) facets except those between two simplices, used as often one way as the other."""
+    """Return the (j, n) facets that bound simplices on one side only; a pair of opposite facets cancels."""
     facets, corners, parity = _sorted_corners(points, simplices, signs)
     _, first, which = np.unique(corners, axis=0, return_index=True, return_inverse=True)
     uses = np.abs(np.bincount(which.reshape(-1), parity, len(first))).astype(np.intp)

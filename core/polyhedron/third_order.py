@@ -5,12 +5,12 @@
 The divergence theorem turns a body into cones from a reference point over its faces. Over the cone on a triangle a, b,
 c with determinant w = a·((b-a) x (c-a)) a monomial f of degree n integrates to w / (2n + 6) · E[f], where E[f] is its
 mean over the triangle; over the triangle itself to half its doubled area times E[f] (Sheynin and Tuzikov 2001, put so
-that triangles which share an edge share work). In third order everything follows from lower ones about the middle of an
-edge but the third moments about that middle: for a triangle with edge e and f from the middle to the third corner
+that triangles which share an edge share work). Third moments follow from lower ones about the middle of an edge, except
+for the third moments about that middle: for a triangle with edge e, and f from the middle to the third corner, they are
 
     E[x x' x''] = f f' f'' / 10 + (f e' e'' + e f' e'' + e e' f'') / 120,
 
-of the order of an edge cubed: large meshes leave them out, unless asked, and add their bound to `rounding_error`.
+of the order of an edge cubed: unless `exact`, large meshes leave them out and add their bound to `rounding_error`.
 
 Edges are taken before the reference point is subtracted, so that a determinant's error is relative to the product of
 its edges. With u = 2^-53, edges e and e' and vertices within `reach` of the reference point, a determinant is off by at
@@ -55,16 +55,16 @@ from .third_order_small import (
 )
 
 MAX_TRIANGLES_PER_BLOCK = 65536  # triangles at most: by then calls cost little, and more would leave the cache
-SCRATCH_BYTES = 16, 6_000_000  # bytes for each triangle, and besides, that all threads together may take
-# triangles up to which the exact third order, half as much again, costs no time to speak of
+SCRATCH_BYTES = 16, 6_000_000  # limit of all threads' scratch together: bytes for each triangle, and a constant
+# Up to this number of triangles the third order is always exact, which takes half as long again.
 MAX_TRIANGLES_EXACT_THIRD = 100_000
 MAX_SMALL_TRIANGLES = 1024  # triangles up to which `small_moments` is faster
 MIN_TRIANGLES_TO_PAIR = 1000  # triangles below which looking for pairs costs more than it saves
-# triangles that are worth a thread: of fewer the calls are short, and wait for the interpreter
+# Triangles that are worth a thread: with fewer, calls are short, and wait for the interpreter.
 MIN_TRIANGLES_PER_THREAD = 250_000
-# reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish
+# Reaches beyond this, or below its inverse, are scaled, so that a product of six does not overflow or vanish.
 MAX_UNSCALED_REACH = 2.0**100
-DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `blocks`
+DIVISORS = np.array([6.0, 48.0, 120.0, 2880.0])[DEGREE]  # divide the sums of `BlockSums`
 
 # Faces measured together: (k, 4) quads, (k, 3) triangles, or two such arrays of triangles with rows that may be
 # halves of one quad, with the surface's first row of each array; or, without rows, (4, k) corners of turned quads.
@@ -83,7 +83,7 @@ def integrate(
 ) -> tuple[Moments, Moments]:
     """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`.
 
-    exact: to rounding for every size of mesh. about: (3,), by default the box's center. planarity: is shown the faces.
+    exact: to rounding for every size of mesh. about: (3,), by default the box's center. planarity: gets faces' sizes.
     """
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
@@ -149,7 +149,7 @@ def box_center(low: NDArray, high: NDArray, dtype: np.dtype) -> NDArray[np.float
 def _measure_rescaled(
     surface: Surface, exponent: int, threads: int, about: NDArray | None, area: bool, area_moments: bool, exact: bool
 ) -> tuple[Moments, Moments]:
-    """Return the moments by way of a body of about unit size: 2^exponent times smaller, which rounds nothing."""
+    """Return the moments by measuring a copy of about unit size, 2^exponent times smaller: scaling rounds nothing."""
     points = np.ldexp(surface.points.astype(np.float64), -exponent)
     small = Surface(points, surface.all_triangles()[0], displacement=np.ldexp(surface.coordinate_error, -exponent))
     results = []
@@ -171,7 +171,7 @@ def _measure_rescaled(
 
 @dataclass(frozen=True, eq=False)
 class _Integration:
-    """Surface to be measured.
+    """The integration over a surface in blocks of faces, by several threads.
 
     points: (n, 3). reach: (3,) bounds |points - center|. half_ulp: (3,). count: triangles; size: triangles in a block.
     """
@@ -205,7 +205,7 @@ class _Integration:
         ]
 
     def block_sums(self, blocks: list[_Block]) -> list[BlockResult]:
-        """Return the sums of the blocks, in their order, from several threads."""
+        """Return the sums of the blocks, computed by several threads, in the order of the blocks, turned quads last."""
         queue = iter(enumerate(blocks))
         threads = min(self.threads, len(blocks))
         if threads == 1:
@@ -272,7 +272,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
     They are bounds from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
     """
     sizes, count = np.add.reduce(sums.sizes, axis=1), np.array([[np.add.reduce(sums.counts)]])
-    # No product of matrices, after which the threads of some BLAS keep a core busy for a while.
+    # einsum instead of a matrix product, after which the threads of some BLAS keep a core busy for a while.
     products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts)
     tau = np.array([[products[i, j] + products[j, i] for i, j in AXIS_PAIRS]])
     lengths = np.sqrt(np.add.reduce(sums.side**2)) + np.sqrt(np.add.reduce(sums.base**2))
@@ -282,7 +282,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
         job.reach[None], job.half_ulp[None], tau, edges, sizes[None], count, float(roundings), job.area
     )
     rounding, inputs = bounds[0][:, 0], bounds[1][:, 0]
-    if not job.exact:  # and the rest of the third order
+    if not job.exact:  # then add the bound of the omitted third order
         e, f = sums.base, sums.side + sums.base / 2.0
         rest = [
             f[i] * f[j] * f[k] / 10.0 + (f[i] * e[j] * e[k] + e[i] * f[j] * e[k] + e[i] * e[j] * f[k]) / 120.0
@@ -302,7 +302,7 @@ def quad_corners(triangles: NDArray) -> list[NDArray] | None:
 
 
 def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
-    """Return the corners of quads if triangle i of `first` and triangle i of `second` are halves of one; else None."""
+    """Return the corners of quads if triangles i of `first` and `second` are halves of one for every i; else None."""
     if not len(second) or len(first) != len(second):
         return None
     for i in range(3):

@@ -34,7 +34,7 @@ SLICES_PER_ROW = 32  # slices of a row that einsum adds up
 COLUMNS_PER_CHUNK = 1024  # columns at most that share one bound of their edges; a multiple of SLICES_PER_ROW
 MIN_FLIP_COSINE = 1e-6  # float32 may decide a quad's diagonal otherwise where float64 sees a cosine below this
 FLOAT32_OVERFLOW = 1e9  # edges from which the fourth powers in that decision leave the range of float32
-FLOAT32_UNDERFLOW = 1e-36  # the cosine up to which they do at its other end
+FLOAT32_UNDERFLOW = 1e-36  # cosines below this may have underflowed there
 NO_VERTEX = "no such vertex"
 NO_SUM = np.zeros(())
 TRIPLES = [(i, j, k) for i in range(3) for j in range(i, 3) for k in range(j, 3)]
@@ -77,8 +77,8 @@ class _BlockCalls:
 
     For faces with c corners there are chunks times width, k columns:
     corners: (3, c, k). weights: (2, c-2, k), the determinants and the doubled areas.
-    First index: (c, k), and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
-    First edges: (3, c-1, k), b-a, c-a and a-d, with normals and spare: (3, f, k), with f = c-2, or f = 1 if not each
+    In one memory, index: (c, k) and single: (3, c, k) in float32; then weighted: (3, c, k); at last heavy: (6, c-2, k).
+    In another, edges: (3, c-1, k), b-a, c-a, a-d, and normals and spare: (3, f, k), f = c-2, or f = 1 if not each
     triangle's normal is wanted; then table: (13, k), the tensors' six rows, two vectors and a number, and middle:
     (3, k). On request tips: (3, c-2, k), the vectors f, and local: (6, c-2, k), f f' + e e'.
 
@@ -181,8 +181,8 @@ class BlockAccumulator:
         """Add faces, the vertices a, b, c and perhaps d, (k,) each. ValueError if an index names no point.
 
         quads: the ones that Blender cuts along the other diagonal are left out, and appended to `flipped`, turned by
-        one corner. observe: is shown the doubled areas, (c - 2, k); of quads also 6 times the corners' tetrahedra,
-        (k,), the columns with triangles that may face away from each other, and gets room, (2, k).
+        one corner. observe: called with the doubled areas, (c - 2, k); of quads also 6 times the corners' tetrahedra,
+        (k,), the columns with triangles that may face away from each other, and scratch, (2, k).
         """
         k = len(faces[0])
         shape = (len(faces), *chunk_shape(k), self.area or quads)
@@ -222,7 +222,7 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the columns below k with quads that Blender may cut along their other diagonal, and those it does.
+        """Return the columns below k with quads that Blender may, and that it does, cut along their other diagonal.
 
         The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
         product is within float32's rounding of zero. The quads are appended to `flipped`.
@@ -271,7 +271,7 @@ def combine_blocks(results: Sequence[BlockResult]) -> BlockSums:
 
 
 def to_monomial_sums(table_sums: NDArray, products: NDArray, local: NDArray | None = None) -> NDArray[np.float64]:
-    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and the products that were summed."""
+    """Return (20,) `BlockSums.sums` from the sums of the table's rows, (13,), and from summed products of its rows."""
     mixed = 0.5 * np.add.reduce(products.take(SQUARE))
     third = 10.0 * np.add.reduce(products.take(CUBE))
     total = 2.0 * np.concatenate([table_sums[12:], table_sums[6:9] + table_sums[9:12], table_sums[:6] + mixed, third])

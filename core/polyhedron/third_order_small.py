@@ -31,7 +31,7 @@ PRODUCT_ROUNDINGS = 8.0 * DEGREE  # in u: errors of products of weights and node
 THIRD_ORDER_SHARE = np.repeat([1.0, 2.0], 10)  # the third moments about the middles come to as much again at most
 CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
-TRIANGLES_PER_BLOCK = 2048  # whose products stay in the cache
+TRIANGLES_PER_BLOCK = 2048  # triangles whose products stay in the cache
 ROWS, COLUMNS = np.triu_indices(3)
 NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
 AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
@@ -81,10 +81,10 @@ def small_moments(
 def _segment_sums(
     corners: NDArray, counts: NDArray[np.integer], center: NDArray, area: bool, area_moments: bool
 ) -> tuple[NDArray, ...]:
-    """Return the sums of some bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
+    """Return five arrays of sums for n bodies. corners: (3, 3, t) x, y, z of the corners a, b, c of their triangles.
 
-    They are (n, 20) Σ w f, made moments by `DIVISORS`; the same with doubled areas, or (n, 0); the largest components
-    of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
+    These are (n, 20) Σ w f, which `DIVISORS` turn into moments; the same with doubled areas, or (n, 0); the largest
+    components of b-a and of c-a, (n, 3) each; and (n, 2) Σ |w| and Σ doubled area.
     """
     starts = np.cumsum(counts) - counts
     edges = corners[:, 1:] - corners[:, :1]
@@ -94,7 +94,7 @@ def _segment_sums(
     middle = center.T[:, None] if len(counts) == 1 else np.repeat(center.T, counts, axis=1)[:, None]
     np.subtract(corners, middle, nodes[:, :3])
     np.add.reduce(nodes[:, :3], axis=1, out=nodes[:, 3])
-    sums = np.empty((20, nodes.shape[2]))  # for each triangle with weight 1
+    sums = np.empty((20, nodes.shape[2]))  # the sums of each triangle, for a weight of 1
     sums[0] = 1.0
     sums[1:4] = nodes[:, 3]
     products = nodes.take(ROWS, 0) * nodes.take(COLUMNS, 0)  # (6, 4, t)
@@ -133,7 +133,7 @@ def error_bounds(
     """Return the errors of Σ w E[f] and `input_error`, (2, n, 20), for determinants and doubled areas as weights w.
 
     tau: (n, 3) the sums of τ (see `third_order`). edges: (n, 1) the sum of two edges of each triangle. sizes: (n, 2)
-    Σ |w|. counts: (n, 1) triangles. sum_roundings: u, of the sums.
+    Σ |w|. counts: (n, 1) triangles. sum_roundings: of the sums, in units u.
     """
     moved_reach = reach + half_ulp
     powers, displaced = monomial_bounds(reach), monomial_bounds(moved_reach)
@@ -146,7 +146,7 @@ def error_bounds(
     if half_ulp.any():
         step = np.sqrt(np.add.reduce(half_ulp * half_ulp, axis=1))[:, None]
         double = size[1] if area else np.sqrt(np.add.reduce(tau * tau, axis=1))[:, None]
-        # the volume that a closed surface sweeps where float32 has moved its points
+        # This is the volume that a closed surface sweeps as float32 moves its points.
         swept = double / 2.0 + step * edges + 2.0 * step * step * counts
         tilted = step * (edges + 2.0 * step * counts)
         share = half_ulp / np.where(moved_reach > 0.0, moved_reach, 1.0)  # 1 for an axis without extent

@@ -38,7 +38,7 @@ class Workspace(Generic[Block]):
             self._shape = self._block = block = None
             needed = numbers + MAX_ARRAYS * ROW_PADDING
             if len(self._buffer) < needed:
-                self._buffer = np.empty(0)  # never two of them
+                self._buffer = np.empty(0)  # frees the old buffer before the new one is made
                 self._buffer = np.empty(needed)
             self._position = -(self._buffer.ctypes.data // 8) % 8  # aligned to 64 bytes
             self._block = block = self._make(self, *shape)
@@ -46,14 +46,14 @@ class Workspace(Generic[Block]):
         return block
 
     def take(self, *shape: int) -> NDArray[np.float64]:
-        """Return the next contiguous array."""
+        """Return the next contiguous array of this shape."""
         start = self._position
         end = start + prod(shape)
         self._position = end + ROW_PADDING
         return self._buffer[start:end].reshape(shape)
 
     def overlay(self, *groups: Sequence[tuple[int, ...]]) -> list[list[NDArray[np.float64]]]:
-        """Return arrays of these shapes, group by group; the groups share memory, for their times differ."""
+        """Return arrays of these shapes, group by group; the groups share memory, as only one is in use."""
         start, end, arrays = self._position, self._position, []
         for group in groups:
             self._position = start
@@ -64,7 +64,7 @@ class Workspace(Generic[Block]):
 
 
 def gather(points: NDArray, index: NDArray[np.intp], single: NDArray[np.float32], corners: NDArray[np.float64]) -> None:
-    """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked; multiplied by 3."""
+    """Gather coordinates into `corners`, (3, ...), float32 ones by way of `single`. index: checked; gets tripled."""
     flat, target = points.reshape(-1), single if points.dtype == np.float32 else corners
     np.multiply(index, 3, index)
     for axis in range(3):  # the indices have been checked: "wrap" is the mode that costs least

@@ -27,7 +27,7 @@ NO_BONE = -1
 class BonePiece:
     """The closed surface, in float64, that goes with one bone: its faces, and the cones that close it.
 
-    face_count: number of its triangles, the first ones, that are faces.
+    face_count: the number of triangles that are faces; they come first, then the cones.
     """
 
     bone: int
@@ -45,7 +45,7 @@ def bone_pieces(
     bone: NDArray[np.integer],
     displacement: NDArray | None = None,
 ) -> list[BonePiece]:
-    """Cut a closed surface, outward (t, 3) triangles with (t,) bones, into closed pieces, one for each such bone.
+    """Cut a closed surface, outward (t, 3) triangles with (t,) bones, into closed pieces, one for each bone.
 
     displacement: (3,) largest displacement by storing the coordinates.
     """
@@ -86,7 +86,7 @@ def bones_of_caps(
 def _cut_edges(
     count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return the boundary of each bone's triangles, as often as it is left over: (k,) bones, starts and ends."""
+    """Return (k,) bones, starts and ends of the sides of each bone's triangles that no opposite side cancels."""
     start = triangles.ravel().astype(np.int64)
     stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
     shape = int(bone.max(initial=0)) + 1, count, count
@@ -107,7 +107,7 @@ def _apexes(
     vertices, ends = np.unique(np.concatenate([start, stop]), return_inverse=True)
     first, last = ends.reshape(2, -1)
     cut = connected_components(len(vertices), first, last)[0][first]
-    # each edge once, however many bones it is between
+    # An edge counts once, however many bones meet there.
     edges = np.unique(np.stack([np.minimum(start, stop), np.maximum(start, stop), cut], axis=1), axis=0)
     begin, end = points[edges[:, 0]], points[edges[:, 1]]
     origin = points[vertices].mean(axis=0)  # far from the world's origin, digits would be lost

@@ -32,7 +32,7 @@ class VertexWeights:
         object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
 
     def normalized(self) -> NDArray[np.float64]:
-        """Return (w,) the weights divided by their sum at each vertex, as an armature deforms."""
+        """Return (w,) the weights divided by their sum at each vertex, as an armature modifier does."""
         total = np.bincount(self.vertex, self.weight)[self.vertex]
         return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
 
@@ -48,10 +48,10 @@ def dominant_bones(
     weights: VertexWeights,
     bones: NDArray[np.floating],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (f,) the bone of each face, -1 without corners; and (k,) the faces without weight, with the nearest bones.
+    """Return (f,) the bone of each face, -1 without corners, and (k,) faces without weights, given to the nearest bone.
 
-    faces, corners: (c,) of each corner of the surface, the face, 0 to f - 1, and the vertex. points: (n, 3) in the
-    bones' coordinates. bones: (b, 2, 3) begin and end of each.
+    faces, corners: (c,) the face, 0 to f - 1, and the vertex of each corner of the surface. points: (n, 3) in the
+    bones' coordinates. bones: (b, 2, 3) the two ends of each bone.
     """
     points, bones = points.astype(np.float64), bones.astype(np.float64)
     number = len(bones)
@@ -78,7 +78,7 @@ def dominant_bones(
 def _scores(
     faces: NDArray[np.integer], corners: NDArray[np.integer], weights: VertexWeights, number: int
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return the faces and bones with any weight together, by face and then by bone, and the sum of their weights."""
+    """Return (k,) faces and (k,) bones with weight on their corners, by face, then bone, and (k,) summed weights."""
     per_vertex = np.bincount(weights.vertex, minlength=int(corners.max(initial=-1)) + 1)
     first = np.cumsum(per_vertex) - per_vertex
     repeats = per_vertex[corners]
@@ -93,7 +93,7 @@ def _scores(
 
 
 def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:
-    """Return (k,) for each row, sorted by face, the nearest bone of its face, the first of equally near ones."""
+    """Return (k,) for each row the nearest bone of its face, or the first of equally near ones. Rows are by face."""
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)
     near = away <= least * (1.0 + NEAR_RTOL)
@@ -102,7 +102,7 @@ def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray
 
 
 def _distances(points: NDArray[np.float64], segments: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return (k,) how far each point is from its segment (k, 2, 3)."""
+    """Return (k,) distances of (k, 3) points, each from its segment, (k, 2, 3)."""
     start, way = segments[:, 0], segments[:, 1] - segments[:, 0]
     away = points - start
     length = (way * way).sum(axis=1)

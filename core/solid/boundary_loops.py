@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The boundaries of open surfaces: loops, and which of them are gaps without area. The others are capped.
+"""The boundary loops of open surfaces: gaps without area, and holes, which are capped.
 
 A boundary side is joined at each of its vertices to the side that leaves in the most similar direction, so that an edge
 and the shorter edges that run back along it (a T-junction) make a loop of their own, which has no area: there the
@@ -48,7 +48,7 @@ def join_sides(
     """Return (k,) and (k,) sides of boundaries joined at their ends, and (k,) True for sides that run head to tail.
 
     If an even number of sides meet (as many arriving as leaving), all are joined in pairs, the sharpest turns first.
-    begin, end: (r, 3). start, stop: (r,) numbers of these places. directed: True to join only head to tail.
+    begin, end: (r, 3). start, stop: (r,) the vertices there. directed: True to join only head to tail.
     """
     count = len(start)
     vertex = np.concatenate([start, stop])
@@ -133,7 +133,7 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return a (l,) mask of holes; others are narrower than `tolerance`, of all or each, and much longer."""
+        """Return a (l,) mask of holes; gaps are narrower than `tolerance`, for all or (l,), and far longer."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:
@@ -148,7 +148,7 @@ class BoundaryLoops:
         return is_flat, ~is_flat, np.where(is_flat, self.planar_area, self.cone_area)
 
     def cones(self, start: NDArray[np.integer], stop: NDArray[np.integer], first: int) -> NDArray[np.integer]:
-        """Return (r, 3) triangles from sides to centroids, vertices from `first` on; one alone over three sides."""
+        """Return (r, 3) triangles from sides to centroids, vertices from `first` on; a single triangle over 3 sides."""
         centroids = first + np.arange(len(self.perimeter))
         apexes = np.where(np.bincount(self.of_side) == 3, self.of_each(start), centroids)
         return np.stack([stop, start, apexes[self.of_side]], axis=1)
@@ -157,7 +157,7 @@ class BoundaryLoops:
 def find_loops(
     begin: NDArray[np.float64], end: NDArray[np.float64], links: tuple[NDArray, NDArray, NDArray]
 ) -> BoundaryLoops:
-    """Group boundary sides with (r, 3) ends into the loops that `links`, of `join_sides`, make, and measure those."""
+    """Group boundary sides with (r, 3) ends into loops by their `links`, from `join_sides`, and measure the loops."""
     of_side, number = connected_components(len(begin), links[0], links[1])
     joined = np.bincount(np.concatenate(links[:2]), minlength=len(begin))
     complete = np.bincount(of_side, joined != 2) == 0

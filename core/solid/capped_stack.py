@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Caps for many small surfaces at once, if they need no other repair; as they have alone. Others are repaired alone.
+"""Caps for many small surfaces at once, the same as one by one, if they need no other repair.
 
 The conditions: every edge has one face, or two that agree; at each boundary vertex one side arrives and one leaves;
 every loop has an area; no vertices touch that a repair would weld.
@@ -25,7 +25,7 @@ from .repaired_mesh import has_distinct_vertices
 
 @dataclass(frozen=True, eq=False)
 class StackCaps:
-    """The caps of n surfaces.
+    """The caps of n surfaces; `is_capped`: (n,) mask of the surfaces that have any.
 
     `triangles`, `part`: t triangles of all surfaces, each surface's caps last, and the component of each.
     `cap_counts`: (n,) triangles that are caps. `counts`: (n, 3) holes with flat and with curved caps, and the caps'
@@ -65,7 +65,7 @@ class StackCaps:
         return replace(volume, **changed)
 
     def edges_of(self, i: int) -> NDArray[np.intp]:
-        """Return the (k, 2) edges of one surface."""
+        """Return the (k, 2) edges along the holes of one surface."""
         stop = self._edge_stops[i]
         return self.edges[stop - self.edge_counts[i] : stop]
 
@@ -77,7 +77,7 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap the `usable` surfaces of a stack that need nothing but caps. Points nearer than `tolerance`, (n,), touch."""
+    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) nearer points touch."""
     can = usable & links.is_open
     start, stop = links.open_sides
     owner, total = stack.point_owners, len(stack.points)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""First stages of measuring a solid: whether it can be measured, and whether its own edges prove it closed."""
+"""The first stages of measuring a solid: a check that it can be measured, and a proof of closedness by its edges."""
 
 from __future__ import annotations
 
@@ -131,14 +131,14 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
 
 def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
-    """Return whether numbers that add up to `signed`, and without signs to `total`, have one sign but for rounding."""
+    """Return whether numbers with the sum `signed`, and `total` for their sizes, have one sign but for rounding."""
     return total - abs(signed) <= SUM_ROUNDING * total
 
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:
     """Return the mesh, in need of no repair, if its own edges prove it closed and oriented; else None.
 
-    The triangles of a single component are left out: nothing asks for them.
+    The mesh has no triangles if there is a single component: they are not needed.
     """
     found = _components_of_closed(surface)
     if found is None:

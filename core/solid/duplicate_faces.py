@@ -67,8 +67,8 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
     """Return (k,) the mesh faces on the same vertices as an earlier one, sorted.
 
-    Of a solid two such faces bound nothing, and their edges close, so nothing looks for them; a sheet has their area
-    twice.
+    In a solid two such faces bound nothing, and their edges close, so that no repair looks for them; in a sheet their
+    area counts twice.
     """
     triangles, face = surface.all_triangles()
     return np.unique(face[same_vertices_groups(triangles, face) != face])
@@ -91,7 +91,7 @@ def _regions_of_one_layer(
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
     meet = np.empty(len(edges.count), np.intp)
-    meet[edge] = owner  # any of them
+    meet[edge] = owner  # any triangle at the edge, the last write
     region, number = connected_components(len(copied), owner, meet[edge])
     single_count = np.bincount(edges.of_side, np.repeat(~copied, 3))[edge]
     vote = np.where(single_count % 2 == 1, 1, -1) * (single_count > 0)

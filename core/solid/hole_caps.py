@@ -204,7 +204,7 @@ def _count_caps(
 
 
 def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
-    """Return (e,) the edges along gaps without area."""
+    """Return a (e,) mask of the edges along gaps without area."""
     edges = mesh.state.edges
     along = np.zeros(len(edges.count), bool)
     along[edges.of_side[mesh.state.gaps.sides]] = True
@@ -218,7 +218,7 @@ def _find_folded_loops(
     unclosable: NDArray[np.bool_],
     tolerance: float,
 ) -> FoldedLoops:
-    """Find components that leave over only loops without area: letters with an outline that turns back on itself.
+    """Find components that leave over only loops without area, as letters with an outline that turns back on itself do.
 
     edges: of the components; signed_count: of these edges. unclosable: (c,) the components to look at.
     """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Overlaps between solids that stand in several places.
 
-Each is measured by itself, with its own cavities. A volume common to two counts twice, and is reported.
+Each solid is measured by itself, with its own cavities. A volume common to two counts twice, and is reported.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ class PlaceComparison:
 
     `nested`: components in the material of others. `overlapping`: components that share a part of their interiors.
     `undecided_pairs`: number of pairs that would have been too much work.
-    `nested_slightly`, `overlapping_slightly`: True if these, and the smaller ones of these pairs, are too small to
-    matter.
+    `nested_slightly`, `overlapping_slightly`: True if the nested components, or the smaller components of the
+    overlapping pairs, are too small to matter.
     """
 
     nested: NDArray[np.intp]
@@ -37,7 +37,7 @@ class PlaceComparison:
 
 
 def compare_places(solids: Sequence[tuple[SolidIntegrals, NDArray[np.float64]]]) -> PlaceComparison:
-    """Find solids that overlap or contain each other in their places, by (k, 4, 4) maps of each."""
+    """Find solids that overlap or contain each other in their places, given by (k, 4, 4) maps for each solid."""
     points, triangles, component, owner, place, closed = [], [], [], [], [], []
     number = shift = places = 0
     displacement = 0.0

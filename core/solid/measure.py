@@ -51,7 +51,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     Raises
     ------
     MeasureError
-        If there are no faces, or a face uses a vertex that has no finite position.
+        If there are no faces, a face names no vertex, or positions are not finite, too large or too small.
 
     Examples
     --------
@@ -76,7 +76,7 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
 
 
 def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:
-    """Judge the body. A sheet may go through itself, and every copy of a face has its area."""
+    """Judge the body. A shell is not searched for self-intersections, and all its copies of faces are reported."""
     if not shell:
         return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
     solid = judge(checked, given, oriented, None)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Relations between the closed components of one body: apart, nested or intersecting.
 
-Pairs whose boxes overlap are found by a sweep. Each pair is then asked twice (`core/mesh/bvh.py`): points just under
+Pairs whose boxes overlap are found by a sweep. Each pair is then tested twice (`core/mesh/bvh.py`): points just under
 the skin of the smaller component are located in the larger one; then edges of one that pierce triangles of the other
 are looked for. Contact within the tolerance is no crossing.
 """
@@ -53,7 +53,7 @@ class ComponentRelations:
 def classify_pairs(
     points: NDArray[np.floating], components: SortedComponents, candidates: NDArray[np.bool_], tolerance: float
 ) -> ComponentRelations:
-    """Find how components, the (c,) closed, not flat candidates, lie to each other. Nearer than `tolerance` touch."""
+    """Find the relations of the `candidates`, (c,), closed and not flat. Points nearer than `tolerance` touch."""
     chosen = np.flatnonzero(candidates)
     i, j, skipped = overlapping_box_pairs(
         components.low[chosen], components.high[chosen], tolerance, MAX_COMPONENT_PAIRS
@@ -159,11 +159,11 @@ def self_overlaps(
 def orient_nested_components(
     components: SortedComponents, relations: ComponentRelations, candidates: NDArray[np.bool_]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.bool_]]:
-    """Decide, (c,) each, which components to turn, lie as outward ones in the material of others, or are cavities.
+    """Return (c,) masks of the components to turn, of outward ones in the material of others, and of cavities.
 
     From the outermost inward: an inward component that no material surrounds is inside out. It is turned, with any
-    consistent contents (a hollow body turned inside out as a whole). A cavity that breaks through its wall is one
-    still.
+    consistent contents (a hollow body turned inside out as a whole). A cavity that breaks through its wall
+    remains a cavity.
     """
     number = len(candidates)
     given = np.where(candidates, np.sign(components.volume), 0.0)
@@ -187,7 +187,7 @@ def orient_nested_components(
 
 
 def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Return (c,) the component that a cavity is cut from, the innermost that no other is cut from, or itself."""
+    """Return (c,) the component that each cavity is cut from, the innermost one not yet cut; itself if no cavity."""
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
@@ -238,7 +238,7 @@ def _interior_samples(
     number: int | NDArray[np.integer],
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """Return (n, 3) the k-th of so many points under the skins of components, about the tree's origin."""
+    """Return (n, 3) the `k`-th of `number` points under the skin of each `component`, about the tree's origin."""
     triangle = (
         components.start[component] + k * (components.start[component + 1] - components.start[component]) // number
     )

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The fourth stage of measuring a solid: how its components lie to each other, which of them are inside out."""
+"""The fourth stage of measuring a solid: relations between its components, and components that are inside out."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class ComponentComparison:
     def from_relations(
         cls, components: SortedComponents, relations: ComponentRelations, solid: NDArray[np.bool_]
     ) -> ComponentComparison:
-        """Decide which components to turn, from how the solid ones lie to each other."""
+        """Decide which components to turn, from the relations between the solid ones."""
         flipped, nested, cavities = orient_nested_components(components, relations, solid)
         intersecting, breaking = np.zeros((2, len(solid)), bool)
         through = cavities[relations.mostly_in[:, 0]] & ~cavities[relations.mostly_in[:, 1]]
@@ -66,7 +66,7 @@ class ComponentComparison:
         )
 
     def add_to(self, report: MeshHealth) -> MeshHealth:
-        """Return the report with the components counted that lie in others, or overlap."""
+        """Return the report with the numbers of nested components, cavities and overlapping components."""
         return replace(
             report,
             nested_components=int(self.nested.sum()),
@@ -77,7 +77,7 @@ class ComponentComparison:
 
 @dataclass(frozen=True, eq=False)
 class ClosedParts:
-    """Triangles, (t, 3), with the body as signed sum, turned and with caps; and the closed part that each bounds.
+    """Triangles, (t, 3), turned and with caps, that have the body as signed sum; and the closed part that each bounds.
 
     face: (t,) the mesh face of each, -1 for a cap. part: (t,), 0 to number - 1. host_part: (number,) the part that a
     part's volume counts with: itself, or for a cavity the part it is cut from.

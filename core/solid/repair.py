@@ -41,7 +41,7 @@ STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
 
 
 def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -> RepairedMesh:
-    """Repair a surface, whose vertices all belong to faces, on a copy. Without triangles nothing but edges is left.
+    """Repair a surface, whose vertices all belong to faces, on a copy. The steps end if no triangle is left.
 
     tolerance: positions nearer than this (unit) count as equal at open edges, and loops narrower than this have no
     area.

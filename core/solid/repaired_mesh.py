@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh that the steps of a repair hand on to each other. No step changes the one it was given."""
+"""The mesh that the steps of a repair hand on to each other. No step changes the mesh that it receives."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from .boundary_loops import side_ends
 
 NO_EDGES = np.empty((0, 2), np.intp)
 NO_INDICES = np.empty(0, np.intp)
-UNKNOWN: Any = None  # until a step finds it; the order of the steps sees to it that no one reads it before
+UNKNOWN: Any = None  # a value that no step has found yet: the order of the steps ensures that none reads it before
 
 
 @dataclass(frozen=True, eq=False)
 class OpenParts:
     """Connected parts that are not closed; only these may be welded.
 
-    `rows`: their triangles with three different vertices; all such if `are_all`. `vertices`: sorted ones along their
-    open edges, or all their vertices if no edge is known.
+    `rows`: their triangles with three different vertices; all such if `are_all`. `vertices`: their vertices
+    along open edges, or all if no edge is known, sorted.
     """
 
     rows: NDArray[np.intp]
@@ -53,7 +53,7 @@ class ZeroAreaLoops:
 class FoldedLoops:
     """Loops without area, `number` of them, that components with edges of three faces or more leave over.
 
-    `components`: (c,) mask of those that close after all. `sides`, `caps`: (k,) and (k, 3) triangles that close them.
+    `components`: (c,) mask of those components that close. `sides`, `caps`: (k,) and (k, 3) triangles that close them.
     """
 
     components: NDArray[np.bool_]
@@ -140,7 +140,7 @@ class RepairedMesh:
         )
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
-        """Return the mesh with more triangles, without degenerate ones. owner: (k,) triangles of their components."""
+        """Return the mesh with caps added, except degenerate ones. owner: (k,) a triangle of each cap's component."""
         useful = has_distinct_vertices(caps)
         caps, owner = caps[useful], owner[useful]
         return replace(

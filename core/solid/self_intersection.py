@@ -3,8 +3,8 @@
 """Self-intersection of closed surfaces, and the volume that it counts twice or as negative.
 
 If all cones of a surface from some point have the same sign, and their sum surrounds that point once, it is the radial
-image of a sphere, and cannot meet itself: every convex body, about its center of mass. The sums over the faces show it
-of most bodies on the way; for the others it is a pass that ends with the first face that looks away.
+image of a sphere, and cannot meet itself: every convex body, about its center of mass. For most bodies, sums over faces
+show this on the way; for the others a pass over the faces, which ends early if a face looks away.
 
 Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
 faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. Every region
@@ -36,8 +36,8 @@ FACES_LOOKED_AT_FIRST = 1024
 class SelfIntersection:
     """Result of the search for self-intersections.
 
-    `volume`: estimated volume that counts twice, or as negative (unit³), as often as it does too much. `effect`: the
-    larger one of its shares of the volume and of the second moment about the center.
+    `volume`: estimated volume that counts twice or as negative (unit³), times the number of surplus counts. `effect`:
+    the larger of its shares of the volume and of the second moment about the center.
     """
 
     state: Intersection
@@ -94,7 +94,7 @@ def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
 
 
 def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
-    """Yield the corners of the triangles, three times (3, k), the first block short."""
+    """Yield three (3, k) arrays, the triangles' corners, for each block; the first block is short."""
     for faces in (surface.quads, surface.triangles):
         starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
         for start, stop in zip(starts[:-1], starts[1:]):
@@ -113,9 +113,9 @@ def surrounds_once(surface: Surface, point: NDArray[np.float64], size: float) ->
 
 @dataclass(frozen=True, eq=False)
 class Excess:
-    """Volume of b bodies that closed parts hold more than once, or less than not at all, as often as that; (b,).
+    """Volume of b bodies, (b,), that counts more than once or as negative, times the number of surplus counts.
 
-    `second_moment`: of it, about the center of the body's box. `unsure`: share of the crossed lines that do not enter
+    `second_moment`: of that, about the center of the body's box. `unsure`: share of the crossed lines that do not enter
     as often as they leave; 1 if no line is crossed.
     """
 
@@ -127,9 +127,9 @@ class Excess:
 def measure_excess(
     crossings: Crossings, grids: LineGrids, tolerance: NDArray[np.float64], part: NDArray[np.integer] | None = None
 ) -> Excess:
-    """Measure along lines the volume in a closed part more than once, or less than not at all.
+    """Measure along lines the volume that a closed part counts more than once, or as negative.
 
-    tolerance: (b,) lengths up to which nothing counts (unit). part: (t,) of each triangle; by default each body is one.
+    tolerance: (b,) shorter lengths do not count (unit). part: (t,) of each triangle; by default a body is one part.
     """
     bodies = len(grids.cell)
     if not len(crossings.row):

@@ -37,7 +37,7 @@ def wall_links(
     if not layer.any():
         return NO_LINKS
     sides = np.flatnonzero((edges.count == 4)[edges.of_side])
-    # by edge: single faces, then the first layer, then the other
+    # Sort by edge: single faces, then the first layer, then the other.
     sides = sides[np.lexsort((layer[sides // 3], edges.of_side[sides]))].reshape(-1, 4)
     rank = layer[sides // 3]
     within = sides[(rank == [1, 1, 2, 2]).all(axis=1)]
@@ -54,7 +54,7 @@ def wall_links(
     for columns in np.array([[0, 1], [2, 3]]):  # A column keeps its body and its layer along the whole border.
         swap = np.diff(part[border[:, columns] // 3])[:, 0] < 0
         border[np.ix_(swap, columns)] = border[np.ix_(swap, columns[::-1])]
-    # a wall is between two bodies only, the same along its border
+    # A wall is between two bodies only, the same along its border.
     wall = np.unique(part[border[:, 2:] // 3], axis=0, return_inverse=True)[1].ravel()
     lower, upper = part[border[:, 0] // 3], part[border[:, 1] // 3]
     first = np.empty(int(wall.max()) + 1, np.intp)

@@ -35,7 +35,7 @@ from .self_intersection import MAX_UNSURE_LINES, measure_excess
 from .solid_verdict import SolidIntegrals, cap_finding, shape_findings
 
 MAX_COMPONENTS = 16  # Limit for one body: all pairs are compared.
-CLEAR_VOLUME = 4.0  # times what counts as none: a component of less is looked at by itself
+CLEAR_VOLUME = 4.0  # times the volume that counts as none: bodies with smaller components are measured one by one
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +106,7 @@ def small_moments_to_order(solids: Sequence[SolidIntegrals], order: int) -> Mome
 
 
 def _extend(volume: Moments, order: int, stack: TriangleStack, error: NDArray[np.float64]) -> Moments:
-    """Return the volume moments of the stack's bodies to an order. error: (n, 3) by storing the points."""
+    """Return the volume moments of the stack's bodies to an order. error: (n, 3) shifts by storing the points."""
     low, high = stack.box
     reach = np.maximum(high - volume.about, volume.about - low) * (1.0 + 4.0 * U) + error
     return extend_small_moments(volume, order, stack.points, stack.triangles, stack.triangle_counts, reach)
@@ -123,7 +123,7 @@ def can_be_stacked(surface: Surface) -> bool:
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
-    """Measure bodies that at least one surface, as `can_be_stacked` requires, bounds, closed as it is or by caps."""
+    """Measure the bodies of surfaces, at least one, that `can_be_stacked` allows, if closed as they are or by caps."""
     stack = SurfaceStack.from_surfaces(surfaces)
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
@@ -218,7 +218,7 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 
 def _search_self_intersections(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
-    """Return (k,) what `find_self_intersection` does of each. part: (t,) the component of each triangle."""
+    """Return (k,) the `Intersection` of each body, like `find_self_intersection`. part: (t,) triangles' components."""
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
     grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))

@@ -55,7 +55,7 @@ class SolidIntegrals:
     volume : Moments
         To order 3, about the middle of the bounding box.
     area : Moments
-        Of the input's faces, without caps.
+        The area of the input's faces, without caps, to order 0, or 3 for a shell.
     health : MeshHealth
         State of the input.
     method : Verdict
@@ -65,7 +65,7 @@ class SolidIntegrals:
     oriented : OrientedSolid
         The surface that was measured, and its components.
     given_surface : Surface
-        The one that was given, without vertices of no face.
+        The surface that was given, without the vertices that no face uses.
 
     Examples
     --------
@@ -88,7 +88,7 @@ class SolidIntegrals:
 
     @property
     def repaired_surface(self) -> Surface:
-        """The surface with the signed sum ``volume``."""
+        """The repaired surface, whose signed sum is ``volume``."""
         return self.oriented.surface
 
     def moments(
@@ -115,7 +115,7 @@ class SolidIntegrals:
         return volume.about_point(about), None if area is None else area.about_point(about)
 
     def parts(self) -> ClosedParts:
-        """Return the surface by closed part."""
+        """Return the triangles of the repaired surface by closed part."""
         return self.oriented.closed_parts()
 
     def exact_third_order(self, threads: int = 1) -> Moments:
@@ -149,7 +149,7 @@ def judge(
     else:
         verdict = Verdict.REORIENTED if len(flipped) or len(inverted) else Verdict.EXACT
     findings: list[Finding] = []
-    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # of float32
+    step = 2.0 * float(np.linalg.norm(half_ulp(np.abs(checked.surface.box).max(axis=0))))  # one ulp of float32
     if mesh.max_displacement > step:  # less is how the same place is written twice
         slight = mesh.max_displacement * given.area.total < NEGLIGIBLE * abs(volume.total)
         findings.append(finding(VERTICES_WELDED, slight=slight, share=float(mesh.max_displacement / checked.size)))

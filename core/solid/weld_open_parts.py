@@ -61,7 +61,7 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
-    """Weld the vertices along open edges that differ by less than the tolerance, and by little of their triangles."""
+    """Weld vertices along open edges that are nearer than the tolerance, and near compared with their triangles."""
     parts = mesh.state.open_parts
     if parts is None:
         return mesh
@@ -118,7 +118,7 @@ def _find_open_parts(
 def _weld(
     mesh: RepairedMesh, rows: NDArray[np.intp], vertices: NDArray[np.intp], same: NDArray[np.intp]
 ) -> tuple[RepairedMesh, NDArray[np.intp]]:
-    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each."""
+    """Return the mesh with vertices replaced by `vertices[same]` in `rows`, and (n,) the new vertex of each vertex."""
     triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]

@@ -25,7 +25,7 @@ class Elements(Protocol):
 
 
 class Severity(StrEnum):
-    """The weight of a finding: a note does not question the numbers, an error means there are none.
+    """The weight of a finding: a note does not question the numbers, a warning does, an error means there are none.
 
     Examples
     --------
@@ -128,15 +128,16 @@ class Finding:
         return hash((self.code, repr(sorted(self.values.items()))))
 
     def __str__(self) -> str:
-        from .sentences import sentence  # it imports this module
+        from .sentences import sentence  # late, as `sentences` imports this module
 
         return sentence(self)
 
 
 def finding(code: str, elements: Elements = (), /, *, slight: bool = False, **values: Any) -> Finding:
-    """Make a finding of that code, about these elements, with these values.
+    """Make a finding with this code, about mesh elements, with the values of its sentence.
 
-    slight: its effect on mass, size and inertia is negligible (`core/verdict/tolerances.py`): a warning is a note then.
+    slight: True if the effect on mass, size and inertia is negligible (`core/verdict/tolerances.py`): a warning is then
+    a note.
     """
     return Finding(code, {**values, "slight": True} if slight else values, elements)
 
@@ -152,14 +153,14 @@ def system_reason(error: OSError) -> str:
 
 
 def truncate(items: Elements, limit: int, count: int | None = None) -> tuple[Elements, int]:
-    """Return the first `limit` items of a list and the number of the remaining ones, of `count` in all."""
+    """Return the first `limit` items and the number of items left out. count: items in all, by default the length."""
     shown = items[:limit]
     return shown, max((count or len(items)) - len(shown), 0)
 
 
 def truncate_findings(findings: Sequence[Any], limit: int) -> list[Any]:
     """Return the first `limit` findings or texts, and an ``and_more`` finding if there are others."""
-    from .findings import AND_MORE  # it imports this module
+    from .findings import AND_MORE  # late, as `findings` imports this module
 
     shown, more = truncate(findings, limit)
     return [*shown, finding(AND_MORE, count=more)] if more else [*shown]
@@ -178,14 +179,14 @@ class MeasureError(Exception):
     subject : str
         The name of the object or file that it is about, if known.
     elements : sequence
-        Of the finding that a code makes.
+        Mesh elements of the finding, if `reason` is a code.
     **values
-        Of the finding that a code makes.
+        Values of the finding, if `reason` is a code.
 
     Attributes
     ----------
     finding : Finding
-        Why, and what to do.
+        The reason and the remedy.
     subject : str
 
     Examples
@@ -204,7 +205,7 @@ class MeasureError(Exception):
         super().__init__(self.finding.code)
 
     def about(self, subject: str) -> MeasureError:
-        """Return the same error, about an object or a file unless it is about another one already."""
+        """Set the subject, an object or a file, unless the error has one already, and return the error itself."""
         self.subject = self.subject or subject
         return self
 

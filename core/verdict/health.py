@@ -17,12 +17,12 @@ NO_FACES = np.empty(0, np.int64)
 
 
 class Intersection(StrEnum):
-    """Self-intersection of a part of a surface; several surfaces have the first of these that one has."""
+    """Result of a search for self-intersections; several surfaces have the first of these that one of them has."""
 
     FOUND = "found"
     NOT_CHECKED = "not_checked"
-    NOT_FOUND = "not_found"  # looked for
-    EXCLUDED = "excluded"  # proved: it does not
+    NOT_FOUND = "not_found"  # a search found none
+    EXCLUDED = "excluded"  # proved to be impossible
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,19 +44,19 @@ class DefectiveElements:
 
 @dataclass(frozen=True, eq=False)
 class MeshHealth:
-    """The input, before anything was repaired, and what was done to it.
+    """Defects of the input, before any repair, and the extent of the repair.
 
-    closed: in space: equal positions are one, and gaps without area are none.
-    welded: if positions had to be welded to judge.
-    boundary_edges: with one face, after that welding, unless the gap they bound has no area.
-    non_manifold_edges: with more than two faces. inconsistent_edges: with two faces that both run the same way.
-    components: connected across edges. inverted_components: inside out. nested_components: outward ones in
-        the material of others, counted twice. cavities: inward ones in the material of others. overlapping_components:
-        ones that share a part of their interiors with another one, or are a copy of it.
-    duplicate_faces: later copies of faces. degenerate_faces: without area. non_planar_faces, volume_spread: the faces
+    closed: True if the surface closes in space: equal positions count as one, gaps without area as closed.
+    welded: True if positions had to be welded to find that out.
+    boundary_edges: edges with one face, after that welding, unless the gap that they bound has no area.
+    non_manifold_edges: edges with more than two faces. inconsistent_edges: edges with two faces that run the same way.
+    components: parts connected across edges. inverted_components: parts inside out. nested_components: outward parts in
+        the material of others, counted twice. cavities: inward parts in the material of others. overlapping_components:
+        parts that share a piece of their interiors with another one, or are a copy of it.
+    duplicate_faces: later copies of faces. degenerate_faces: faces without area. non_planar_faces, volume_spread: faces
         that are not flat, and the volume (unit³) that the choice of their diagonals can change.
-    cap_area_share: the area of the caps that were needed by the area of the faces.
-    self_intersection: if a component goes through itself.
+    cap_area_share: the area of the caps that were needed, divided by the area of the faces.
+    self_intersection: the result of the search for components that go through themselves.
     """
 
     closed: bool
@@ -78,7 +78,7 @@ class MeshHealth:
     defective_elements: DefectiveElements = field(default_factory=DefectiveElements)
 
     def as_record(self) -> dict:
-        """Return plain values for JSON; of the faults only the flipped faces."""
+        """Return plain values for JSON, with the flipped faces as the only defective elements."""
         record = {entry.name: getattr(self, entry.name) for entry in fields(self) if entry.name != "defective_elements"}
         record[SELF_INTERSECTION] = str(self.self_intersection)
         record[FLIPPED_FACES] = self.defective_elements.flipped_faces.tolist()

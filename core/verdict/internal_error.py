@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Why one of many objects was left as it was: a refusal, or an error of this program that nobody foresaw.
+"""The reason why one of many objects was left alone: a refusal, or an unforeseen error of this program.
 
 Either ends the work on its object alone. An error is reported as one, and its traceback goes to the console.
 """
@@ -17,7 +17,7 @@ PACKAGE = __name__.removesuffix("core.verdict.internal_error")
 
 
 def finding_of(error: Exception) -> Finding:
-    """Return the finding of a refusal or of too little memory; else of an internal error, after its traceback."""
+    """Return the finding of a refusal or of too little memory; for any other error, print its traceback first."""
     if isinstance(error, MeasureError):
         return error.finding
     if isinstance(error, MemoryError):

@@ -28,7 +28,7 @@ class Verdict(StrEnum):
 
 
 class Source(StrEnum):
-    """The word before the verdict if something other than polygons was measured."""
+    """The source of the geometry: the word before the verdict, empty for polygons."""
 
     POLYGONS = ""
     NURBS = "NURBS"

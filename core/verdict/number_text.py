@@ -18,24 +18,24 @@ _WORD = re.compile("[^{}]+".format(SPACES))
 
 
 def parse_number(text: str) -> float:
-    """Return the value of a decimal number, or of NaN and INF as in XML Schema; ValueError with other text."""
+    """Return the value of a decimal number, or of NaN and INF as in XML Schema. Raise ValueError with other text."""
     if not _is_number(text):
         raise ValueError(text)
     return float(text)
 
 
 def parse_whole(text: str) -> int:
-    """Return the value of a whole number. Raise ValueError with the text if it is none."""
+    """Return the value of a whole number. Raise ValueError with any other text."""
     if not _is_whole(text):
         raise ValueError(text)
     return int(text)
 
 
 def parse_numbers(text: str) -> list[float]:
-    """Return the numbers of a list in XML. Raise ValueError with the first word that is none."""
+    """Return the numbers of a list in XML. Raise ValueError with the first word that is no number."""
     return [parse_number(word) for word in _WORD.findall(text)]
 
 
 def parse_wholes(text: str) -> list[int]:
-    """Return the whole numbers of a list in XML. Raise ValueError with the first word that is none."""
+    """Return the whole numbers of a list in XML. Raise ValueError with the first word that is no whole number."""
     return [parse_whole(word) for word in _WORD.findall(text)]

@@ -6,7 +6,7 @@ A template is a `str.format` template over the finding's values. `plural` is tak
 Values stay numbers, strings, booleans and lists; only the template formats them:
 
     {share:percent}      a fraction, as 12.3%                {samples:size}   integers, as 2 x 3 x 4
-    {thickness:length}   meters, as the scene shows them     {point:point}    three of these
+    {thickness:length}   meters, as the scene shows them     {point:point}    three lengths
     {names}              a list, the first 8: “A”, “B”, and 3 more    {side:word}     a word of ours, to be translated
     {cause}, {causes}    another finding, or several ({"code", "values"}): their messages
     {elements}           its mesh elements (`Finding.elements`, `count` in all): 3, 5, 9, or 3 of “Cube”

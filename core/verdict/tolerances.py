@@ -12,7 +12,7 @@ from .findings import OBJECT_TOO_SMALL
 # The sixth power of the first and the fifth of the second are still numbers.
 MAX_COORDINATE, MIN_SIZE = 1e50, 1e-60
 FLAT_CAP_VOLUME_RTOL = 1e-7  # relative to diagonal times area: volume left by capping a flat sheet of float32 points
-CLOSED_SHEET_VOLUME_RTOL = 1e-14  # likewise for a closed sheet
+CLOSED_SHEET_VOLUME_RTOL = 1e-14  # relative to the same: volume left by the rounding of a closed sheet
 WELDING_RTOL = 1e-6  # relative to the body's diagonal
 NEGLIGIBLE = 1e-4  # relative to mass, size and inertia: a decision that changes them by less is a note
 
@@ -24,5 +24,5 @@ def check_size(*sides: float) -> None:
 
 
 def welding_tolerance(size: float, error: float) -> float:
-    """Return how near to each other points of a body are the same: of its diagonal and its coordinates' error."""
+    """Return the distance below which a body's points count as one. size: its diagonal; error: of its coordinates."""
     return max(WELDING_RTOL * size, 4.0 * error)

@@ -27,23 +27,23 @@ from ..mesh.edges import find_edges
 from ..moments.moments import U
 
 TRIANGLES_PER_BLOCK = 4096  # triangles at a time
-SAME_PLANE_RTOL = 1e-4  # Of the largest eigenvalue of Σ θ n n', φ²/4 for planes φ apart: less is one plane.
+SAME_PLANE_RTOL = 1e-4  # Relative to the largest eigenvalue of Σ θ n n'; φ²/4 for planes φ apart. Less is one plane.
 LEAST_SQUARES_RTOL = 2e-2  # The same if not all planes can be met.
 SLIVER_RTOL = 1e-9  # Relative to the longest side: lower triangles have no reliable normal.
-NOISY_HEIGHT_FACTOR = 1e3  # times what storing moved the points by: a lower triangle's normal is known to 1e-3 only
+NOISY_HEIGHT_FACTOR = 1e3  # times the points' shift by storing: lower triangles' normals are known to 1e-3 only
 UNEVEN_RTOL = 1e-6  # relative deviation from the thickness that counts as one
 MIN_ADVANCE = 0.1  # Share of the thickness: if a face would get less, its vertices need a better direction.
-MAXIMIN_STEPS = 400  # Steps of the search for it.
+MAXIMIN_STEPS = 400  # Steps of the search for a better direction.
 RANK_RTOL = 1e-12  # Relative to the largest eigenvalue: planes that span less are equal to rounding.
-SMOOTHING_STEPS, SMOOTHING_RTOL = 400, 1e-12  # steps, and what is left of the unevenness
+SMOOTHING_STEPS, SMOOTHING_RTOL = 400, 1e-12  # limit of steps, and the share of the unevenness at which to stop
 
 
 @dataclass(frozen=True, eq=False)
 class OffsetDirections:
     """Offset directions, (n, 3) `vectors`: the displacement of each vertex per unit of thickness.
 
-    tangential_error, normal_error: (2, n) first-order bounds of their changes by rounding, and by storing the points as
-    float32, in all and along the normals, but for the most-in-front ones. has_normal: (m,) False for ignored triangles.
+    tangential_error, normal_error: (2, n) first-order bounds of the vectors' changes, in all and along the normals, by
+    rounding and by storing the points as float32, except by multiplicative weights. has_normal: (m,) False if ignored.
     """
 
     vectors: NDArray[np.float64]
@@ -76,8 +76,8 @@ def offset_directions(
     middle = np.stack([mean(column) for column in normals.T], axis=1)
     length = np.linalg.norm(middle, axis=1)
     middle /= np.where(length > 0.0, length, 1.0)[:, None]
-    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2 does not cancel. Of m,
-    # too, a part along a crease that is left out has to go.
+    # With d = m + c, m the mean normal: Σ θ n n'·c = Σ θ n (1 - n·m), and 1 - n·m = |n - m|² / 2 does not cancel. The
+    # part of m along an ignored crease has to go, too.
     short = ((normals - middle[corner]) ** 2).sum(axis=1) / 2.0
     system = np.empty((count, 3, 3))
     for i in range(3):
@@ -144,7 +144,7 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
     start, stop, weight = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel(), weight.ravel()
 
     def gradient(steps: NDArray) -> NDArray[np.float64]:
-        """Half the gradient of Σ cot |d_i - d_j|², in the free directions."""
+        """Return half the gradient of Σ cot |d_i - d_j|², in the free directions."""
         force = weight[:, None] * (steps[start] - steps[stop])
         total = np.stack(
             [np.bincount(start, column, count) - np.bincount(stop, column, count) for column in force.T], axis=1
@@ -184,7 +184,7 @@ def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.fl
 def _maximin_direction(
     vectors: NDArray, behind: NDArray, low: NDArray, corner: NDArray, weight: NDArray, normals: NDArray
 ) -> None:
-    """Replace vectors of vertices `behind`, with least n·d `low`, (n,), by ones farther in front of all their faces."""
+    """Replace the vectors of vertices `behind` by vectors farther in front of all their faces. low: (n,) least n·d."""
     number = np.full(len(vectors), -1)
     number[behind] = np.arange(len(behind))
     corner_rows = np.flatnonzero(number[corner] >= 0)
@@ -209,7 +209,7 @@ def _maximin_direction(
 
 
 def _corner_geometry(points: NDArray, stored: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return unit normals (m, 3), angles (m, 3), bounds of turns (m, 2), and a mask of existing normals."""
+    """Return (m, 3) unit normals, (m, 3) angles, (m, 2) bounds of the normals' errors, and a mask of known normals."""
     sides = points[:, [1, 2, 0]] - points
     normal = np.cross(sides[:, 0], sides[:, 1])
     double = np.linalg.norm(normal, axis=1)

@@ -3,8 +3,8 @@
 """The moments of a wall to any order.
 
 Both sides of a wall are polyhedra, joined by bilinear patches along the surface's boundary: its moments follow from
-these boundaries. Against the polynomials of `walls`, which end at third order, digits are lost: as many as the wall is
-thinner than the body, and the bounds say so.
+these boundaries. Compared with the polynomials of `walls`, which end at third order, this loses digits, the more the
+thinner the wall; the error bounds include the loss.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     Parameters
     ----------
     wall : OffsetSolid
-        With its arrays.
+        With its arrays: not from `drop_arrays`.
     inward, outward : float
         How far the wall reaches below the surface and above it.
     order : int
@@ -40,7 +40,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
     Returns
     -------
     Moments
-        To third order from `OffsetSolid.moments`.
+        Up to third order, the moments that `OffsetSolid.moments` returns.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def wall_moments(wall: OffsetSolid, inward: float, outward: float, order: int) -
 
 
 def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], order: int) -> Moments:
-    """Return moments of the cones from the origin on bilinear patches, (4, k, 3) about it: Gauss's rule is exact."""
+    """Return moments of the cones from `about` over bilinear patches, (4, k, 3) relative to it, by an exact rule."""
     table = monomials(order)
     sums = np.zeros((2, len(table)))
     nodes, weights = gauss_legendre((order + 4) // 2)
@@ -95,7 +95,7 @@ def _strip_moments(corners: NDArray[np.float64], about: NDArray[np.float64], ord
     step = max(1, NODES_PER_BLOCK // len(weight))
     for first in range(0, corners.shape[1], step):
         block = corners[:, first : first + step]
-        # by differences of corners, whose rounding is that of sides that may be much shorter than they are far
+        # Differences of corners are rounded relative to the sides, which may be much shorter than their distance.
         sides, ends = block[[1, 2]] - block[[0, 3]], block[[3, 2]] - block[[0, 1]]
         place, reach, tangent, other = (
             np.einsum("cn,cki->ikn", rows, vectors).reshape(3, -1)

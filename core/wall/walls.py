@@ -39,7 +39,7 @@ ORDER = 3
 COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
 TOUCHING_RTOL = 1e-6  # Relative to the size: nearer sides touch.
 MAX_UNORIENTED_SHARE = 0.01  # Share of the area: above it, too many faces have lost their direction for a wall.
-JACOBIAN_ROUNDINGS = 20.0  # u: what rounds a Jacobian, relative to the product of the lengths in it
+JACOBIAN_ROUNDINGS = 20.0  # rounding of a Jacobian, in units u, relative to the product of the lengths in it
 INNER_NODES, OUTER_NODES = (0.10810301816807023, 0.81684757298045851), (0.44594849091596489, 0.091576213509770743)
 NODES = np.concatenate(
     [np.full((3, 3), outer) + (inner - outer) * np.eye(3) for inner, outer in zip(INNER_NODES, OUTER_NODES)]
@@ -49,7 +49,7 @@ WEIGHTS = np.repeat([0.11169079483900573, 0.054975871827660933], 3)
 
 @dataclass(frozen=True, eq=False)
 class OffsetSolid:
-    """The solid that a surface sweeps as it moves along its directions by s, per unit of s, as polynomials in s.
+    """The solid that a surface sweeps as it moves along its directions by s; its growth per s, as polynomials in s.
 
     points, vectors, triangles: (n, 3), (n, 3) and (m, 3), the moving surface and its directions. about: (3,) of the
     moments. coefficients, rounding_error, input_error: (20, 6) of s^0 to s^5 for each moment to third order, and bounds
@@ -104,9 +104,9 @@ class OffsetSolid:
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
     def self_intersects(self, inward: float, outward: float) -> bool:
-        """Return whether sides go through each other or themselves, or walls of parts into one another.
+        """Return whether the wall's sides go through each other or themselves, or walls of separate parts overlap.
 
-        Only a moved side is compared with itself. Intersections are found within bounds of time.
+        Only a moved side is compared with itself. The work is limited: an intersection may be missed.
         """
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
@@ -119,7 +119,7 @@ class OffsetSolid:
         ) or self._overlaps(points, tolerance)
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
-        """Return whether walls of parts reach into one another or themselves, even if no edge pierces a face.
+        """Return whether the walls of connected parts overlap each other or themselves, even if no edge pierces a face.
 
         Skins may have moved past each other, or be flush: the walls are compared as closed bodies.
         """
@@ -143,11 +143,11 @@ class OffsetSolid:
         return len(relations.contained_in) + len(relations.intersecting) > 0
 
     def drop_arrays(self) -> OffsetSolid:
-        """Return the same without the arrays that are as large as the mesh."""
+        """Return the solid without the arrays that are as large as the mesh."""
         return replace(self, points=self.points[:0], vectors=self.vectors[:0], triangles=self.triangles[:0])
 
     def first_fold_location(self, side: str) -> NDArray[np.float64]:
-        """Return the (3,) middle of the triangle that folds first on that side."""
+        """Return the (3,) middle of the triangle that folds first. side: "inward", "outward" or "centered"."""
         at = (
             self.inward_at if side == "inward" or side == "centered" and self.inward < self.outward else self.outward_at
         )
@@ -179,8 +179,8 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     Raises
     ------
     MeasureError
-        If faces disagree, more than two meet in an edge, or float32 has lost which way they face; the finding's edges
-        are pairs of the surface's vertices.
+        If faces disagree, more than two meet in an edge, none has an area, or float32 has lost their directions; the
+        finding's edges are pairs of the surface's vertices.
 
     Examples
     --------
@@ -210,7 +210,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         sums += prisms.sums()
         slide, lift = directions.tangential_error[:, part].max(axis=2), directions.normal_error[:, part].max(axis=2)
         if stored:
-            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # it should have moved by one
+            lift[1] += np.where(known, 0.0, 1.0 + prisms.far)  # such a triangle should have moved by one
         bounds += prisms.bounds(slide, lift, stored)
         swept[0] += prisms.swept(slide[0] + slid, lift[0] + slid, rounded)
         swept[1] += prisms.swept(slide[1], lift[1], stored)
@@ -253,7 +253,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
 
 
 def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
-    """Return points and triangles with one vertex for each place."""
+    """Return points and triangles with one vertex for each place, and refuse edges that a wall cannot have."""
     triangles, _ = surface.all_triangles()
     first = first_at_equal_position(surface.points)
     triangles = first[triangles.astype(np.intp)]
@@ -283,7 +283,7 @@ class _Prisms:
             np.stack(cross(first, second)) for first in (b - a, v - u) for second in (c - a, w - u)
         )
         self.normals = plain, first + second, turned
-        # power of s, corner, prism
+        # Axes: power of s, corner, prism.
         self.own_size = np.array(
             [[np.einsum("im,im->m", normal, vector) for vector in self.vectors] for normal in self.normals]
         )
@@ -321,10 +321,10 @@ class _Prisms:
         return sums
 
     def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
-        """Return (3, 7) coefficients in s, summed over the prisms: sizes of J and four zeros; two rows of changes.
+        """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two rows of changes.
 
-        A change has three coefficients of J, and four of J's sizes times the move of x: if directions move by the first
-        row of the errors, and by the second with the points by `stored`.
+        Sizes are three, and four zeros. Changes are three of J, and four of J's size times the move of x, if directions
+        move by the first row of the errors; or by the second row, and the points by `stored`.
         """
         sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
