@@ -44,7 +44,7 @@ class MeshBody(Body):
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments of the volume and of the area (None without `area`), each part mapped to its places.
+        """Return the moments of volume and area (None without `area`) to an order; parts are measured once and mapped.
 
         The repaired surface gives the volume, and the area in the same pass if the repair has neither added nor removed
         a face.
@@ -84,7 +84,7 @@ class MeshBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments from which axes are found: if the body is one similar image, in its own coordinates."""
+        """Return the moments from which axes are found, of a single similar image in its surface's own coordinates."""
         if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
             solid, matrices = self.solids[0]
             if are_similarities(matrices[:, :3, :3])[0]:
@@ -108,7 +108,7 @@ class MeshBody(Body):
 
 
 def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with lower orders replaced by `known`, for equal bounds of axes, if both are about one point."""
+    """Return moments with lower orders replaced by `known` if both are about one point; axes get equal bounds then."""
     if not np.array_equal(moments.about, known.about):
         return moments
     names = "raw", "rounding_error", "input_error"

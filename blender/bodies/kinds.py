@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The kinds of bodies: an object has the first kind that can read it.
 
-Each kind is a module with MEASURED_AS, the names (solid, shell, wire) that its objects can be measured as, and two
-functions: `read(request)` returns a reading, or None if the object is of another kind; `body(reading, request)` returns
-the body. Both raise MeasureError if nothing can be measured.
+Each kind is a module with MEASURED_AS, the values of the setting Kind (solid, shell, wire) with which it is tried, and
+two functions: `read(request)` returns a reading, or None if the object is of another kind; `body(reading, request)`
+returns the body. Both raise MeasureError if nothing can be measured.
 """
 
 from __future__ import annotations

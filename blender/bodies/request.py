@@ -26,7 +26,7 @@ class Request:
 
     `settings`: the options `given`, completed by the object's own. `obj`, `depsgraph`: None for the content of a file.
     `opened`: closes opened resources at the end of the measurement.
-    `findings`: reasons why kinds of bodies did not read the object, though it is of their type.
+    `findings`: reasons why a kind of body that fits the object did not read it.
     """
 
     settings: Settings

@@ -101,7 +101,7 @@ def measure_rig(context: Context, armature: Object) -> Rig:
 
 
 def rig_hash(armature: Object, objects: Iterable[Object], scene) -> str:
-    """Return a digest of the bones, settings and scales that parts depend on, except for the shapes of meshes."""
+    """Return a digest of the bones, the armature's scale and the objects' settings, without the shapes of meshes."""
     keys = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments

@@ -57,7 +57,7 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
 
 
 def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
-    """Return the own axes about which a bone may turn in its parent, with limits, in the order z, y, x.
+    """Return a bone's axes about which it may turn in its parent, with limits, in the order z, y, x.
 
     The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics. Axes are left
     out if they are locked, or if their limits leave no room.

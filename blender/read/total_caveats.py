@@ -94,7 +94,7 @@ def _operands(obj: Object) -> Iterator[Object]:
 
 
 def _rendered(layer: LayerCollection) -> Iterator[Object]:
-    """Yield the objects of rendered collections; nested collections of an excluded one may be rendered."""
+    """Yield the objects of rendered collections, also of those inside an excluded collection."""
     if not layer.collection.hide_render:
         if not layer.exclude:
             yield from layer.collection.objects

@@ -82,7 +82,7 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
 
 
 def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> float:
-    """Return an object's uniform density in kg/m³: its own if that is set, else the scene's default."""
+    """Return an object's uniform density in kg/m³: its own if it is set or the scene has none, else the scene's."""
     default = None if settings.is_property_set("density") else default_density(scene)
     return shortest_decimal(settings.density) if default is None else default
 
@@ -109,7 +109,7 @@ def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.ty
 
 
 def is_density_unset(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> bool:
-    """Return whether neither the object nor the scene has a density set, which `object_density` could return."""
+    """Return whether neither the object nor the scene has set the density that `object_density` returns."""
     return not settings.is_property_set("density") and default_density(scene) is None
 
 

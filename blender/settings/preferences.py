@@ -135,7 +135,7 @@ def preferences() -> BodyMomentsPreferences | None:
 def copy_defaults(scene: Scene) -> None:
     """Copy the preferences into a scene into which they have not been copied yet.
 
-    Operators call it if a user has started them.
+    Meant for operators that a user starts.
     """
     settings, source = scene.body_moments, preferences()
     if source is None or settings.has_defaults or not scene.is_editable:

@@ -275,7 +275,7 @@ def _write(obj: Owner, values: dict[str, Any]) -> None:
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
-    """Scale the stored results to another density: mass, inertia and their bounds change by a factor.
+    """Scale the stored results to another density: mass, inertia and its bounds change by a factor.
 
     The results must be finite, and the owner able to hold them. density: the mean in kg/m³, 0 for a wire. mass: in kg.
     """

@@ -77,7 +77,7 @@ MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
 # of reports in SI units
 REPORT_DIGITS = 7  # float32 coordinates carry as many
-ZERO_DISPLAY_RTOL = 2.5e-7  # of the largest component: float32 leaves less of a right angle; shown as 0
+ZERO_DISPLAY_RTOL = 2.5e-7  # of the largest component: float32 matrices miss right angles by as much; shown as 0
 INDENT, REPORT_WIDTH = "  ", 22
 
 
@@ -161,7 +161,7 @@ class Units(NamedTuple):
 
 
 def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
-    """Return the first unit, in descending order, that is at most `value`, else the smallest; the base for zero."""
+    """Return the largest unit that is at most `value`, else the smallest; the base for zero."""
     if value == 0.0:
         return base
     for unit in units:

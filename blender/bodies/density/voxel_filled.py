@@ -129,7 +129,7 @@ def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, h
 
 
 def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
-    """Return the solid's input error times the ratio of mass to volume, of largest moments or totals, if larger."""
+    """Return the solid's input error, scaled by the ratio of largest moments or of totals, whichever is larger."""
     solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
     solid = solid.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)

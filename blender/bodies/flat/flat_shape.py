@@ -123,7 +123,7 @@ class FlatShape:
         return match_flat(*turned, (self.axes, target.axes), residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry that the outline confirms and the one that the moments allow; `tolerance` is relative."""
+        """Return the symmetry of the outline and that of the moments; `tolerance` is relative to the size."""
         zernike, near = self.zernike(self.radius), tolerance * self.size
 
         def distance(points: NDArray) -> NDArray[np.float64]:

@@ -179,7 +179,7 @@ class Shape:
         return match(self.moments, target.moments, residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry that the surface confirms and the one that the moments allow; `tolerance` is relative."""
+        """Return the symmetry of the surface and that of the moments; `tolerance` is relative to the size."""
         moments = self.piece_moments()
         # The tolerance for moments is the same as for the surface.
         allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The signatures of many objects: those measured in a stack together, one for each shape that they show."""
+"""The signatures of many objects: in batches for objects measured in a stack, one for each shape they share."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .shape import EXACT_DISTANCE, SURFACE_OPTIONS, Shape, surface_shape, surfac
 def signed_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
 ) -> Callable[[bpy.types.Object], Signature | Shape]:
-    """Return a function of an object: its signature to an order, or its `Shape` if it was measured alone."""
+    """Return a function from an object to its signature to an order, or to its `Shape` if it was measured alone."""
     measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
     known: dict[MeasuredStack, list[Signature | None]] = {}
 

@@ -48,7 +48,7 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function that measures in batches; called with the objects in order, it returns or raises outcomes."""
+    """Return a function that measures in batches; called with each object in order, it returns its measurement."""
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 

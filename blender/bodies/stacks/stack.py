@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The measurements of many objects, each a solid of one shape in one place, computed together.
 
-A shape is a mesh in its own coordinates, however many objects show it. Small closed shapes are measured together, all
-others are repaired and measured alone. An object is a shape, a place, and a density or mass.
+A shape is a mesh in its own coordinates, however many objects show it. Small shapes that are closed or can be capped
+are measured together, all others are repaired and measured alone. An object is a shape, a place and a density or mass.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class MeshShape:
 
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
-    """Measure shapes in their own coordinates; return volume and area moments to third order, stacked by `row`."""
+    """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
     small = [shape for shape in shapes if can_be_stacked(shape.surface)]
     volumes: list[Moments] = []
     areas: list[Moments] = []
@@ -332,7 +332,7 @@ def _placed(moments: Moments, matrices: NDArray) -> Moments:
 
 
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """Return the area moments of the images; mapped surfaces are measured if a matrix is no similarity."""
+    """Return the areas of the images; if a matrix is no similarity, the mapped surface is measured."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return _placed(area, matrices)

@@ -69,7 +69,7 @@ class VolumeReading(Reading):
 
 @contextmanager
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
-    """Yield the named grid, else “density” or the first scalar; None if the object shows polygons or no volume."""
+    """Yield the named grid, else “density” or the first scalar grid; None if polygons or no volume are shown."""
     obj = obj.original
     volume = _volume(obj, depsgraph)
     if volume is None:

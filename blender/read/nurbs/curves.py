@@ -26,7 +26,7 @@ from .splines import weighted_points
 STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straight line by as much
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set
 CUSTOM_KNOTS_MODE = 4  # the mode of custom knots, which no flags describe
-# the second is relative to the length, the third, for each step, to the largest coordinate
+# steps per point, then tolerances: relative to the length, and for each step to the largest coordinate
 STEPS_PER_POINT, SAME_LENGTH_RTOL, AGREEMENT_RTOL = 8, 1e-4, 1e-7
 
 
