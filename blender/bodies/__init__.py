@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A reading becomes a body and a measurement: one module a kind."""
+"""Bodies of objects: a reading becomes a body, then a measurement; one module for each kind of body."""
 
 from typing import TYPE_CHECKING
 

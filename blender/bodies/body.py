@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies bounded by polygons, and the moments that axes are found by."""
+"""Bodies bounded by polygons, and the moments from which principal axes are found."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from ...core.solid.measure import SolidIntegrals
 from ...core.verdict.method import Verdict
 from .mesh.instances import area_of_instances
 
-MAX_MASS_MOMENT = 1e100  # kg m^n whose squares are still numbers
+MAX_MASS_MOMENT = 1e100  # kg m^n; squares of much larger moments would overflow
 
 
 @dataclass(frozen=True, eq=False)
 class MeshBody(Body):
-    """A body bounded by polygons, or their sheets.
+    """A body bounded by polygons, or the sheets of these polygons.
 
     `solids`: the measured surfaces, each with the (k, 4, 4) maps to its places.
     `sheets`: the surface of each solid before repair.
@@ -44,12 +44,12 @@ class MeshBody(Body):
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments to an order, each part measured once and mapped to its places.
+        """Return the moments of volume and area (None without `area`) to an order; parts are measured once and mapped.
 
-        The volume is that of the repaired surface, in one pass with the area if the repair has neither added nor left
-        out a face.
+        The repaired surface gives the volume, and the area in the same pass if the repair has neither added nor removed
+        a face.
         """
-        if (order, area) not in self._known:  # the frame and the shape need them to one order
+        if (order, area) not in self._known:  # the frame and the shape ask for the same order
             self._known[order, area] = self._to_order(order, area)
         return self._known[order, area]
 
@@ -67,7 +67,7 @@ class MeshBody(Body):
                 solid.method in (Verdict.EXACT, Verdict.REORIENTED)
                 and not solid.health.duplicate_faces
                 and triangle_count(solid.repaired_surface) == triangle_count(surface)
-            )  # else flat parts are left out
+            )  # otherwise the repaired surface has fewer or more faces
             volume, faces = polyhedron_moments(
                 solid.repaired_surface,
                 order,
@@ -84,7 +84,7 @@ class MeshBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments that axes are found by."""
+        """Return the moments from which axes are found, of a single similar image in its surface's own coordinates."""
         if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
             solid, matrices = self.solids[0]
             if are_similarities(matrices[:, :3, :3])[0]:
@@ -95,20 +95,20 @@ class MeshBody(Body):
         return super().moments_for_axes(order, area)
 
     def third_order(self) -> Moments:
-        """Return the volume with its third order exact to rounding."""
+        """Return the moments of the volume, the third order exact to rounding."""
         return sum_moments(
             [sum_of_images(solid.exact_third_order(self.threads), matrices) for solid, matrices in self.solids]
         )
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the surfaces in world coordinates."""
+        """Yield the surfaces in world coordinates, repaired, or with `sheets` as they were before repair."""
         for (solid, matrices), surface in zip(self.solids, self.sheets):
             piece = surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
 
 
 def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with lower orders replaced by `known`, about the same point, so that axes get the same bounds."""
+    """Return moments with lower orders replaced by `known` if both are about one point; axes get equal bounds then."""
     if not np.array_equal(moments.about, known.about):
         return moments
     names = "raw", "rounding_error", "input_error"
@@ -120,7 +120,7 @@ def with_known(moments: Moments, known: Moments) -> Moments:
 
 
 def with_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments with the smaller input bound: their own, or that of `known`, lower orders about the same point."""
+    """Return moments with input bounds no larger than those of `known`, if both are about the same point."""
     if not np.array_equal(moments.about, known.about):
         return moments
     error = moments.input_error.copy()
@@ -129,14 +129,14 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def extend_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments of another order with the known input bounds: the swept extent times powers of the reach."""
+    """Return moments with input bounds extended from `known` to their order: swept extent times powers of the reach."""
     swept, further = known.input_error[:2].tolist()
     reach = further / swept if swept > 0.0 else 0.0
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
-    """Return the moments of `m` bodies that are images of shapes, volumes or areas, in their own coordinates.
+    """Return the moments of m bodies, images of `shapes` (moments of volumes or areas), in their own coordinates.
 
     `which` (m,) is the shape of each body, `linear` (m, 3, 3) the map from it: any map, mirrored ones included.
     A mirrored shape counts as a shape of its own; so does an unevenly mapped shape, in the coordinates of its body.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Fourier transform of an object: read and repaired as it is measured, then handed to the core."""
+"""The Fourier transform of an object, which is read and repaired as for a measurement."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class ObjectTransform:
     transform: BodyTransform
     factor: float
     findings: tuple[Finding, ...]
-    arrays: ClassVar[None] = None  # a `FlatTransform` has those of its plane
+    arrays: ClassVar[None] = None  # a `FlatTransform` has arrays of its plane
 
     def steps(self) -> Generator[float, None, None]:
         """Do the work and yield the fraction done, or raise MeasureError."""
@@ -128,7 +128,7 @@ def _require_thin(settings: Settings) -> None:
 
 
 def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
-    """Return the longest side of the box around all boxes around the parts."""
+    """Return the longest side, in m, of the box that holds the boxes of all parts, or raise ReadError if it is 0."""
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for surface, matrices in parts:
         box, linear = np.array(surface.box, np.float64), matrices[:, :3, :3]
@@ -142,7 +142,7 @@ def _extent(parts: list[tuple[Surface, NDArray]]) -> float:
 
 
 def _to_object(reading: Reading, unit: float) -> NDArray[np.float64]:
-    """Return (4, 4) from the world to the object frame."""
+    """Return the (4, 4) map from the world to the object's frame, in meters."""
     turn = np.eye(4)
     turn[:3, :3] = np.asarray(reading.rotation, np.float64).T
     turn[:3, 3] = -turn[:3, :3] @ np.asarray(reading.location, np.float64) * unit

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measuring objects: the first kind of body that reads one, its body, and the measurement of that.
+"""Measurements of single objects: the first kind that can read an object makes the body, which is measured.
 
-`measure_object` measures one object by itself. For many, `many` stacks as many as it can, with the same numbers, and
-sends the others here.
+`stacks.many` measures many objects together, with the same numbers, and sends objects that cannot be stacked to
+`measure_body`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .kinds import KINDS
 from .measurement import measurement_of
 from .request import Request
 
-THREADS = os.cpu_count() or 1  # for what takes long
+THREADS = os.cpu_count() or 1  # for long measurements
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ def measure_object(
 
 
 def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET) -> Measured:
-    """Return the same as `measure_object`, with the reading and the measured body."""
+    """Return the measurement of one evaluated object with its reading and body, or raise MeasureError."""
     try:
         with ExitStack() as opened:
             request = Request.resolve(obj, depsgraph, options, opened=opened)
@@ -71,7 +71,8 @@ def measure_body(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, options:
                 return Measured(measurement, point, body)
             kinds = (kind for kind in KINDS if request.settings.kind in kind.MEASURED_AS)
             found = ((kind, kind.read(request)) for kind in kinds)
-            kind, reading = next((kind, reading) for kind, reading in found if reading is not None)  # the last refuses
+            # The last kind raises MeasureError in place of returning None.
+            kind, reading = next((kind, reading) for kind, reading in found if reading is not None)
             body = with_given(kind.body(reading, request), reading, request)
             return Measured(measurement_of(reading, body, request), reading, body)
     except MeasureError as error:

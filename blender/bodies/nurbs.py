@@ -3,7 +3,7 @@
 """The body that B-spline patches bound, measured from their control points instead of their display mesh.
 
 Volumes are measured once for each surface and mapped to its places. Areas, and sheets of real thickness, do not follow
-a map that stretches unevenly: there the control points are mapped, for each different map.
+a map that stretches unevenly: for each different map of this kind, the control points are mapped.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ from .request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
-MIN_CREASE_ANGLE = 0.02  # radians: less is what float32 leaves of a surface without
+MIN_CREASE_ANGLE = 0.02  # radians; smaller creases may be due to float32 alone
 HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)}  # in thicknesses of a wall
 
 
@@ -71,7 +71,7 @@ class PatchBody(Body):
     threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments to another order."""
+        """Return the moments of the volume and of the area (None without `area`) to an order."""
         volumes = [sum_of_images(_moments_to_order(measure, order), matrices) for _, measure, matrices in self.pieces]
         areas = []
         for part, measure, matrices in self.pieces if area else ():
@@ -99,7 +99,7 @@ class PatchSheetBody(Body):
     polygons: MeshBody | None = None
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
-        """Return that there is no volume, and the area's moments."""
+        """Return zero moments of the volume, and the moments of the area."""
         areas = []
         for part in self.parts:
             of_part = stored_area_moments(_patches(part), order, stored=_stored(part))
@@ -221,7 +221,7 @@ def _split_parts(reading: Reading) -> tuple[list[Part], Reading]:
 
 
 def _source(reading: Reading) -> Source:
-    """Return the source of the measurement: NURBS if all of it are patches."""
+    """Return the source of the measurement: NURBS if all parts are patches, else polygons."""
     return Source.NURBS if all(part.splines for part in reading.parts) else Source.POLYGONS
 
 
@@ -241,7 +241,7 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
-    """Return thin sheets, or walls with the surfaces at their inner or outer side or in their middle."""
+    """Return the body of thin sheets, or of walls inward or outward of the surfaces or centered on them."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
         raise ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")

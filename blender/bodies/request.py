@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The request for one measurement, resolved once: settings, density, and readings that several kinds share."""
+"""The request for one measurement: its settings and density, and the reading that several kinds of bodies share."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from ..settings.resolve import object_settings
 
 @dataclass(frozen=True, eq=False)
 class Request:
-    """One object's measurement before it is made.
+    """The request to measure one object, or the content of a file.
 
     `settings`: the options `given`, completed by the object's own. `obj`, `depsgraph`: None for the content of a file.
     `opened`: closes opened resources at the end of the measurement.
-    `findings`: reasons why kinds that might have read the object did not.
+    `findings`: reasons why a kind of body that fits the object did not read it.
     """
 
     settings: Settings
@@ -62,7 +62,7 @@ class Request:
 
     @cached_property
     def density(self) -> DensityField | None:
-        """Source of a density that is not one number; may raise MeasureError."""
+        """Source of a varying density, None for a density that is one number; may raise MeasureError."""
         settings, properties = self.settings, self.obj.body_moments
         is_given = self.given.density is not None or settings.mass is not None
         if is_given or settings.kind == "wire" or properties.density_from == "VALUE":

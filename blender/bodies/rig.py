@@ -53,8 +53,8 @@ DENSITIES_FROM = {"MESH": finding(DENSITY_FROM_MEMBERS), "DENSITY": DENSITY_FROM
 class _Sum:
     """Moments and sources of one bone's part.
 
-    carriers: mass moments at 1 kg/m³ of geometry skinned to it, each with its density. hanging: mass moments of objects
-    parented to it. extents, areas: (value, rounding, effect of float32), m³ and m².
+    carriers: mass moments at 1 kg/m³ of geometry skinned to the bone, each with its density. hanging: mass moments of
+    objects parented to the bone. extents, areas: (value, rounding, effect of float32), m³ and m².
     """
 
     carriers: list[tuple[Moments, float]] = field(default_factory=list)
@@ -68,10 +68,11 @@ class _Sum:
 
 @dataclass(frozen=True, eq=False)
 class BonePart:
-    """The part of one bone, SI, world axes, at rest.
+    """The part of one bone at rest, in SI units along the world's axes.
 
     `name`: of the bone. `mass`: kg, to third order. `sources`: names of the objects that the part is made of.
-    `measurement`: its object frame is the bone's rest frame. If no body has such moments, `refusal` says why.
+    `measurement`: in place of an object's frame it has the bone's rest frame; None if `refusal` says that no body has
+    such moments.
     `surfaces`: closed pieces of solids and sheets of shells, each with the (4, 4) map to the world, m.
     """
 
@@ -85,7 +86,7 @@ class BonePart:
 
 @dataclass(frozen=True, eq=False)
 class Rig:
-    """A character's bones with their parts, in the order of the armature, and all of it as one body at rest."""
+    """The parts of a character's bones, in the order of the armature, and their measurement as one body at rest."""
 
     armature: Object
     parts: tuple[BonePart, ...]
@@ -100,7 +101,7 @@ def measure_rig(context: Context, armature: Object) -> Rig:
 
 
 def rig_hash(armature: Object, objects: Iterable[Object], scene) -> str:
-    """Return a digest of all inputs of the parts, except for the shapes of meshes."""
+    """Return a digest of the bones, the armature's scale and the objects' settings, without the shapes of meshes."""
     keys = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments
@@ -114,7 +115,7 @@ def rig_hash(armature: Object, objects: Iterable[Object], scene) -> str:
 
 
 def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the objects that a character is made of."""
+    """Return the objects that a character consists of: skinned objects, then objects parented to bones."""
     skinned = skinned_objects(armature, objects)
     return skinned + [obj for obj, _ in hanging_objects(armature, skinned)]
 
@@ -170,7 +171,7 @@ class _Measuring:
         found.sources[source.name] = None
         return found
 
-    # ------------------------------------------------------------ What hangs on bones
+    # ------------------------------------------------------------ Objects parented to bones
 
     def _hang(self, obj: Object, bone: str) -> None:
         if bone not in self.bones.frames:
@@ -189,7 +190,7 @@ class _Measuring:
         if unset_density(obj, measurement, self.depsgraph.scene) is not None:
             self.unset.append(obj.name)
 
-    # ------------------------------------------------------------ What is skinned
+    # ------------------------------------------------------------ Skinned objects
 
     def _skin(self, obj: Object) -> None:
         request = Request.resolve(obj, self.depsgraph)
@@ -200,7 +201,7 @@ class _Measuring:
         pieces = [piece for part in reading.parts for piece in self._pieces(obj, part, shell)]
         volume = sum(moments.total for _, moments, *_ in pieces) * (options.thickness if shell else 1.0)
         if not volume > 0.0:
-            raise ReadError(NO_VOLUME)  # `rig` says the names of these, not why
+            raise ReadError(NO_VOLUME)  # `rig` reports the names of refused objects, without the reason
         density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
             measurement = measure_body(obj, self.depsgraph).measurement
@@ -230,7 +231,7 @@ class _Measuring:
         weights = vertex_weights(obj, part, self.bones, self.depsgraph)
         triangles, face = surface.all_triangles()
         number = len(surface.points)
-        # each corner of an n-gon once
+        # every corner of an n-gon once, though it belongs to several triangles
         corners = np.unique(np.repeat(face, 3).astype(np.int64) * number + triangles.ravel())
         pairs = np.stack([corners // number, corners % number], axis=1)
         used = np.zeros(number, bool)
@@ -277,7 +278,7 @@ class _Measuring:
             area = _area(sheet, metric, KNOWN_ORDER)
             yield self.bones.deforming[bone], area, area, sheet, metric, Verdict.SHELL
 
-    # ------------------------------------------------------------ What it comes to
+    # ------------------------------------------------------------ Parts and their sum
 
     def _part(self, name: str, found: _Sum) -> BonePart:
         settings = pose_bone_of(self.armature, name).body_moments

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shells of real thickness: the material between a surface and its offset, of any thickness at once.
 
-Thickness is a length in the world. Under a similarity an offset stays one, so that a surface and its instances share
-their polynomials; for other maps the surface is mapped to the world first.
+Thickness is a length in the world. A similarity maps an offset surface to an offset surface, so that a surface and its
+similar instances share one polynomial; for any other map the surface is mapped to the world first.
 """
 
 from __future__ import annotations
@@ -45,14 +45,14 @@ from .findings import (
 )
 from .mesh.instances import group_by_similarity
 
-REPORTED = 0.01  # in thicknesses: less unevenness is not reported
+REPORTED = 0.01  # relative to the thickness: smaller unevenness is not reported
 SAME_AREA_RTOL = 1e-9
-SAME_SCALE_RTOL = 1e-6  # float32 matrices spread one scale by as much
+SAME_SCALE_RTOL = 1e-6  # equal scales in float32 matrices differ by up to this share
 
 
 @dataclass(frozen=True)
 class WallPiece:
-    """One surface: its offset polynomials, scale in m for each of its units, and (k, 4, 4) maps to its places."""
+    """The offset polynomials of a surface, its scale in m per unit of the surface, and (k, 4, 4) maps to its places."""
 
     offset: OffsetSolid
     scale: float
@@ -63,7 +63,7 @@ class WallPiece:
         return self.offset.max_thickness(side) * self.scale
 
     def folds(self, side: str, thickness: float) -> bool:
-        """Return whether the wall folds over, rounded as `moments` rounds."""
+        """Return whether the wall folds over, with the same rounding of the thickness as in `moments`."""
         return not thickness / self.scale < self.offset.max_thickness(side)
 
     def moments(self, side: str, thickness: float, order: int = KNOWN_ORDER) -> Moments:
@@ -73,12 +73,12 @@ class WallPiece:
         return sum_of_images(own, self.matrices)
 
     def per_thickness(self) -> Moments:
-        """Return the limit of the wall's moments by its thickness, as that goes to zero."""
+        """Return the wall's moments per thickness, in the limit of zero thickness."""
         first = Moments(self.offset.coefficients[:, 0], self.offset.about, Measure.VOLUME)
         return sum_of_images(first, self.matrices) * (1.0 / self.scale)
 
     def self_intersects(self, side: str, thickness: float) -> bool:
-        """Return whether the wall runs into itself."""
+        """Return whether the wall intersects itself."""
         return self.offset.self_intersects(*split_thickness(side, thickness / self.scale))
 
     def boxes(self, side: str, thickness: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -106,7 +106,7 @@ class Walls:
         return min(piece.max_thickness(self.side) for piece in self.pieces)
 
     def body(self, thickness: float, check_overlap: bool = True) -> WallBody:
-        """Return the body with walls of a thickness, m, or raise ReadError; finding walls that meet takes time."""
+        """Return the body with walls of a thickness, m, or raise ReadError; `check_overlap` takes time."""
         if not thickness > 0.0:
             raise ReadError(ZERO_QUANTITY, quantity="thickness")
         if any(piece.folds(self.side, thickness) for piece in self.pieces):
@@ -161,7 +161,7 @@ class Walls:
         return findings
 
     def _unevenness(self) -> float:
-        """Return the difference, by size, of the moments to second order between a very thin wall and its surface."""
+        """Return the largest relative difference of moments (order 0 to 2) between a very thin wall and its surface."""
         surface = self.thin.area
         center, degree = surface.center, monomials(2).sum(axis=1)
         wall = sum_moments([piece.per_thickness() for piece in self.pieces]).about_point(center).truncate(2).raw
@@ -176,7 +176,7 @@ class Walls:
 
 @dataclass(frozen=True, eq=False)
 class WallBody(Body):
-    """A shell of real thickness, m, and the `walls` of any thickness that it is one of."""
+    """A shell of real thickness, m, with the `walls` from which it was made."""
 
     any_order: ClassVar[bool] = True
 
@@ -208,10 +208,10 @@ def find_walls(reading: Reading, body: MeshBody, side: str) -> Walls:
 
 
 def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Finding]) -> Surface:
-    """Return a closed surface with its faces outward, any other unchanged."""
+    """Return the surface with faces outward if it is closed, else unchanged with a finding."""
     if solid.method in (Verdict.EXACT, Verdict.REORIENTED):
         area = polyhedron_moments(solid.repaired_surface, area_order=0, allow_open=True)[1].total
-        if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has left something out
+        if abs(area - solid.area.total) <= SAME_AREA_RTOL * solid.area.total:  # else the repair has removed faces
             findings += [result for result in solid.findings if result.code in {FLIPPED_FACES, INVERTED_COMPONENTS}]
             return solid.repaired_surface
     findings.append(finding(WALL_UNORIENTED))
@@ -219,7 +219,7 @@ def _orient_outward(surface: Surface, solid: SolidIntegrals, findings: list[Find
 
 
 def _round_down(length: float) -> float:
-    """Return the length rounded down to four digits, so that the length that is named works."""
+    """Return the length rounded down to four digits, so that a wall of the rounded length does not fold."""
     if not isfinite(length):
         return inf
     unit = 10.0 ** (floor(log10(length)) - 3)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curve objects as wires: from control points, not polygons."""
+"""Curve objects as wires: measured from control points, not polygons."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .request import Request
 MEASURED_AS = frozenset({"wire"})
 
 DEGREE = monomials(3).sum(axis=1)
-CLOSED_RTOL = 1e-9  # relative to the wire's reach: its ends are one point
+CLOSED_RTOL = 1e-9  # of the wire's reach: ends that are nearer count as one point
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,13 +35,13 @@ class WireBody(Body):
     any_order: ClassVar[bool] = True
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
-        """Return that there is no volume and no area, to any order."""
+        """Return zero moments of the volume and of the area, to an order."""
         nothing = np.zeros(monomial_count(order))
         about = self.volume.about
         return Moments(nothing, about, Measure.VOLUME), Moments(nothing, about, Measure.AREA)
 
     def third_order(self) -> Moments:
-        """Return the length's moments."""
+        """Return the moments of the length, to third order."""
         assert self.length is not None
         return self.length
 
@@ -58,7 +58,7 @@ def body(reading: Reading, request: Request) -> Body:
     if not length.total > 0.0:
         raise ReadError(NO_CURVE)
     nothing = Moments(np.zeros(monomial_count(3)), length.about, Measure.VOLUME)
-    # a length moves by as much as its ends, and by its turning as much again: an estimate for smooth curves
+    # an estimate for smooth curves: a length changes with its ends, and as much again by its turning
     reach = max(float(np.abs(curve.points - length.about).max()) for curve in curves)
     moved = stored * (2.0 * len(curves) + 8.0 * length.total / reach) * reach**DEGREE
     return WireBody(
@@ -82,6 +82,6 @@ def curves_in_world(curves: list[Curve], matrix: NDArray[np.float64], unit: floa
 
 
 def _is_closed(curve: Curve, reach: float) -> bool:
-    """Return whether a curve ends at its start, to its size and to the rounding of its place."""
+    """Return whether a curve ends at its start, within rounding by its size and its distance from the origin."""
     first, last = curve.samples(1)[[0, -1]]
     return bool(np.abs(last - first).max() <= CLOSED_RTOL * reach + 32.0 * U * np.abs(first).max())

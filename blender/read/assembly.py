@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The members of an assembly: of a collection with its nested ones, or of an empty with its children.
+"""The members of an assembly: a collection with its nested collections, or an empty with its children.
 
 An object counts once, in its first place. An instance of a collection is an assembly of its own, with the members' own
 densities, unless the instancer's own density or mass is set.
@@ -60,11 +60,11 @@ class Member:
 
     @property
     def is_measured(self) -> bool:
-        """True if it has a body of its own, beside its members' bodies."""
+        """True if the member counts and has a body of its own, beside the bodies of its members."""
         return self.kind in (MemberKind.OBJECT, MemberKind.POINT) and self.left_out is None
 
     def walk(self) -> Iterator[Member]:
-        """Yield the member itself and all below it, each before its own members."""
+        """Yield the member itself and all members below it, each before its own members."""
         yield self
         for member in self.members:
             yield from member.walk()
@@ -78,7 +78,7 @@ def members_of(root: Root, depsgraph: Depsgraph) -> Member:
 
 
 class _Walk:
-    """One look through an assembly: in the scene, or inside an instance, which shows other objects."""
+    """A walk through an assembly, in the scene, or inside an instance, which shows other objects."""
 
     def __init__(self, objects: Collection[Object], depsgraph: Depsgraph, inside: bool = False):
         self.depsgraph = depsgraph
@@ -86,7 +86,7 @@ class _Walk:
         self.operands = operands_of(objects) if inside else {}
         self.reasons = {} if inside else left_out_reasons(depsgraph.scene, depsgraph.view_layer)
         self.counted: dict[Object, str] = {}
-        self.of_parent: dict[Object, list[Object]] = {}  # asking an object for its children looks at all there are
+        self.of_parent: dict[Object, list[Object]] = {}  # `Object.children` searches all objects
         for obj in bpy.data.objects:
             if obj.parent is not None:
                 self.of_parent.setdefault(obj.parent, []).append(obj)
@@ -94,7 +94,7 @@ class _Walk:
         self.replaced = {child for obj in self.given for child in obj.children_recursive}
 
     def collection(self, collection: bpy.types.Collection, depth: int = 0) -> Member:
-        """Return a collection with its nested ones, before its own objects."""
+        """Return a collection as a member: its nested collections first, then its objects."""
         if self.inside and (collection.hide_render or collection.hide_viewport):
             return Member(collection, MemberKind.COLLECTION, left_out=finding(NOT_RENDERED))
         members = [self.collection(child, depth) for child in collection.children]
@@ -109,7 +109,7 @@ class _Walk:
         return Member(collection, MemberKind.COLLECTION, tuple(members))
 
     def empty(self, obj: Object, depth: int = 0) -> Member:
-        """Return an empty with its children's members, and its own point mass, if any."""
+        """Return an empty as a member, with its own point mass, if it is one, and the members of its children."""
         own = self.object(obj, obj.name, depth) if is_point_mass(obj) else []
         return Member(obj, MemberKind.EMPTY, (*own, *self.children(obj, depth)))
 
@@ -125,7 +125,7 @@ class _Walk:
         return members
 
     def object(self, obj: Object, place: str, depth: int) -> list[Member]:
-        """Return the object as a member, none if it is no body; `place` is the name of its assembly."""
+        """Return a list with the object as a member, empty if it is no body; `place` is the name of its assembly."""
         if not measurable(obj) or instanced_by_parent(obj):
             return []
         kind = MemberKind.POINT if is_point_mass(obj) else MemberKind.OBJECT
@@ -144,7 +144,7 @@ class _Walk:
         return [Member(obj, kind)]
 
     def _left_out(self, obj: Object) -> Finding | None:
-        """Return the reason why an object is no part, or why Blender cannot show that it is one."""
+        """Return the reason why an object does not count, or why Blender cannot tell whether it counts, or None."""
         if self.inside:
             if obj in self.operands and obj.display_type in {"WIRE", "BOUNDS"}:
                 return finding(BOOLEAN_OPERAND)
@@ -158,7 +158,7 @@ class _Walk:
 
 
 def _shows_members(obj: Object) -> bool:
-    """Return whether an instance of a collection has no density and no mass of its own."""
+    """Return whether an object instances a collection and has no density and no mass of its own."""
     settings = obj.body_moments
     return (
         shows_collection(obj)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The findings about decisions in reading an object, and the reasons if there was nothing to read.
 
-The viewport is read. If the render would show another body, by Blender's settings as far as they report, that is a
-finding; a node tree that tells viewport from render is beyond them.
+Objects are read as the viewport shows them. If Blender's settings tell that the render would show another body, that is
+a finding; node trees that distinguish viewport and render are not detected.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ from .visibility import SURFACE_TYPES, blends_keys, hidden_reason, instanced_by_
 
 
 def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
-    """Return the reason why nothing of the object has a face."""
+    """Return the reason why the object shows no face."""
     vertices, edges = gathered.faceless
     if obj.type == "META":
         mother = _family(obj, depsgraph)[0]
@@ -77,7 +77,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
 
 
 def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:
-    """Yield a finding for each thing that was decided while reading."""
+    """Yield a finding for each decision that was taken while reading."""
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         yield finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record())
@@ -108,7 +108,7 @@ def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Fi
 
 
 def modifier_findings(obj, scene) -> Iterator[Finding]:
-    """Yield the findings about an object with modifiers of any kind."""
+    """Yield the findings about an object's modifiers: differences in the render, and errors of node trees."""
     yield from _render_findings(obj, scene)
     yield from _node_errors(obj)
 
@@ -120,7 +120,7 @@ def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _member_findings(collections) -> Iterator[Finding]:
-    """Yield the members of instanced collections that only the viewport or only the render shows."""
+    """Yield findings about members of instanced collections that only the viewport or only the render shows."""
     shown, rendered = (
         {
             member.original: None
@@ -170,7 +170,7 @@ def _mode_findings(obj) -> Iterator[Finding]:
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
-    """Yield the decisions about a surface object, either the read one or one of its instances."""
+    """Yield the findings about a surface object, which is the object that is read, or one of its instances."""
     if splines is not None:
         yield from splines.findings
         return
@@ -184,7 +184,7 @@ def _spline_findings(evaluated, splines) -> Iterator[Finding]:
 
 
 def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    """Yield findings about differences in the render; no resolution counts for `exact` objects."""
+    """Yield findings about differences in the render; resolutions are ignored for `exact` objects."""
     for modifier in obj.modifiers:
         shown, rendered = modifier.show_viewport, modifier.show_render
         if shown != rendered:
@@ -216,7 +216,7 @@ def _render_differences(obj, scene, exact: bool = False) -> Iterator[Finding]:
 
 
 def _levels(modifier, render) -> tuple[int, int]:
-    """Return the modifier's number in the viewport and in the render, twice the same if it has but one."""
+    """Return a modifier's levels, steps or resolution in the viewport and in the render; (0, 0) if it has none."""
     if modifier.type in {"SUBSURF", "MULTIRES"}:
         here, there = modifier.levels, modifier.render_levels
         if render.use_simplify:

@@ -21,7 +21,7 @@ from ..settings.resolve import object_settings
 
 VERSION = "v1"
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
-MAX_LENGTH = 3e38  # of an axis, that float32 can store
+MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
 
 
 def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
@@ -63,7 +63,7 @@ def has_transform(obj: bpy.types.Object, key: str) -> bool:
 
 def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
     """Return the sign of the determinant and the lengths of the axes; None if sheared, flat or not finite."""
-    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))  # in Python: a panel asks for many objects'
+    axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))  # pure Python: a panel asks for many objects
     lengths = [math.hypot(*axis) for axis in axes]
     if not all([0.0 < length < MAX_LENGTH for length in lengths]):
         return None
@@ -84,7 +84,7 @@ def _moves_along(obj: bpy.types.Object) -> bool:
 
 
 def scale_hash(obj: bpy.types.Object) -> str:
-    """Return a digest of the object's scale and shear, independent of its place."""
+    """Return a digest of the object's ratios of scale and its shear, independent of place, rotation and total scale."""
     axes = list(zip(*[row[:3] for row in obj.matrix_world[:3]]))
     products = [sum([i * j for i, j in zip(a, b)]) for a in axes for b in axes]
     largest = max(map(abs, products)) or 1.0
@@ -97,10 +97,10 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 
 
 def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
-    """Return the object's settings as they are."""
+    """Return the current settings of the object, with the key of a varying density."""
     return object_settings(obj, scene, varying=density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene))
 
 
 def digest(data: bytes) -> str:
-    """Return a short text that differs for different data."""
+    """Return a digest of the data as 12 hexadecimal digits."""
     return hashlib.blake2s(data, digest_size=6).hexdigest()

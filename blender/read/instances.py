@@ -44,12 +44,12 @@ class InstanceCollector:
     """The surfaces found so far with all their places, and the omitted objects.
 
     faceless: (vertices, edges) of the meshes without a face.
-    left_out: number of objects without surface, by a word for the kind.
-    sources: the original objects that were read, without the first.
+    left_out: number of elements without surface, by a word for their kind.
+    sources: the original objects that were read, without the root.
     vanished_count: number of instances that are scaled to nothing.
-    splines: the patches of each evaluated surface object that was read, None if its mesh has to do.
+    splines: the patches of each evaluated surface object that was read, None if its display mesh is measured.
     drawn: the original objects whose own polygons were read.
-    collections: the original collections that it instances, as far as Blender's own list was not needed.
+    collections: the original collections that are instanced, as far as Blender's own list was not needed.
     materials, attribute, edges: requests for the faces' materials, for the vertices' attribute of a name, and for the
         edges at the corners.
     """
@@ -87,7 +87,7 @@ class InstanceCollector:
             self._add_listed_instances(place)
 
     def parts(self) -> list[Part]:
-        """Return one part for each surface, its matrices finite; instances scaled to nothing are counted alone."""
+        """Return a part for each surface, without vanished instances; raise ReadError if a matrix is not finite."""
         parts = []
         for key, matrix_blocks in self._matrices.items():
             surface = self._surfaces[key]
@@ -161,7 +161,7 @@ class InstanceCollector:
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
         """Add the geometry set's instances at every place of it; return whether there were any."""
         cloud = geometry.instances_pointcloud()
-        if cloud is None:  # so it is where there are none
+        if cloud is None:  # there are no instances
             return False
         count = len(cloud.points)
         flat = np.empty(16 * count, np.float32)
@@ -230,7 +230,7 @@ class InstanceCollector:
             self._add_surface(self._surface_key(key, owner), lambda: self._read(mesh, owner), matrices, owner)
 
     def _surface_key(self, key: Hashable, owner) -> Hashable:
-        """Return a key of a mesh as a surface: several if objects show it with materials of their own."""
+        """Return the key of a mesh's surface; if materials are read, it includes the object's own material slots."""
         return (key, _object_slots(owner)) if self.materials and owner is not None else key
 
     def _read(self, mesh, owner) -> tuple[Surface, FaceAttributes]:
@@ -283,7 +283,7 @@ class InstanceCollector:
 
 
 def _object_slots(owner) -> tuple:
-    """Return the materials that an object's own slots put in place of its data's."""
+    """Return (index, material) of the object's own slots, which replace the materials of its data."""
     return tuple(
         (i, slot.material.original if slot.material else None)
         for i, slot in enumerate(owner.material_slots)
@@ -292,7 +292,7 @@ def _object_slots(owner) -> tuple:
 
 
 def _slots(mesh, owner) -> tuple:
-    """Return the original materials that the faces of an evaluated mesh name by number."""
+    """Return the original materials of an evaluated mesh in the order of slots, None for empty slots."""
     slots = list(mesh.materials)
     if owner is not None:
         if not slots:  # a copy of an edit mesh has none of its own

@@ -28,13 +28,13 @@ from .findings import ATTRIBUTE_MISSING
 
 # One triangle read by its index costs as much as about five in a `foreach_get` of all of them.
 SINGLE_ACCESS_COST = 5
-# Faces at a time, so that what is computed of them stays in the cache.
+# Faces per block, so that intermediate arrays stay in the cache.
 FACES_PER_BLOCK = 1 << 15
 Read = TypeVar("Read")
 
 
 def plain_mesh(obj, depsgraph):
-    """Return the evaluated mesh of an object that shows only its own mesh, else None: `read_object` has to look."""
+    """Return the evaluated mesh of an object that shows only its own mesh, or None if `read_object` has to read it."""
     data, parent = obj.data, obj.parent
     if (
         obj.type != "MESH"
@@ -52,7 +52,7 @@ def plain_mesh(obj, depsgraph):
 
 
 def mesh_surface(mesh, *, edges: bool = True) -> Surface:
-    """Return a `bpy.types.Mesh` as copied arrays, float32 points, own coordinates; edges take a fifth of the time."""
+    """Return the surface of a `bpy.types.Mesh` as copied arrays, in its coordinates; edges take a fifth of the time."""
     points = _attribute(mesh, "position", "vector", (len(mesh.vertices), 3), np.float32)
     corners = _attribute(mesh, ".corner_vert", "value", (len(mesh.loops),), np.int32)
     faces = _faces(mesh, corners)
@@ -62,7 +62,7 @@ def mesh_surface(mesh, *, edges: bool = True) -> Surface:
 
 
 def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | None:
-    """Return (n, 3) vertices of a `bpy.types.Mesh` that has these vertices at its corners; None of any other."""
+    """Return (n, 3) points of a `bpy.types.Mesh`, or None if the vertices at its corners are not `corners`."""
     if len(mesh.loops) != len(corners):
         return None
     if not np.array_equal(_attribute(mesh, ".corner_vert", "value", corners.shape, np.int32), corners):
@@ -71,7 +71,7 @@ def mesh_points(mesh, corners: NDArray[np.integer]) -> NDArray[np.float32] | Non
 
 
 def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
-    """Return the triangles and quads of a Surface, and which faces they are of."""
+    """Return the triangles and quads of a mesh, and the indices of their faces, as arguments of `Surface`."""
     faces = len(mesh.polygons)
     if not faces:
         return {}
@@ -101,7 +101,7 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
-    """Return the result of `read` for a mesh in Edit Mode, with edits that so far only its current BMesh has.
+    """Return the result of `read` for a copy of a mesh in Edit Mode, with edits that so far only its BMesh has.
 
     A BMesh gives its elements one by one only, 5 s for a million faces; the copy into a mesh that
     lives for this call costs a fortieth of that and leaves the edit mesh as it is.
@@ -115,8 +115,8 @@ def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
 
 
 def face_slots(mesh) -> NDArray[np.int32]:
-    """Return the (f,) material slot that each face names; the mesh may have fewer."""
-    if mesh.attributes.get("material_index") is None:  # then all of them name the first one
+    """Return (f,) material indices of the faces, which may be beyond the mesh's last slot."""
+    if mesh.attributes.get("material_index") is None:  # then all faces have the first material
         return np.zeros(len(mesh.polygons), np.int32)
     return _attribute(mesh, "material_index", "value", (len(mesh.polygons),), np.int32)
 

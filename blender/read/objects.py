@@ -31,11 +31,11 @@ def read_object(
 ) -> Reading:
     """Read one object, original or evaluated, as the up-to-date viewport `depsgraph` has it.
 
-    materials: with the materials of its faces. attribute: with the values of a float attribute on its
-    vertices. edges: with the edges that prove surfaces closed.
+    materials: read the materials of its faces, too. attribute: name of a float attribute on vertices to
+    read. edges: read the edges that prove surfaces closed.
 
-    Raises ReadError: of a kind without surface, not evaluated, nothing with a face, coordinates or
-    transforms that are not finite.
+    Raises ReadError if the object's kind has no surface, Blender has not evaluated it, it shows no
+    face, or coordinates or transforms are not finite.
     """
     obj = obj.original
     require_kind(obj)
@@ -52,7 +52,7 @@ def read_object(
 
 
 def read_lines(obj, depsgraph) -> Reading:
-    """Read the curves of a curve object as `read_object` reads surfaces; ReadError for other kinds."""
+    """Read the curves of a curve object, original or evaluated, or raise ReadError for other kinds."""
     obj = obj.original
     if obj.type != "CURVE":
         raise ReadError(ONLY_CURVES_ARE_WIRES, subject=obj.name)
@@ -62,7 +62,7 @@ def read_lines(obj, depsgraph) -> Reading:
 
 
 def read_patches(obj, depsgraph) -> Reading | None:
-    """Read the patches alone of a surface object; None if it shows more, or has to be measured by its mesh."""
+    """Read only the patches of a surface object; None if it is an instancer, or its mesh has to be measured."""
     obj = obj.original
     reading = locate(obj, depsgraph)
     if obj.instance_type != "NONE":
@@ -78,7 +78,7 @@ def read_patches(obj, depsgraph) -> Reading | None:
 
 
 def locate(obj, depsgraph) -> Reading:
-    """Return an evaluated object's name and place, with nothing read of it yet, or raise ReadError."""
+    """Return a reading with nothing but an evaluated object's name, type and place, or raise ReadError."""
     evaluated = obj.evaluated_get(depsgraph)
     if not evaluated.is_evaluated:
         raise ReadError(why_not_evaluated(obj, depsgraph), subject=obj.name)

@@ -87,12 +87,12 @@ class Reading:
 
     @property
     def has_patches(self) -> bool:
-        """True if any part of it is B-spline patches."""
+        """True if any part has B-spline patches."""
         return any([part.splines is not None for part in self.parts])
 
     @property
     def is_singular(self) -> bool:
-        """True if the object's own matrix flattens."""
+        """True if the object's own matrix is singular, so that it flattens bodies."""
         return bool(are_singular(self.matrix[None, :3, :3])[0])
 
     @property

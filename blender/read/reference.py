@@ -54,7 +54,7 @@ class ReferenceChoice:
 
     @classmethod
     def parse(cls, text: object) -> ReferenceChoice | None:
-        """Return the choice written by `text`; None for anything else."""
+        """Return the choice in a text that the property `text` has made; None for anything else."""
         try:
             entry = json.loads(str(text))
             points = tuple(tuple(map(float, point)) for point in entry.get("points", ()))
@@ -63,7 +63,7 @@ class ReferenceChoice:
             return None
 
     def resolve(self, owner: bpy.types.ID, scene: Scene, center: NDArray) -> Reference:
-        """Return the frame, SI, world axes, for an owner with its center of mass, m, or raise QueryError."""
+        """Return the reference frame (SI, world axes) for an owner with this center of mass, or raise QueryError."""
         unit = shortest_decimal(scene.unit_settings.scale_length)
         if self.about == "CENTER":
             return Reference(np.asarray(center, np.float64))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skinned character: its bones at rest, the meshes that an armature deforms, and the objects that hang on bones."""
+"""A skinned character: its bones at rest, the meshes that an armature deforms, and the objects parented to bones."""
 
 from __future__ import annotations
 
@@ -81,13 +81,13 @@ def is_skin_of(obj: Object, armature: Object) -> bool:
 
 
 def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the mesh objects that an armature deforms, by name."""
+    """Return the mesh objects that an armature deforms, sorted by name."""
     meshes = [obj for obj in objects if obj.type == "MESH" and is_skin_of(obj, armature)]
     return sorted(meshes, key=lambda obj: obj.name)
 
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
-    """Return measurable objects parented to bones, with their children but for `skinned`, and the bone of each."""
+    """Return (object, bone) of measurable objects parented to bones, and of their children, without `skinned`."""
     skinned, found = set(skinned), []
     for child in sorted(armature.children, key=lambda obj: obj.name):
         if child.parent_type == "BONE" and child.parent_bone:
@@ -102,7 +102,7 @@ def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgra
 
     There are none for another object's surface, or if its vertices are not the evaluated mesh's.
 
-    Vertices give their groups one by one only, in 0.3 s for 100,000.
+    Blender gives the groups of vertices one by one only, in 0.3 s for 100,000 vertices.
     """
     number = {name: k for k, name in enumerate(bones.deforming)}
     groups = [number.get(group.name) for group in obj.vertex_groups]
@@ -120,7 +120,7 @@ def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgra
 
 
 def require_armature(obj: Object | None) -> Object:
-    """Return the armature object, or raise ReadError for anything else."""
+    """Return the armature object, or raise ReadError for anything else, or if it is in Edit Mode."""
     if obj is None or obj.type != "ARMATURE":
         raise ReadError(NO_ACTIVE_ARMATURE)
     if obj.mode == "EDIT":

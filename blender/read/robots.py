@@ -23,7 +23,7 @@ from .reading import float64_matrix
 def object_candidate(
     label: str, obj: bpy.types.Object | None, measurement: Measurement, labels: Mapping[bpy.types.Object, str]
 ) -> Candidate:
-    """Return a measured object as a link, below the nearest parent that has a label; `obj` is None for instances."""
+    """Return a measured object as a possible link, with its labeled parents; `obj` is None for instances."""
     if obj is None:
         return make_candidate(label, measurement)
     parents, above = [], obj.parent
@@ -57,10 +57,10 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
 
 
 def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
-    """Return how a bone may turn in its parent, about its own axes, the last of Blender's XYZ angles first.
+    """Return a bone's axes about which it may turn in its parent, with limits, in the order z, y, x.
 
-    The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics. Axes that are
-    locked, or without room, are left out.
+    The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics. Axes are left
+    out if they are locked, or if their limits leave no room.
     """
     limits: dict[str, tuple[float | None, float | None]] = {}
     for axis in "xyz":
@@ -84,7 +84,7 @@ def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
 
 
 def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[str]:
-    """Return the labels of a bone's parents, the nearest first; `labels` are by name, for bones that are links."""
+    """Return the labels of a bone's parents, the nearest first; `labels` maps the names of bones that are links."""
     return [labels[above.name] for above in bone.parent_recursive if above.name in labels]
 
 
@@ -92,7 +92,7 @@ USD_ROOT = "root"  # Blender's exporter puts everything under it
 
 
 def usd_path(obj: bpy.types.Object, identifier: Callable[[str], str]) -> list[str]:
-    """Return the names of the prims from the top to an object's, as Blender's exporter writes them by `identifier`."""
+    """Return the names of the prims from the root to an object's; `identifier` converts names as the exporter does."""
     names, above = [], obj
     while above is not None:
         names.append(identifier(above.name))

@@ -20,7 +20,7 @@ MAX_DIGESTED_FACES = 50_000  # faces: reading and digesting them takes 2 ms
 
 
 def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
-    """Return a digest of a mesh object's own faces; None for large meshes, instancers, node trees and Edit Mode."""
+    """Return a digest of a mesh object's faces; None for other types, modes, large meshes, instancers, node trees."""
     if (
         obj.type != "MESH"
         or obj.mode != "OBJECT"
@@ -41,7 +41,7 @@ def shape_digest(obj: Object, depsgraph: Depsgraph) -> bytes | None:
 
 
 def surface_digest(surface: Surface, face_count: int) -> bytes | None:
-    """Return a digest of the faces of a mesh as they were read; None of many."""
+    """Return a digest of the faces of a surface, or None if there are more than MAX_DIGESTED_FACES."""
     if face_count > MAX_DIGESTED_FACES:
         return None
     shape = hashlib.blake2b(digest_size=16)
@@ -55,7 +55,7 @@ def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
     """Return the `transform_key` of objects with bodies that move along, from their (n, 4, 4) `matrix_world`."""
     columns = matrices[:, :3, :3].astype(np.float64)
     lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
-    with np.errstate(invalid="ignore"):  # axes of no length, or an endless one, are no numbers, and so no right angles
+    with np.errstate(invalid="ignore"):  # axes of zero or infinite length become NaN, so they are not at right angles
         axes = columns / lengths[:, None]
     cosines = np.abs(np.einsum("nai,naj->nij", axes, axes))[:, [0, 1, 2], [1, 2, 0]]
     has_scale = (cosines <= SAME_SCALE_RTOL).all(axis=1)

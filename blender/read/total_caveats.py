@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that are no part of a body, or may be none, and would count in a total, such as cutters and helpers."""
+"""Objects that would count in a total but are, or may be, no part of the body, such as cutters and helpers."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_DOUBTFUL_PARTS, TOTAL
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
-    """Return objects that are no parts of the displayed body, as operands or not rendered, each with the reason."""
-    # One that is switched off renders nothing; the open one is all there is where all are.
+    """Return the objects that are no parts of the displayed body, each with the reason: an operand, or not rendered."""
+    # A layer that is switched off renders nothing; if all are switched off, the open layer counts.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
     rendered = {obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render}
     operands = boolean_operands(scene)
@@ -83,7 +83,7 @@ def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Find
 
 
 def _operands(obj: Object) -> Iterator[Object]:
-    """Yield the objects that the Boolean modifiers of another one work with."""
+    """Yield the operands of an object's Boolean modifiers."""
     for modifier in obj.modifiers:
         if modifier.type != "BOOLEAN" or not (modifier.show_viewport or modifier.show_render):
             continue
@@ -94,7 +94,7 @@ def _operands(obj: Object) -> Iterator[Object]:
 
 
 def _rendered(layer: LayerCollection) -> Iterator[Object]:
-    """Yield the objects of the collections that are rendered; an excluded collection may hold others that are not."""
+    """Yield the objects of rendered collections, also of those inside an excluded collection."""
     if not layer.collection.hide_render:
         if not layer.exclude:
             yield from layer.collection.objects

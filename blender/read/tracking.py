@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""While Blender is read, or changed and put back, no change of it counts as an edit."""
+"""A pause in the tracking of edits, while Blender is read, or changed and changed back."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from __future__ import annotations
 class tracking_paused:
     """A context in which no change is noted: for changes that leave every object's shape as it was.
 
-    While any such context is open, changes that Blender reports are no edits; the class counts them in `depth`.
+    While any such context is open, changes that Blender reports are no edits; `depth` is the number of open contexts.
     """
 
     depth = 0

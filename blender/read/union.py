@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The union of overlapping shells, by Blender's own exact boolean.
 
-The boolean is a modifier, and a modifier needs an object in a scene. It gets both for the moment, in a scene of its
-own that nobody sees, and all of it is gone when the call returns.
+The boolean is a modifier, and a modifier needs an object in a scene. Object and scene are made for the call, are not
+displayed, and are removed when it returns.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 
 Blender does not evaluate objects that are disabled in viewports, excluded from the view layer or in another scene, and
 then returns the object without its modifiers and at its last place as if nothing were wrong. `evaluated_geometry()` is
-the one test: it refuses such an object, also if only the object's transform was evaluated for another's sake. Objects
+the one test: it refuses such an object, also if only the object's transform was evaluated for another object. Objects
 that are merely hidden (the eye), or evaluated because something shown needs them, are read rightly and reported.
 """
 
@@ -67,13 +67,12 @@ def shows_flat_region(obj) -> bool:
 
 
 def measurable_objects(view_layer) -> list:
-    """Return the measurable objects of a view layer by name, hidden ones included: reading reports the possible remedy.
+    """Return the measurable objects of a view layer, sorted by name, hidden objects included.
 
-    Left out are objects in the records of others: children of objects that instance on vertices or faces, hidden
-    members of instanced collections, and metaballs but the one that holds its family's polygons.
+    Objects that are measured with others are left out: children of objects that instance on vertices or faces, hidden
+    members of instanced collections, and metaballs, except for the metaball that holds its family's polygons.
     """
-    # A view layer that has not been updated knows neither its new objects nor what of them is
-    # shown.
+    # A view layer that has not been updated knows neither its new objects nor their visibility.
     view_layer.update()
     objects = [obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)]
     mothers = {family[0] for family in metaball_families(view_layer)}
@@ -168,7 +167,7 @@ def hidden_reason(obj, depsgraph) -> Finding | None:
         reasons += named
         barred |= blocking.keys()
     if len(barred) == len(branches):
-        return reasons[-1]  # one for each of its collections: the mildest
+        return reasons[-1]  # each of its collections has another reason; the mildest
     if obj.hide_get(view_layer=depsgraph.view_layer):
         return finding(HIDDEN_IN_VIEWPORT, name=obj.name, switch="eye icon")
     return None

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Findings that a user has judged and accepted, by object and code.
 
-A warning is a note then, in the panel, in stored results and in records.
+An accepted warning counts as a note in the panel, in stored results and in records.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from bpy.types import Object
 
 from ...core.verdict.finding import Finding
 
-ACCEPTED = "accepted"  # a value of such a finding
+ACCEPTED = "accepted"  # name of the value that marks an accepted finding
 
 
 def accepted_codes(obj: Object) -> frozenset[str]:
@@ -23,7 +23,7 @@ def accepted_codes(obj: Object) -> frozenset[str]:
 
 
 def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
-    """Accept the findings of a code for an object, or no longer; return whether that changed anything."""
+    """Accept the findings with a code for an object, or withdraw this; return whether anything changed."""
     before = accepted_codes(obj)
     after = before | {code} if accepted else before - {code}
     if after != before:
@@ -32,7 +32,7 @@ def set_accepted(obj: Object, code: str, accepted: bool) -> bool:
 
 
 def with_acceptance(findings: Iterable[Finding], codes: Collection[str]) -> tuple[Finding, ...]:
-    """Return the findings, marked as accepted exactly if their codes are."""
+    """Return the findings, marked as accepted if and only if `codes` contains their code."""
     return tuple(_marked(finding, finding.code in codes) for finding in findings)
 
 

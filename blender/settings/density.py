@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The source of an object's density in the settings, if it is not one number, and its digest for the fingerprint."""
+"""The density of an object in its settings: one number or a varying field, and its key for the fingerprint."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ _BY_OBJECT = {DENSITY_FROM_VALUE, OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_M
 class DensityField(NamedTuple):
     """A density that varies over a body.
 
-    kind: "materials", "polynomial", "attribute" or "volume". polynomial, in_world: kg/m³ of meters, along the world's
-    axes or each surface's own; text: as it was typed. attribute: the name of that of the vertices.
+    kind: "materials", "polynomial", "attribute" or "volume". polynomial: kg/m³ of meters, along the world's axes if
+    `in_world`, else each surface's own; text: as it was typed. attribute: the name of the vertex attribute.
     """
 
     kind: str
@@ -52,7 +52,7 @@ class DensityField(NamedTuple):
     def polynomial_source(self) -> Finding:
         """Return the source of a polynomial density.
 
-        A decimal comma shows here as the coefficients it was taken for.
+        A text with commas is shown as a list of coefficients, so that a mistaken decimal comma is noticed.
         """
         text = "({}) · (1, x, y, z, …)".format(self.text) if "," in self.text else self.text
         return finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
@@ -61,7 +61,7 @@ class DensityField(NamedTuple):
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
     """Return the density field named by the object's settings, or None for one value or a given mass.
 
-    MeasureError if a polynomial cannot be read, or nothing is chosen.
+    Raises MeasureError if a polynomial cannot be read, or no Volume object or attribute is chosen.
     """
     if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return None
@@ -82,7 +82,7 @@ def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
 
 
 def object_density(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> float:
-    """Return the one density in kg/m³ that an object's settings say: its own, else the scene's default."""
+    """Return an object's uniform density in kg/m³: its own if it is set or the scene has none, else the scene's."""
     default = None if settings.is_property_set("density") else default_density(scene)
     return shortest_decimal(settings.density) if default is None else default
 
@@ -96,8 +96,8 @@ def material_density(material: bpy.types.Material | None) -> float | None:
 def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.types.Scene) -> str | None:
     """Return the used density setting that nobody has set: "density", "linear_density" or None.
 
-    It is set neither for the object nor for the scene. measurement: of the object, with no density or mass from
-    elsewhere.
+    It is set neither for the object nor for the scene. measurement: of the object, without a density or mass in the
+    options.
     """
     settings = obj.body_moments
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
@@ -109,14 +109,14 @@ def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.ty
 
 
 def is_density_unset(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) -> bool:
-    """Return whether the density of `object_density` is unset, both for the object and for the scene."""
+    """Return whether neither the object nor the scene has set the density that `object_density` returns."""
     return not settings.is_property_set("density") and default_density(scene) is None
 
 
 def density_anchor(obj: bpy.types.Object) -> str:
     """Return the coordinates to which the object's density is fixed: "own", "world" or "".
 
-    If it is fixed to either, it changes as the object gets other axes or moves.
+    With "own", the density changes if the object gets other axes; with "world", if the object moves.
     """
     settings = obj.body_moments
     if settings.mass_from != "DENSITY" or settings.density_from != "POLYNOMIAL":
@@ -125,7 +125,7 @@ def density_anchor(obj: bpy.types.Object) -> str:
 
 
 def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
-    """Return a key of the density of a Volume object.
+    """Return a key of the density of a Volume object, "" if its grid is measured as a solid.
 
     density: as for `GridOptions.from_settings`.
     """

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A part of known mass: given, with or without its center and inertia.
+"""The given center and inertia of a part with a given mass.
 
-Objects and assemblies have these settings alike; they count if the mass is given.
+Objects and assemblies have the same settings for them, which count only if the mass is given.
 """
 
 from typing import NamedTuple
@@ -70,7 +70,7 @@ class GivenPart(NamedTuple):
 
     @classmethod
     def from_settings(cls, settings: PropertyGroup, unit: float) -> "GivenPart":
-        """Return the given part of the settings.
+        """Return the given values in the settings of an object or assembly.
 
         unit: meters per Blender unit.
         """
@@ -88,16 +88,16 @@ class GivenPart(NamedTuple):
 
     @property
     def key(self) -> str:
-        """Text that changes with the settings, "" if nothing is given."""
+        """Text that changes with the given values, "" if there are none."""
         return repr(plain([self.center, self.inertia])) if self else ""
 
 
 def shows_collection(obj: Object) -> bool:
-    """Return whether the object instances a collection: one stays chosen after its instancing was switched off."""
+    """Return whether the object instances a collection; it may keep a chosen collection with instancing off."""
     return obj.instance_type == "COLLECTION" and obj.instance_collection is not None
 
 
 def is_point_mass(obj: Object) -> bool:
     """Return whether an object without any geometry stands for a part of given mass."""
-    settings = getattr(obj, "body_moments", None)  # none where the add-on is not registered
+    settings = getattr(obj, "body_moments", None)  # None if the add-on is not registered
     return obj.type == "EMPTY" and not shows_collection(obj) and settings is not None and settings.mass_from == "MASS"

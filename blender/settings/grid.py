@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The use of a grid: its choice, and the meaning of its values."""
+"""The options of a voxel grid: its name, its use, and the meaning of its values."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class GridOptions(NamedTuple):
     grid: its name, "" for the likeliest. solid: a level set as the solid it bounds. threshold: smallest value inside
     the body, None for all of the grid; filled: with the grid's own density, not with one material. value_density: kg/m³
     of a value of 1; table: a transfer table instead, "" for none. spline_order: 1 voxels, 2 trilinear, 4 cubic.
-    sample_positions: of uneven samples, as `positions_text` writes it.
+    sample_positions: the positions of uneven samples, as `positions_text` writes them.
     """
 
     grid: str = ""
@@ -53,7 +53,7 @@ class GridOptions(NamedTuple):
 
     @property
     def key(self) -> tuple:
-        """Key of all that the numbers depend on."""
+        """Tuple of the options that the results depend on."""
         if self.threshold is not None and not self.filled:
             return self.grid, "threshold", self.threshold, self.spline_order
         values = (self.grid, "solid") if self.solid else (self.grid, self.table or self.value_density)
@@ -62,15 +62,12 @@ class GridOptions(NamedTuple):
         return (*values, self.spline_order) if self.threshold is None else (*values, self.spline_order, self.threshold)
 
     def needs_even_samples(self, grid: str) -> None:
-        """Raise ReadError if samples are uneven.
-
-        grid: its name.
-        """
+        """Raise ReadError about the grid of this name if its samples are uneven."""
         if self.sample_positions:
             raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=grid)
 
     def meaning(self) -> Finding:
-        """Return the meaning of a value."""
+        """Return a note on the conversion of the grid's values to densities."""
         if self.table:
             return finding(VALUES_BY_TABLE, order=self.spline_order)
         return finding(VALUES_SCALED, density=self.value_density, order=self.spline_order)

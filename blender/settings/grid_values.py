@@ -19,9 +19,9 @@ from .grid import GridOptions
 
 
 def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
-    """Return the positions of all samples of the scan along each axis, in voxels.
+    """Return the positions of all samples of the scan along each axis, in voxels, None for even axes.
 
-    grid: its name. ReadError if they are unknown in the box from `low` on.
+    grid: its name. Raises ReadError if the positions do not cover the box from `low` with this shape.
     """
     if not options.sample_positions:
         return EVEN
@@ -39,7 +39,7 @@ def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Seque
 def density_function(options: GridOptions, background: float | None) -> Callable[[NDArray], NDArray]:
     """Return a function from values to densities in kg/m³; it raises ReadError if it cannot convert them.
 
-    The background, if any, is empty, at any value.
+    Values equal to the background, if there is one, have density 0.
     """
     pairs = parse_table(options.table) if options.table else None
 
@@ -68,13 +68,13 @@ def empty_background_note(options: GridOptions, background: float | None) -> tup
 
 
 def positions_text(positions: Positions) -> str:
-    """Return positions as text for an object: in voxels, with the first and last sample's places in Blender."""
+    """Return positions as JSON for an object, in voxels, scaled so that the last sample keeps its place in Blender."""
     known = {axis: (row * ((len(row) - 1) / row[-1])).tolist() for axis, row in zip(AXES, positions) if row is not None}
     return json.dumps(known, separators=(",", ":")) if known else ""
 
 
 def _parsed_positions(text: str) -> dict[str, NDArray[np.float64]] | None:
-    """Return the rows by their axes; None if the text is not from `positions_text`."""
+    """Return the positions by axis, or None if `positions_text` cannot have written the text."""
     try:
         rows = {axis: np.array(row, np.float64) for axis, row in json.loads(text).items()}
     except (ValueError, TypeError, AttributeError, RecursionError):

@@ -12,8 +12,5 @@ VARIABLE = "BODY_MOMENTS_LIMITS"
 
 
 def scan_limits() -> Limits:
-    """Return the limits of this process.
-
-    MeasureError if the variable is not understood.
-    """
+    """Return the limits of this process, or raise MeasureError if the variable cannot be parsed."""
     return Limits.parse(os.environ.get(VARIABLE, ""))

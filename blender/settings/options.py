@@ -20,7 +20,7 @@ class MeasureOptions:
     scene's. order: of the measurement's moments; None for the order that mass properties need. surface: moments of the
     area, too. pose: the principal frame follows the body's shape to sixth order, for any number of faces. compare:
     bodies that need no display mesh are compared with it. axes: moments above third order choose the principal axes if
-    these leave a choice; without, any of the remaining axes may result.
+    lower moments leave a choice; otherwise any of the possible axes may result.
     """
 
     kind: str | None = None

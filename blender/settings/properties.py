@@ -41,7 +41,7 @@ def _forget_material(settings: PropertyGroup, _context: Context | None = None) -
 
 
 def _density_in(unit: str, description: str):
-    """Return the density of an object or a material in a unit, for fields of a panel."""
+    """Return a property that shows and sets the setting `density` in another unit, for fields of a panel."""
     factor, name = DENSITY_UNITS[unit]
     return FloatProperty(
         name="Density ({:s})".format(name),
@@ -335,14 +335,14 @@ class BodyMomentsMaterialSettings(PropertyGroup):
 
 
 def density_field_name(scene: Scene) -> str:
-    """Return the property of an object's or a material's settings for its density in the scene's unit."""
+    """Return the name of the property that shows an object's or a material's density in the scene's unit."""
     return "density_" + density_unit(scene.body_moments.density_unit, scene.unit_settings.system).lower()
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
-    """Copy every setting; return whether anything was different.
+    """Copy COPIED_PROPERTIES; return whether any value was different.
 
-    Settings set in the source are set in the target.
+    A property that is set in the source becomes set in the target, too, even if the values are equal.
     """
     changed = False
     for name in COPIED_PROPERTIES:
@@ -355,12 +355,12 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
 
 
 def _comparable(value):
-    """Return the value; of an array its numbers."""
+    """Return the value in a form that can be compared: an array as its numbers."""
     return value[:] if hasattr(value, "foreach_get") else value
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
-    """Make the options (`measure.MeasureOptions`, SI) that are not None the object's settings."""
+    """Write kind, overlap, density, mass and thickness from `MeasureOptions` into the settings, if not None."""
     for name in ("kind", "overlap"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())

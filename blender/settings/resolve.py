@@ -15,7 +15,7 @@ from .options import AS_SET, MeasureOptions
 
 
 def with_options(options: MeasureOptions, **values: Any) -> Settings:
-    """Return settings of these values, and of the options that no object has settings for."""
+    """Return settings with these values, and with the options for which objects have no settings."""
     return Settings(
         order=options.order,
         surface=options.surface,
@@ -37,7 +37,7 @@ def object_settings(
     properties = obj.body_moments
     density, mass = options.density, options.mass
     unit = unit or options.meters_per_unit(scene)
-    # volumes have no setting for it
+    # Volume objects do not show the setting Kind
     kind = options.kind or ("solid" if obj.type == "VOLUME" else properties.kind.lower())
     if density is None and mass is None:
         if properties.mass_from == "MASS":
@@ -58,6 +58,6 @@ def object_settings(
 
 
 def given_density(obj: Object, scene: Scene, kind: str) -> float:
-    """Return the one density that the object's properties say: kg/m³, of a wire kg/m."""
+    """Return the uniform density in the object's properties, in kg/m³, or for a wire in kg/m."""
     properties = obj.body_moments
     return shortest_decimal(properties.linear_density) if kind == "wire" else object_density(properties, scene)

@@ -109,7 +109,7 @@ class StoredProperties(NamedTuple):
     def of_body(
         cls, body: MassProperties, density: float, volume: float, area: float, error_bound: dict[str, Any]
     ) -> StoredProperties:
-        """Return the numbers of a body."""
+        """Return mass properties as plain numbers, with density, volume, area and error bound."""
         center, entries, moments = body.center.tolist(), body.inertia[ROWS, COLUMNS].tolist(), body.principal.moments
         axes = tuple(map(tuple, body.principal.axes.T.tolist()))
         return cls(
@@ -123,7 +123,7 @@ class StoredProperties(NamedTuple):
 
     @property
     def body(self) -> MassProperties:
-        """The same numbers for computing."""
+        """The same numbers as MassProperties, for computing."""
         xx, yy, zz, xy, xz, yz = self.inertia
         error, moved = (
             {"mass": bound["volume"] * self.density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
@@ -176,7 +176,7 @@ def rotation_axes(turn: Sequence[float]) -> tuple[Vector, ...]:
 def store(obj: Owner, measurement: Measurement) -> None:
     """Write all results on an object, a collection or a pose bone.
 
-    EditRefusedError if it cannot hold them.
+    Raises EditRefusedError if the owner cannot hold them.
     """
     require_storable(obj)
     body, bound = measurement.in_object_frame(), measurement.error_bound
@@ -253,7 +253,7 @@ def _texts(method: Method, found: Iterable[Finding], mark: str) -> dict[str, str
 
 
 def _replace(obj: Owner, values: dict[str, Any]) -> None:
-    """Make these the only results, or leave the earlier ones. The tensor is stored in two ways."""
+    """Replace all results by `values`, or keep the earlier results on failure; add the tensor in two parts."""
     entries = values["body_inertia"]
     values |= {"body_inertia_diagonal": entries[:3], "body_inertia_products": entries[3:]}
     before = {key: obj[key] for key in DESCRIPTIONS if key in obj}
@@ -266,7 +266,7 @@ def _replace(obj: Owner, values: dict[str, Any]) -> None:
 
 
 def _write(obj: Owner, values: dict[str, Any]) -> None:
-    """Make these the only results, in the order of their descriptions."""
+    """Write `values` in the order of DESCRIPTIONS, and delete all other results."""
     for key in DESCRIPTIONS:
         if key in values:
             _set(obj, key, values[key])
@@ -275,7 +275,7 @@ def _write(obj: Owner, values: dict[str, Any]) -> None:
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
-    """Write stored results for another density: the mass and its products change by a factor.
+    """Scale the stored results to another density: mass, inertia and its bounds change by a factor.
 
     The results must be finite, and the owner able to hold them. density: the mean in kg/m³, 0 for a wire. mass: in kg.
     """
@@ -303,9 +303,9 @@ def _description(key: str, owner: type) -> str:
 
 
 def store_reference(obj: Owner, values: dict) -> None:
-    """Write results about a reference, by their keys, beside the others.
+    """Write results about a reference, in place of earlier results about one; other results stay.
 
-    EditRefusedError if the owner cannot hold them.
+    Raises EditRefusedError if the owner cannot hold them.
     """
     require_storable(obj)
     for key in DESCRIPTIONS:
@@ -335,9 +335,9 @@ def clear(obj: Owner) -> bool:
 def retrigger_drivers(obj: Owner) -> None:
     """Make Blender evaluate the drivers that read the stored results, and nothing else.
 
-    Tags do more: TIME evaluates the object's animation, which reverts unkeyed changes; OBJECT, dependents of its place,
-    such as the Booleans that it is an operand of. Setting a property that is only drawn makes Blender copy the object
-    for evaluation, and look at its custom properties then.
+    Tags do more: TIME evaluates the object's animation, which reverts unkeyed changes; OBJECT evaluates dependents of
+    its place, such as Booleans that it is an operand of. If a property is set that is only drawn, Blender copies the
+    object for evaluation, and then looks at its custom properties.
     """
     if isinstance(obj, bpy.types.Collection):
         obj.color_tag = obj.color_tag
@@ -371,7 +371,7 @@ def findings(obj: Owner) -> tuple[Finding, ...]:
 
 
 def store_findings(obj: bpy.types.Object, findings: Sequence[Finding]) -> None:
-    """Store these in the place of the findings that are stored, such as accepted ones."""
+    """Replace the stored findings and warnings, for example after a finding was accepted."""
     obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
 
 
@@ -422,7 +422,7 @@ def is_estimated(obj: bpy.types.Object) -> bool:
 
 
 def optional(obj: Owner, key: str) -> float | None:
-    """Return one of OPTIONAL, None if the object does not carry it."""
+    """Return the result of a key in OPTIONAL, or None if the object does not carry it."""
     value = obj.get(key)
     return value if isinstance(value, float) else None
 
@@ -433,7 +433,7 @@ def density_from(obj: Owner) -> str:
 
 
 def stored(obj: Owner) -> StoredProperties | None:
-    """Return the stored results, in the object frame; None if a number is missing or not finite."""
+    """Return the stored results, in the object frame; None if one is missing or, error bounds aside, not finite."""
     values: list[Any] = []
     for key, length in LENGTHS.items():
         value = obj.get(key)

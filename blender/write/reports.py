@@ -21,12 +21,12 @@ from ...core.verdict.sentences import fill, sentence, severity
 from .findings import FAILURE
 from .units import Units
 
-MAX_REPORTED = 3  # findings of one kind that a report names before it only counts
+MAX_REPORTED = 3  # findings that a report names; it counts the others
 LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "ERROR"}
 
 
 def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
-    """Return an interface text, translated and filled with values as sentences of findings are.
+    """Return an interface text, translated and filled with values in the same way as sentences of findings.
 
     plural: the template for a `count` other than 1.
     """
@@ -58,7 +58,7 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
 
 def unavailable(operator: type[Operator], reason: str) -> bool:
-    """Return False from `poll`, with the reason, a text in English."""
+    """Return False for an operator's `poll`, and give Blender the reason, which is passed in English."""
     operator.poll_message_set(phrase(reason))
     return False
 
@@ -78,7 +78,7 @@ def progress(count: float) -> Iterator[Callable[[float], None]]:
 
 
 def first(parts: Sequence[Any]) -> list[Any]:
-    """Return the first of the most severe findings or texts, and the number of the others."""
+    """Return at most MAX_REPORTED findings or texts, the most severe first, and the number of the others."""
     ranked = sorted(parts, key=lambda part: [*Severity].index(_rank(part)), reverse=True)
     return truncate_findings(ranked, MAX_REPORTED)
 

@@ -44,7 +44,7 @@ ABOUT = ("x", "y", "1", "2")
 
 
 class StoredSection(NamedTuple):
-    """unit: meters per Blender unit when it was measured."""
+    """A stored section; `unit` is in meters per Blender unit at the time of the measurement."""
 
     section: Section
     description: str
@@ -96,7 +96,7 @@ def unit(obj: bpy.types.Object) -> float | None:
 
 
 def stored(obj: bpy.types.Object) -> StoredSection | None:
-    """Return the stored section; None if there is none, or something else under its name."""
+    """Return the stored section; None if there is none, or it is damaged."""
     group = obj.get(KEY)
     if not hasattr(group, "get"):
         return None

@@ -16,7 +16,7 @@ from ...core.files.whole_file import whole_file
 from ...core.fourier.spectrum import Spectrum
 from ...core.measurement.documents import SPECTRUM_ARRAYS
 
-IMAGE_MARK = "body_fourier"  # on the images that are ours to overwrite: their name
+IMAGE_MARK = "body_fourier"  # property of the images that may be overwritten; its value is their name
 DECADES = 6.0  # from white to black
 SLICE_GAP = 2  # pixels between slices
 
@@ -44,8 +44,8 @@ def picture(name: str, values: NDArray[np.complex128], count: int, dimension: in
 
     With two dimensions, on a grid of count², the image shows all of it.
 
-    Gray is log |F|: white at the maximum, black from six decades below on. The first of the axes left runs to the
-    right, the other one upward.
+    Gray is log |F|: white at the maximum, black from six decades below on. The first remaining axis runs to the
+    right, the second upward.
     """
     half = count // 2
     size = np.abs(values).reshape((count,) * dimension)

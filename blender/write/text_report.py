@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
 
-It is made from a document (`documents.document`) alone, and results stored on objects become a document first: so it
-can say all that JSON says. Entries missing in a document are left out.
+It is made from a document (`documents.document`) alone, and results stored on objects become a document first, so
+that the report can state everything that JSON states. Entries missing in a document are left out.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def text(file_document: dict[str, Any]) -> str:
 
 
 def _body(entry: dict[str, Any], frame: str) -> Iterable[str]:
-    """Return the lines of one object, or of a total."""
+    """Yield the lines of one object, or of a total."""
     if "method" in entry:
         walled = any(found["code"] == WALL_MEASURED for found in entry.get("findings", ()))
         _, explanation = METHODS.get(method_key(Method.parse(entry["method"]), walled), ("", ""))
@@ -174,7 +174,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
 
 
 def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:
-    """Return a record without health, which is not stored."""
+    """Return the record of an object's stored results; its health is empty, because it is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
     source = properties.density_from(obj)
@@ -210,7 +210,7 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
     """Return the sum of all stored results as one body, world frame.
 
-    Axes are left out: signs need third moments.
+    Principal axes are left out: their signs need third moments, which are not stored.
     """
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))

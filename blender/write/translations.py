@@ -31,7 +31,7 @@ FOLDER = Path(sys.modules[ADDON_ID].__path__[0]) / "locale"
 # Words that mean something else in Blender's own translations, such as Frame and Order, are looked up under this.
 CONTEXT = "Body Moments"
 
-# A field with the first part of its text, or a further part of it on a line of its own.
+# A line of a .po file: a field with the first part of its text, or a further part of the text alone.
 _PART = r'(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)?\s*(".*")\s*'
 _FUZZY = r"(?m)^#,.*\bfuzzy\b"  # a tool's guess that no translator has confirmed
 
@@ -57,7 +57,7 @@ def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
 
 
 def read_translations(locale: str) -> dict[tuple[str, str], str]:
-    """Return (context, English text) → translation, empty if no file is named like the locale or its language.
+    """Return translations by (context, English text), empty if no file is named like the locale or its language.
 
     Names of operators have a context of their own, so that a text without context stands under each.
     """
@@ -76,7 +76,7 @@ def read_translations(locale: str) -> dict[tuple[str, str], str]:
 def register_language(*_: Any) -> None:
     """Give Blender the translations into the interface's language, if there are any.
 
-    Those of an earlier language may stay, for Blender keeps them apart by locale.
+    Translations into an earlier language may stay, because Blender keeps languages apart by locale.
     """
     locale = bpy.app.translations.locale
     if translations := read_translations(locale):

@@ -77,7 +77,7 @@ MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
 # of reports in SI units
 REPORT_DIGITS = 7  # float32 coordinates carry as many
-ZERO_DISPLAY_RTOL = 2.5e-7  # beside the largest component: what float32 matrices leave of a right angle; shown as 0
+ZERO_DISPLAY_RTOL = 2.5e-7  # of the largest component: float32 matrices miss right angles by as much; shown as 0
 INDENT, REPORT_WIDTH = "  ", 22
 
 
@@ -125,7 +125,7 @@ class Units(NamedTuple):
         return "± {:s} {:s}".format(number(rounded_up(bound / factor), 2, self.grouping), name).rstrip()
 
     def unit(self, quantity: str, value: float) -> tuple[float, str]:
-        """Return (SI value of one unit, its name) to show an SI `value` in."""
+        """Return (SI value of one unit, its name): the unit in which an SI `value` is shown."""
         if self.system == "NONE" and quantity != "density":
             return (self.scale ** POWERS[quantity][1], "") if quantity in POWERS else (1.0, SI_UNITS[quantity])
         if quantity in POWERS:
@@ -161,7 +161,7 @@ class Units(NamedTuple):
 
 
 def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[float, str]) -> tuple[float, str]:
-    """Return the largest unit of which there is at least one, else the smallest; the base for zero."""
+    """Return the largest unit that is at most `value`, else the smallest; the base for zero."""
     if value == 0.0:
         return base
     for unit in units:
@@ -185,7 +185,7 @@ def number(value: float, digits: int = DIGITS, grouping: str = "SPACE") -> str:
 
 
 def column(values: Sequence[float], digits: int = DIGITS, grouping: str = "SPACE") -> list[str]:
-    """Return numbers as text for a column: as many decimals each, with the same power of ten if one is needed.
+    """Return numbers as text for a column, with equally many decimals, and with the same power of ten if needed.
 
     Common trailing zeros are left out. digits: significant digits of the largest number. grouping: one of `GROUPS`.
     """
@@ -221,16 +221,16 @@ def report_line(label: str, value: str, unit: str = "") -> str:
 
 
 def report_number(value: float | None) -> str:
-    """Return an SI number for a report."""
+    """Return an SI number as text for a report, "unknown" for None."""
     return "unknown" if value is None else "{:.{}g}".format(value, REPORT_DIGITS)
 
 
 def report_vector(values: Sequence[float | None], size: float = 0.0) -> str:
-    """Return SI numbers for a report, as `clean` leaves them."""
+    """Return a vector of SI numbers as text for a report, after `clean`."""
     return "({})".format(", ".join(report_number(value) for value in clean(values, size)))
 
 
 def clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """Return the values with 0.0 for rounding beside the largest of them, or beside the body's size."""
+    """Return the values, with 0.0 for those that are only rounding beside the largest value or the body's size."""
     largest = max([size, *(abs(value) for value in values if value is not None)])
     return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Assemblies: each member is measured once, and their masses add up, with exact parallel-axis terms.
 
-The contents of a collection instance weigh as the members do: mass moments are kept apart by the power of the scale
-that their mass grows with, which is 3 for solids, 2 for shells, 1 for wires and 0 for given masses.
+Mass moments are kept apart by the power of an instance's scale that the mass grows with: 3 for solids, 2 for shells,
+1 for wires and 0 for given masses. So a collection instance scales the mass of its members without measuring again.
 """
 
 from __future__ import annotations
@@ -65,11 +65,11 @@ Results = dict[Object, Measured | Stacked | Finding]
 
 @dataclass(frozen=True, eq=False)
 class MemberBody:
-    """Moments of a member of an assembly, SI, world axes.
+    """Moments of a member of an assembly, in SI units along the world's axes.
 
-    `masses`: kg, to third order, by the power of an instance's scale that they grow with; empty if nothing counts.
+    `masses`: mass moments to third order, by the power of an instance's scale that they grow with; empty if no mass.
     `volume`, m³, and `area`, m²: with their bounds.
-    `measured`: the measurement of an object; `refusal`: the reason why it could not be measured.
+    `measured`: the result of an object, with its `measurement`; `refusal`: the reason why it could not be measured.
     `parts`: the members of this member. `findings`: about this member alone, without its parts.
     """
 
@@ -85,11 +85,11 @@ class MemberBody:
 
     @property
     def mass(self) -> Moments | None:
-        """Sum of its mass moments, None if there are none."""
+        """Sum of the mass moments of all powers, None if there are none."""
         return sum_moments(list(self.masses.values())) if self.masses else None
 
     def walk(self) -> Iterator[MemberBody]:
-        """Yield this one and all below it, each before its own members."""
+        """Yield this member and all members below it, each before its own members."""
         yield self
         for part in self.parts:
             yield from part.walk()
@@ -115,7 +115,7 @@ def measure_assembly(root: Root, depsgraph: Depsgraph, options: MeasureOptions =
 def measure_members(
     root: Member, depsgraph: Depsgraph, results: Results, options: MeasureOptions = AS_SET
 ) -> Generator[int, None, None]:
-    """Measure each object of an assembly once, into `results`, in spite of refusals; yield the number done."""
+    """Store the result or refusal of each object of an assembly in `results`; yield the number of results."""
     objects = {member.data: None for member in root.walk() if member.is_measured or _is_sheared(member)}
     for together in measure_many(list(objects), depsgraph, options):
         for obj, outcome in together:
@@ -174,10 +174,10 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
 
 
 def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
-    """Return a key of the results of all measured members, from the fingerprints of the objects' results."""
+    """Return a key of all measured members: their results' fingerprints, their transforms and the point masses."""
     keys = []
     for member in root.walk():
-        if member.kind == MemberKind.POINT:  # an empty with children carries those results, not its own
+        if member.kind == MemberKind.POINT:  # an empty with children stores the results of its assembly
             settings = member.data.body_moments
             keys.append(GivenPart.from_settings(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
         elif member.is_measured:
@@ -202,7 +202,7 @@ def structure_hash(root: Member) -> str:
 
 
 def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
-    """Yield the findings about an assembly: the whole first, then its members by name."""
+    """Yield the findings about an assembly: first about the whole, then about its members, with their names."""
     yield from whole.findings
     members = list(whole.walk())
     refused = [part.member.name for part in members if part.refusal is not None]
@@ -259,7 +259,7 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
 
 
 def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]) -> MemberBody:
-    """Return the member with all these bodies together as its own."""
+    """Return `like` with `parts` and the summed masses, volumes and areas of the bodies that have a mass."""
     bodies = [body for body in bodies if body.masses]
     masses: dict[int, list[Moments]] = {}
     for body in bodies:
@@ -275,7 +275,7 @@ def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody
 
 
 def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
-    """Return a collection, or an empty with its children, with the mass that its settings give it."""
+    """Return the body of a collection, or an empty with children, with the given mass if its settings give one."""
     data = whole.member.data
     settings = settings_of(data)
     if settings.mass_from != "MASS":
@@ -296,12 +296,12 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
 
 
 def _is_sheared(member: Member) -> bool:
-    """Return whether an instance stretches its members, so that no single factor scales their areas."""
+    """Return whether an instance stretches its members unevenly, so that no single factor scales their areas."""
     return member.matrix is not None and not are_similarities(member.matrix[None, :3, :3])[0]
 
 
 def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBody:
-    """Return the body of a collection instance, in the place of the instance."""
+    """Return the body of a collection instance: the moments of its members, mapped to its place, or a refusal."""
     member = whole.member
     assert member.matrix is not None
     matrix = to_si(member.matrix[None], unit)[0]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts whose mass is known: their center and inertia as given, and point masses, which have no geometry.
+"""Parts with a given mass: their given center and inertia, and point masses, which have no geometry.
 
 Given values replace the mass moments of a body: a mass, no first moments about the center, and the second moments of
 the tensor. Volume and area stay as measured.
@@ -30,17 +30,17 @@ from ..findings import CENTER_GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSI
 from ..request import Request
 
 COUNT = monomial_count(KNOWN_ORDER)
-GIVEN_RTOL = 1e-6  # by how much, relatively, a tensor typed with few digits may miss what is possible
+GIVEN_RTOL = 1e-6  # slack for values typed with few digits, relative to the trace or the box
 
 
 def given_moments(
     mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
 ) -> tuple[Moments, list[Finding]]:
-    """Return the mass moments, kg, SI, world axes, about the center, of a part whose mass is known; and the findings.
+    """Return the mass moments (SI, world axes, about the center) of a part with a given mass, and the findings.
 
     `rotation` (3, 3), axes as columns, and `location` (3,), m, are the part's frame, in which `given` is stated.
-    The center, and the inertia scaled to the mass, come from `geometry` if they are not given; without it the part is
-    a point at its origin. Raise ReadError if the mass or the tensor is impossible.
+    A center that is not given comes from `geometry`, and so does the inertia, scaled to the mass; without `geometry`
+    the part is a point at the frame's origin. Raise ReadError if the mass or the tensor is impossible.
     """
     if not mass > 0.0:
         raise ReadError(ZERO_QUANTITY, quantity="mass")
@@ -67,7 +67,7 @@ def given_moments(
 
 
 def _second_moments(inertia: NDArray) -> NDArray[np.float64]:
-    """Return the central second moments of a tensor, or raise ReadError if they are impossible."""
+    """Return the (3, 3) second moments that belong to an inertia tensor, or raise ReadError if no body has it."""
     second = np.trace(inertia) / 2.0 * np.eye(3) - inertia
     values, axes = np.linalg.eigh(second)
     if values[0] < -GIVEN_RTOL * np.trace(inertia) or not np.isfinite(values).all():
@@ -82,7 +82,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
     given = GivenPart.from_settings(request.obj.body_moments, request.settings.unit)
     if not given:
         return body
-    geometry = body.mass or find_extent(body, request.settings)  # refused where there is none
+    geometry = body.mass or find_extent(body, request.settings)  # raises MeasureError if there is no extent
     location = np.asarray(reading.location, np.float64) * request.settings.unit
     mass, findings = given_moments(request.settings.mass, given, reading.rotation, location, geometry)
     if given.center is not None and _is_outside(mass.about, reading, request.settings.unit):
@@ -92,7 +92,7 @@ def with_given(body: Body, reading: Reading, request: Request) -> Body:
 
 
 def _is_outside(point: NDArray, reading: Reading, unit: float) -> bool:
-    """Return whether a point is outside the boxes around all parts of the reading."""
+    """Return whether a point is outside every box around a part of the reading; False if there are no parts."""
     for part in getattr(reading, "parts", ()):
         low, high = part.surface.box
         for matrix in to_si(part.matrices, unit):
@@ -116,7 +116,7 @@ def point_measurement(reading: Reading, request: Request) -> tuple[Measurement, 
     given = GivenPart.from_settings(properties, settings.unit)
     location = np.asarray(reading.location, np.float64) * settings.unit
     rotation = np.asarray(reading.rotation, np.float64)
-    own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass  # no density gives it one
+    own = shortest_decimal(properties.mass) if settings.mass is None else settings.mass  # a point has no density
     mass, findings = given_moments(own, given, rotation, location, None)
     varying = GivenPart.from_settings(properties, 1.0).key
     settings = replace(settings, kind=properties.kind.lower(), density=None, mass=own, varying=varying)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body whose density is a polynomial, and a check that it is not negative in the body.
+"""The mass moments of a body whose density is a polynomial, and a check that no density in the body is negative.
 
 The density's coordinates are meters along the world's axes, or along each surface's own: then the density follows the
 object and each instance, including turns and mirroring.
@@ -31,12 +31,12 @@ from ..body import MeshBody
 from ..findings import DENSITY_NEGATIVE, DENSITY_POSSIBLY_NEGATIVE, SHEARED_DENSITY_AXES, UNION_LACKS
 from ..mesh.instances import group_by_similarity
 
-MAX_CHECKED_INSTANCES = 50  # different places whose points are looked at one by one
+MAX_CHECKED_INSTANCES = 50  # different places of a surface in which the sign of the density is checked
 
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A surface in its places: (k, 4, 4) maps to the world and to the density's coordinates, in meters.
+    """A surface with (k, 4, 4) `matrices` to the world and `fields` to the density's coordinates, in meters.
 
     about: the point that an open surface is closed to.
     """
@@ -95,7 +95,7 @@ def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float)
 
 
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) maps from world coordinates, in meters, to those along the axes of each place."""
+    """Return (k, 4, 4) maps from world coordinates, in meters, to coordinates along the axes of each place."""
     axes = polar_rotation(matrices)[0].transpose(0, 2, 1)
     to_own = translation_matrices(-(axes @ matrices[:, :3, 3, None])[..., 0])
     to_own[:, :3, :3] = axes
@@ -103,7 +103,7 @@ def _to_local(matrices: NDArray) -> NDArray[np.float64]:
 
 
 def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Piece]:
-    """Yield the surfaces themselves, each under similarities only."""
+    """Yield the surfaces before repair; unevenly stretched images become surfaces of their own."""
     for part in reading.parts:
         matrices = to_si(part.matrices, unit)
         fields, axes = local_coordinates(matrices), polar_rotation(matrices)[0]
@@ -121,7 +121,7 @@ def _polynomial(density: DensityField) -> Polynomial:
 
 
 def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
-    """Return a finding if the density may be negative in the body; ReadError if it is."""
+    """Return a finding if the density may be negative in the body; raise ReadError if it is negative."""
     polynomial = _polynomial(density)
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
     boxes = []

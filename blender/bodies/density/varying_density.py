@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body of varying density: by material, polynomial, vertex or volume.
+"""The mass moments of a body of varying density, from materials, a polynomial, a vertex attribute or a Volume object.
 
-Each surface is weighed once in its own coordinates and mapped to its places, as `mesh_body` does with volumes.
+Each surface is weighed once in its own coordinates, and its moments are mapped to its places.
 """
 
 from __future__ import annotations
@@ -52,15 +52,15 @@ from ..request import Request
 from .polynomial_mass import polynomial_mass_result
 from .voxel_filled import filled_by_volume
 
-MAX_NAMED = 8  # materials
+MAX_NAMED = 8  # materials in the note on the source of the density
 
 
 @dataclass(frozen=True, eq=False)
 class _Weighed:
     """Mass of a part or body.
 
-    mass: moments in kg, SI units and world axes. source: of the density. findings: the decisions. materials: full names
-    of all materials met, with a density or without.
+    mass: moments in kg, SI units and world axes. source: a note on the source of the density. findings: about the
+    decisions. materials: full names of all materials met, with a density or without.
     """
 
     mass: Moments
@@ -70,8 +70,8 @@ class _Weighed:
 
 
 def weigh(reading: Reading, body: MeshBody, request: Request) -> MeshBody:
-    """Return the body with its mass and moments to the requested order; MeasureError if a density is impossible."""
-    find_extent(body, request.settings)  # refused before it is weighed
+    """Return the body with mass moments to the requested order, or raise MeasureError if a density is impossible."""
+    find_extent(body, request.settings)  # raises MeasureError before anything is weighed
     order = request.settings.order
     if _field(request).kind == "volume":
         if request.settings.kind == "shell":
@@ -102,13 +102,13 @@ def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _W
 
 
 def _field(request: Request) -> DensityField:
-    """Return the density of a body that is weighed: one that is not one number."""
+    """Return the varying density of the requested body; a uniform density does not come here."""
     assert request.density is not None
     return request.density
 
 
 def _thickness(request: Request) -> float:
-    """Return the factor of area moments, the thickness; 1 for solids."""
+    """Return the thickness of a shell, in m, which is the factor of its area moments; 1 for solids."""
     return request.settings.thickness if request.settings.kind == "shell" else 1.0
 
 
@@ -184,7 +184,7 @@ class _FaceDensities:
         for part in reading.parts:
             slots, faces = part.attributes.materials, part.attributes.face_slots
             known = [material_density(material) for material in slots]
-            # -1 is the last
+            # slot -1, no material, takes the last entry
             table = np.array(
                 [*(default_density if density is None else density for density in known), default_density], float
             )
@@ -218,7 +218,7 @@ class _FaceDensities:
             yield finding(OBJECT_DENSITY_USED, **values)
 
     def source(self) -> Finding:
-        """Return the source of the densities."""
+        """Return a note that names at most MAX_NAMED materials with their densities."""
         known = [(material.name, material_density(material)) for material in self.materials]
         known = [(name, value) for name, value in known if value is not None]
         parts = [finding(DENSITY_OF_MATERIAL, material=name, density=value) for name, value in known]
@@ -228,7 +228,7 @@ class _FaceDensities:
         return finding(DENSITY_FROM_MATERIALS, materials=[part.as_record() for part in parts])
 
     def with_names(self) -> Iterator[tuple[NDArray, NDArray]]:
-        """Yield the densities and the materials' names of the faces of each part."""
+        """Yield (f,) densities and (f,) material names of the mesh faces for each part."""
         for values, (faces, slots) in zip(self.values, self.slots):
             names = np.array([*(material.name if material else "" for material in slots), ""], object)
             yield values, names[faces]
@@ -237,12 +237,12 @@ class _FaceDensities:
 def _solid_moments(
     solid: SolidIntegrals, volume: Moments, matrices: NDArray, values: NDArray, names: NDArray
 ) -> tuple[list[Moments], list[Finding]]:
-    """Return ∫ρ dV of a surface's places by the values of its mesh faces, and findings about its components."""
+    """Return the moments ∫ρ dV of a surface's images by the densities of its faces, and findings about components."""
     components = solid.parts()
     moments, findings = [], []
     has_foreign_material = is_slight = False
     mixed = bool(part_densities(components, values).has_several_materials.any())
-    # a mean by area is that of the areas as they are seen
+    # a mean density by area needs the areas after the map
     for matrix_group in _similarity_groups(matrices) if mixed else [matrices]:
         part_density = part_densities(components, values, matrix_group[0, :3, :3])
         density = part_density.density[components.part]
@@ -259,7 +259,7 @@ def _solid_moments(
 
 
 def _similarity_groups(matrices: NDArray) -> Iterator[NDArray]:
-    """Yield (k, 4, 4) maps in groups of equal area stretch: all similarities, then the places of each uneven map."""
+    """Yield groups of (k, 4, 4) maps that keep ratios of areas: all similarities, then each different uneven map."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield matrices[even]
@@ -283,7 +283,7 @@ def _mixed_parts_notes(
 
 
 def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
-    """Return (n,) checked values of a part's vertices; vertices without faces are not checked."""
+    """Return (n,) densities of a part's vertices; raise ReadError if a vertex with faces has a wrong value."""
     part = reading.parts[i]
     values = part.attributes.vertex_values
     used = np.unique(part.surface.all_triangles()[0])
@@ -297,7 +297,7 @@ def _vertex_density(reading: Reading, i: int, name: str) -> NDArray[np.float64]:
 def _sheet_moments(
     reading: Reading, i: int, values: NDArray, request: Request, order: int, by_vertex: bool = False
 ) -> Iterator[Moments]:
-    """Yield ∫ρ dA of a part's images; `values` are of its mesh faces, or of its vertices and linear between them."""
+    """Yield moments ∫ρ dA of a part's images; `values` are densities of mesh faces, or with `by_vertex` of vertices."""
     part = reading.parts[i]
 
     def measured(surface: Surface) -> Moments:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A solid with the density of a Volume object's grid, each in its own place."""
+"""A solid filled with the density of a Volume object's grid; both objects keep their places."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from ..findings import (
 )
 from ..request import Request
 
-MAX_OUTSIDE_SHARE = 1e-9  # relative to the volume: below this, rounding
+MAX_OUTSIDE_SHARE = 1e-9  # of the volume: a smaller share outside the grid is rounding
 
 
 def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
@@ -49,7 +49,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
             origin = finding(DENSITY_FROM_GRID, grid=volume.grid).of_sources([source.name])
             return replace(filled, density_from=origin)
     except MeasureError as error:
-        if error.subject == name:  # about both together
+        if error.subject == name:  # the error is about the solid already
             raise
         raise ReadError(OBJECT_UNREADABLE, subject=name, object=source.name, cause=error.finding.as_record()) from error
 
@@ -57,7 +57,7 @@ def filled_by_volume(body: MeshBody, request: Request, order: int) -> MeshBody:
 def voxel_filled_body(
     body: MeshBody, reading: VolumeReading, options: GridOptions, unit: float, name: str, order: int
 ) -> MeshBody:
-    """Return the body of the object `name` with the mass moments that the grid gives its inside, to an order."""
+    """Return the body of the object `name` with mass moments to an order, from the grid's densities inside it."""
     names = {"grid": reading.grid, "object": reading.name}
     options.needs_even_samples(reading.grid)
     if body.method.verdict == Verdict.OPEN:
@@ -114,7 +114,7 @@ def _corners(solid: SolidIntegrals, matrix: NDArray) -> NDArray[np.float64]:
 
 
 def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, high: NDArray) -> NDArray[np.float64]:
-    """Return the densities of the voxels from `low` to `high`."""
+    """Return the densities, kg/m³, of the voxels from index `low` up to, but without, `high`."""
     to_densities = density_function(options, reading.background)
     densities = np.zeros(high - low)
     for start, block in reading.blocks():
@@ -129,7 +129,7 @@ def _box_densities(reading: VolumeReading, options: GridOptions, low: NDArray, h
 
 
 def _input_error(body: MeshBody, mass: Moments) -> NDArray[np.float64]:
-    """Return the effect of float32 coordinates: the solid's, by the ratio of largest moments or totals."""
+    """Return the solid's input error, scaled by the ratio of largest moments or of totals, whichever is larger."""
     solid = body.volume if mass.order <= body.volume.order else body.moments(mass.order, False)[0]
     solid = solid.about_point(mass.about).truncate(mass.order)
     scale = np.abs(mass.raw).max() / max(np.abs(solid.raw).max(), np.finfo(float).tiny)

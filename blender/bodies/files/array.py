@@ -43,7 +43,7 @@ class ArrayOptions:
 
     spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit if the file has none;
     density_scale: kg/m³ of a sample of 1; threshold: smallest value inside the body, None for all; limits: of the
-    file's size; positions: files of the samples' positions by axis, in units of unit_scale.
+    file's size; positions: paths of files with the samples' positions, by axis, in units of unit_scale.
     """
 
     spacing: Sequence[float] | None = None
@@ -84,7 +84,7 @@ def measure_array(
 
 
 def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
-    """Return the findings with the positions from files: if all three axes have them, no spacing is missing."""
+    """Return the findings with a note on the positions; without the missing spacing if all axes have positions."""
     unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")
     kept = [one for one in findings if len(files) < 3 or one != unspaced]
     return (*kept, finding(SAMPLES_POSITIONED, axes=sorted(files)))
@@ -121,7 +121,7 @@ def _threshold_body(
     findings: tuple[Finding, ...],
     progress: Callable[[int], None],
 ) -> Body:
-    """Return the body of samples at or above a threshold, of the given density, else of the samples' own."""
+    """Return the body at or above a threshold, filled with the given density, else with the samples as densities."""
     if array.positions:
         raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
     filled = options.density is None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh in a file that is larger than memory as a body, without any object: read in blocks, not repaired."""
+"""The body of a mesh file larger than memory, without any object: read in blocks and not repaired."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class StreamBody(Body):
     threads: int = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments to an order; the file is read again if that is more than is known."""
+        """Return the moments to an order; an order above the stored moments' reads the file again."""
         if order <= self.volume.order and (not area or order <= self.area.order):
             return self.volume.truncate(order), self.area.truncate(order) if area else None
         found = measure_stream(self.mesh, order, order if area else 0, self.threads)
@@ -107,7 +107,7 @@ def _verdict(found: StreamIntegrals) -> Verdict:
 
 
 def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
-    """Return volume and area; a negative volume is reversed, as if its faces were outward."""
+    """Return the moments of volume and area, in SI units; a negative volume is reversed, as if faces were outward."""
     matrix = np.diag([unit, unit, unit, 1.0])
     volume = found.volume * -1.0 if found.volume.total < 0.0 else found.volume
     return volume.transform(matrix), found.area.transform(matrix)

@@ -48,8 +48,8 @@ from ..findings import (
 )
 from ..wire import curves_in_world
 
-FILL_AREA_RTOL = 1e-4  # Blender's fill and the outlines differ by more than this share: the fill is wrong
-# why an object is no body, and why it is no flat shape either: the first of them is what its user has to hear
+FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
+# codes of refusals: the object is no body; it is not flat either, so that the first refusal is shown
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
@@ -60,11 +60,11 @@ class FlatRegion:
     """A region of a plane, in SI units.
 
     `name`, `type`: of the object; `description`: the part of it that was read.
-    `plane`: in the world. `spatial`: (n, 3) points in the world; `points`: (n, 2), the same in the plane.
+    `plane`: its plane, in the world. `spatial`: (n, 3) points in the world; `points`: (n, 2), the same in the plane.
     `edges`: (m, 2) indices; seen from the front, the inside lies to the left of each edge.
     `stored`: largest effect of float32 on a point. `shared`: the length that edges share.
     `drawn_area`: the area that Blender fills, for outlines.
-    `rotation`, `location`: the object frame.
+    `rotation`, `location`: the object's frame.
     `curves`: the outlines in the plane's axes; empty if they are not known.
     """
 
@@ -90,11 +90,11 @@ class FlatRegion:
 
     @cached_property
     def used(self) -> NDArray[np.float64]:
-        """(k, 2) the ends of all edges."""
+        """(k, 2) points that are ends of edges."""
         return self.points[np.unique(self.edges)]
 
     def moments(self, order: int) -> Moments:
-        """Return ∫ x^p y^q dA about the centroid, along the plane's axes from its origin, or raise MeasureError."""
+        """Return the moments ∫ x^p y^q dA about the centroid, along the plane's axes, or raise MeasureError."""
         with np.errstate(over="ignore", invalid="ignore"):
             if self.curves:
                 moments = _curve_moments(self.curves, order, self.rounded, self.stored)
@@ -141,7 +141,7 @@ def flat_region(
 
 
 def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureError:
-    """Return the more helpful of two refusals: as a body, or as a flat shape."""
+    """Return the more helpful of two refusals: that the object is no body, or that it is no flat shape."""
     is_nearly_flat = no_body.finding.code in NO_BODY and not_flat.finding.code not in NOT_FLAT
     return not_flat if is_nearly_flat else no_body
 
@@ -184,7 +184,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
 
 
 def area_findings(found: FlatRegion, area: float) -> list[Finding]:
-    """Return findings that need a region's area: its distance from flat, and a wrong fill by Blender."""
+    """Return findings that need a region's area: about points off the plane, and about a wrong fill by Blender."""
     findings = []
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:
@@ -198,7 +198,7 @@ def area_findings(found: FlatRegion, area: float) -> list[Finding]:
 def _curves(
     obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, reading: SectionReading, plane: Plane, unit: float
 ) -> tuple[tuple[Curve, ...], float] | None:
-    """Return the outlines along the plane's axes and their largest float32 error; None if they touch or are missing."""
+    """Return the outlines along the plane's axes and their float32 error, or None if only the polygons are usable."""
     if reading.loops is None:
         return None
     try:

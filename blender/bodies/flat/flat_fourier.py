@@ -22,7 +22,7 @@ from .flat import area_findings, flat_region
 class FlatTransform:
     """A flat object's transform, in SI units: `steps` does the work, `result` gives the outcome.
 
-    arrays: `axes` of the plane, x and y as rows, and its `origin`, in the world, beside the spectrum.
+    arrays: stored beside the spectrum: `axes` of the plane, x and y as rows, and the `origin` of x and y, in the world.
     """
 
     name: str

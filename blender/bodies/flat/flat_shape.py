@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape of a flat object, seen from its front: its signature, its symmetry, how it lies on another one.
 
-It has no volume and no thickness; a shell is a sheet, a body that may be turned over, and no flat shape.
+A flat shape has no volume and no thickness, and cannot be turned over. A shell is no flat shape but a body.
 """
 
 from __future__ import annotations
@@ -51,17 +51,17 @@ class FlatShape:
 
     @property
     def rotation(self) -> NDArray[np.float64]:
-        """(3, 3) the object frame's axes."""
+        """(3, 3) axes of the object's frame."""
         return self.region.rotation
 
     @property
     def axes(self) -> NDArray[np.float64]:
-        """(3, 3) of the plane: x, y and the normal as columns."""
+        """(3, 3) axes of the plane: x, y and the normal as columns."""
         return self.region.plane.axes
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) the centroid, in the world."""
+        """(3,) centroid, in the world."""
         return self.region.plane.origin + self.axes @ self.moments.about
 
     @property
@@ -71,7 +71,7 @@ class FlatShape:
 
     @cached_property
     def corners(self) -> NDArray[np.float64]:
-        """(k, 2) about the centroid, in the plane."""
+        """(k, 2) ends of the edges, relative to the centroid, in the plane."""
         return self.region.used - self.moments.about[:2]
 
     @property
@@ -80,12 +80,12 @@ class FlatShape:
         return float(np.hypot(*self.corners.T).max())
 
     def zernike(self, radius: float) -> NDArray[np.complex128]:
-        """Return `disc_zernike` in a disc about the centroid, to POSE_ORDER."""
+        """Return the Zernike moments to POSE_ORDER in a disc of this radius about the centroid, by `disc_zernike`."""
         return disc_zernike(self.moments.truncate(POSE_ORDER), radius)
 
     def signature(self, order: int = MAX_DISC_ORDER) -> Signature:
-        """Return the shape's numbers, with descriptors to an order."""
-        # At about unit size, for high powers of a length are soon beyond the range of numbers.
+        """Return the shape's signature, with Zernike descriptors to an order."""
+        # Scaled to about unit size, because high powers of a length soon exceed the range of numbers.
         scale = 2.0 ** np.frexp(self.radius)[1]
         moments = self.moments.truncate(min(order, MAX_DISC_ORDER))
         degree = monomials(moments.order).sum(axis=1)
@@ -102,9 +102,9 @@ class FlatShape:
         )
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield a wall along the outline, across the plane, as high as the shape is large.
+        """Yield one wall along the outline, at right angles to the plane, one `size` high on either side.
 
-        In the plane, the wall is as far away as the outline.
+        A point of the plane is as far from the wall as from the outline.
         """
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size
@@ -123,7 +123,7 @@ class FlatShape:
         return match_flat(*turned, (self.axes, target.axes), residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry that the outline confirms and the one that the moments allow; `tolerance` by the size."""
+        """Return the symmetry of the outline and that of the moments; `tolerance` is relative to the size."""
         zernike, near = self.zernike(self.radius), tolerance * self.size
 
         def distance(points: NDArray) -> NDArray[np.float64]:
@@ -136,7 +136,7 @@ class FlatShape:
 
 
 class OutlineDistance(SurfaceDistance):
-    """A flat shape's outline, to hold points of its plane against."""
+    """Distances of points of the plane from a flat shape's outline."""
 
     def __init__(self, shape: FlatShape):
         super().__init__(shape)
@@ -174,7 +174,7 @@ BodyShape = TypeVar("BodyShape")
 
 
 def comparable_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, flat: bool = False) -> Shape | FlatShape:
-    """Return the shape of an object's body, or of a flat object if it has none or is compared with a `flat` one."""
+    """Return the shape of an object's body, else its flat shape; with `flat`, the flat shape is tried first."""
     return body_or_flat(obj, depsgraph, partial(surface_shape_of, depsgraph=depsgraph), flat)
 
 
@@ -184,7 +184,7 @@ def body_or_flat(
     of_body: Callable[[bpy.types.Object], BodyShape],
     flat: bool,
 ) -> BodyShape | FlatShape:
-    """Return the same as `comparable_shape_of`, by a function that finds a body's shape, or raises MeasureError."""
+    """Return `of_body(obj)`, or the flat shape if the object is no body; with `flat`, the flat shape is tried first."""
     if flat:
         with suppress(MeasureError):
             return flat_shape_of(obj, depsgraph)

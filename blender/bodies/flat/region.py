@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The flat regions that closed curves bound as sheets: from control points, not polygons."""
+"""Flat regions that closed curves bound, as sheets: measured from control points, not polygons."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ MEASURED_AS = frozenset({"shell"})
 class RegionReading(Reading):
     """A curve object, and the region that its curves bound.
 
-    `boundary`: in the world, m; holes run against the outline. `normal`: (3,), of the plane of the curves.
+    `boundary`: in the world, m; holes run against the outline. `normal`: (3,) normal of the curves' plane.
     `stored`: largest effect of float32 on the points, m.
     """
 
@@ -53,14 +53,14 @@ class RegionBody(Body):
     normal: NDArray[np.float64] = field(kw_only=True)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments]:
-        """Return that there is no volume, and the area's moments."""
+        """Return zero moments of the volume, and the moments of the area."""
         volume = Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME)
         of_region = plane_moments(self.boundary, self.normal, order, self.area.about)
         return volume, extend_input_error(of_region, self.area)
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the region that curves bound as a thin shell of one density; None if only Blender's fill shows one."""
+    """Return the region that curves bound; None if it is no thin shell of one density, or only Blender can fill it."""
     obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None

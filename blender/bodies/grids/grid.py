@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Grids of voxels: a density, or for a level set the solid that it bounds."""
+"""Bodies of voxel grids: densities, or the solid that a level set bounds."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ from ..mesh.mesh import mesh_body
 from ..request import Request
 from .threshold import threshold_grid, threshold_grid_body
 
-MEASURED_AS = frozenset({"solid", "shell", "wire"})  # the others to be refused
+MEASURED_AS = frozenset({"solid", "shell", "wire"})  # shells and wires are refused
 
 
 @dataclass(frozen=True, eq=False)
 class GridBody(Body):
     """Samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
 
-    `samples`: one array, or (offset, array) block by block; `shape`: (3,), of the box that holds them.
+    `samples`: one array, or (offset, array) block by block; `shape`: (3,) shape of the box that holds them.
     `background`: a value that counts as empty.
-    `positions`: of the samples along each axis, in place of 0, 1, 2, … if not None.
+    `positions`: positions of the samples along each axis, or None for 0, 1, 2, …
     """
 
     any_order: ClassVar[bool] = True
@@ -159,9 +159,9 @@ def grid_body(
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
-    """Return the blocks of a grid whose box begins at 0 along the axes with positions.
+    """Return the blocks of a grid, with indices from the start of the axis if it has positions, else of the box.
 
-    The thickness of the outer samples depends on their neighbors.
+    All positions of an axis are needed, because the thickness of an outer sample depends on its neighbors.
     """
     offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
 
@@ -188,7 +188,7 @@ def density_body(
     """Return the body of samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
 
     background: a value that counts as empty. progress: called with the number of samples about to be read. order: of
-    the wanted mass moments. positions: of samples along an axis, in place of 0, 1, 2, …
+    the wanted mass moments. positions: of the samples along each axis, None for 0, 1, 2, …
     """
     if min(shape) < 1:
         raise ReadError(GRID_EMPTY)

@@ -42,7 +42,7 @@ TRILINEAR = 2
 
 @dataclass(frozen=True, eq=False)
 class ThresholdGrid:
-    """The values of a grid, dense, and their places.
+    """A dense array of grid values, and their places.
 
     `values`: (nx, ny, nz); the value (i, j, k) stands at matrix @ (i, j, k, 1), in meters.
     `background`: the value beyond the grid; None if it is not known.
@@ -56,7 +56,7 @@ class ThresholdGrid:
     value: Callable[[NDArray], NDArray[np.float64]] | None = None
 
     def coarse(self) -> ThresholdGrid:
-        """Return every second, third, … value of each axis, so that few enough are left to follow a slider."""
+        """Return the grid with every n-th value of each axis, coarse enough to follow a slider."""
         step = int(np.ceil((self.values.size / PREVIEW_CELLS) ** (1.0 / 3.0)))
         if step <= 1:
             return self

@@ -58,7 +58,7 @@ def _identity(result: Finding) -> tuple[Finding, object]:
 
 
 def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], comparison: PlaceComparison) -> list[Finding]:
-    """Return findings about places that overlap or contain each other: faces as [face, source], each once."""
+    """Return findings about places that overlap or contain each other, with [face, source name] as elements."""
     findings = []
     for code, components, slight in (
         (COMPONENTS_NESTED, comparison.nested, comparison.nested_slightly),
@@ -77,7 +77,7 @@ def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], compari
 
 
 def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth:
-    """Return the health with the components that are in others, or overlap others, in another place."""
+    """Return the health that also counts components inside, or overlapping, components of another place."""
     return replace(
         health,
         nested_components=health.nested_components + len(comparison.nested),
@@ -127,10 +127,10 @@ def area_of_instances(
 
 
 def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
-    """Yield a surface's images as images under similarities, of the surface itself or of mapped surfaces.
+    """Yield (surface, maps, indices): the images of a surface as similar images of itself or of mapped surfaces.
 
-    There is one mapped surface for each different uneven map. Each comes with the (j, 4, 4) maps that are left and the
-    (j,) indices of `matrices` that they stand for.
+    There is one mapped surface for each different uneven map. The maps are (j, 4, 4) similarities; the (j,) indices
+    tell the rows of `matrices` that they stand for.
     """
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
@@ -143,7 +143,7 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """Return the added health of parts, each with its number of instances and area; faults of a single part only."""
+    """Return the summed health of parts, (health, instances, area) each; elements with faults of a single part only."""
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:

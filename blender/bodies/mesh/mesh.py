@@ -196,13 +196,13 @@ def _single_surface_body(
 
 
 def _drawn(reading: Reading) -> set[str]:
-    """Return the names of the sources of round shapes that Blender draws as polygons."""
+    """Return the names of the objects with round shapes that Blender draws as polygons."""
     results = [result for result in reading.findings if result.code == DRAWN_AS_POLYGONS]
     return {name for result in results for name in result.values.get("sources", ["", reading.name])}
 
 
 def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str]) -> list[Finding]:
-    """Return findings; non-planar faces count as the display mesh's if all parts are drawn round shapes."""
+    """Return the findings; if all parts are drawn round shapes, non-planar faces are ascribed to the display mesh."""
     if not drawn.issuperset([part.source_object_name for part in parts]):
         return list(findings)
     of_display_mesh = NON_PLANAR_FACES_OF_DISPLAY_MESH
@@ -210,7 +210,7 @@ def _of_drawn(findings: Iterable[Finding], parts: Iterable[Part], drawn: set[str
 
 
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
-    """Return all parts in their places as one surface, overlaps removed by Blender's exact boolean."""
+    """Return the body of all parts in their places, united by Blender's exact Boolean if they have a volume."""
     before = _sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before

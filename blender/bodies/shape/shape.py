@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An object's shape, apart from its place: its pose, its symmetry, its signature.
 
-They need moments of higher order than a measurement carries, of the same body: the solid, or the sheet of a shell.
+All three need moments of higher order than a measurement has, of the same body: the solid, or the sheet of a shell.
 """
 
 from __future__ import annotations
@@ -47,16 +47,16 @@ from ..findings import (
 )
 from ..measure_object import THREADS, Measured, measure_body
 
-# Relative to the size: between them single precision mistakes the distances of thin triangles.
+# Relative to the size: distances between these two are wrong for thin triangles in single precision.
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
-SURFACE_SAMPLES = 1500  # points of a surface that are held against another one
+SURFACE_SAMPLES = 1500  # points of a surface whose distances from another surface are found
 POINTS_PER_BATCH = 64  # points whose distances are found at once
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
 
 @dataclass(frozen=True)
 class Shape:
-    """An object as measured, in SI units and world axes, with a shape by its moments of higher order."""
+    """The shape of a measured object, in SI units and world axes, by its moments of higher order."""
 
     measurement: Measurement
     body: Body
@@ -64,7 +64,7 @@ class Shape:
 
     @property
     def rotation(self) -> NDArray[np.float64]:
-        """(3, 3) the object frame's axes."""
+        """(3, 3) axes of the object's frame."""
         return self.measurement.rotation
 
     @property
@@ -79,7 +79,7 @@ class Shape:
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) of the shape; not the center of mass if the density varies."""
+        """(3,) center of the shape, which is not the center of mass if the density varies."""
         return self.moments.about
 
     @property
@@ -99,7 +99,7 @@ class Shape:
         return with_input_error(found, known).about_center()
 
     def piece_moments(self) -> Moments:
-        """Return moments as in `moments`, of the polygons alone, for comparisons with them."""
+        """Return moments like `moments`, but of the polygons, which stand for a smooth surface in comparisons."""
         if not is_display_mesh(self.measurement):
             return self.moments
         volume, area = polyhedron_moments(
@@ -149,7 +149,7 @@ class Shape:
         """Return Zernike descriptors of polygons to `order`, by quadrature above 20 and if raw moments lose digits."""
         points = self.points_about_center()
         radius = float(np.sqrt((points * points).sum(axis=1).max()))
-        # About the center at about unit size, for high powers of a length are soon beyond the range of numbers.
+        # About the center and at about unit size, because high powers of a length soon exceed the range of numbers.
         scale = 2.0 ** frexp(radius)[1]  # a power of two rounds nothing
         radius /= scale
         sheets = self._sheets
@@ -179,15 +179,15 @@ class Shape:
         return match(self.moments, target.moments, residual, target.size)
 
     def find_symmetries(self, skin: SurfaceDistance, tolerance: float) -> tuple[Symmetry, Symmetry]:
-        """Return the symmetry that the surface confirms and the one that the moments allow; `tolerance` by the size."""
+        """Return the symmetry of the surface and that of the moments; `tolerance` is relative to the size."""
         moments = self.piece_moments()
-        # Moments are looked at as loosely as the surface.
+        # The tolerance for moments is the same as for the surface.
         allowed = symmetry(moments, max(NOISE_LEVEL, tolerance))
         near = tolerance * self.size
         return confirm(allowed, moments.about, skin.points, partial(skin.distance, within=near), near), allowed
 
     def points_about_center(self) -> NDArray[np.float64]:
-        """Return (n, 3) corners of all faces."""
+        """Return (n, 3) corners of all faces, relative to the center."""
         points = []
         for piece in self.pieces():
             triangles = piece.all_triangles()[0]
@@ -211,7 +211,7 @@ class NoShapeError(ReadError):
 
 
 def surface_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> Shape:
-    """Return the same as `shape_of`, for bodies with polygons only, in threads."""
+    """Measure an object in threads and return its shape, or raise MeasureError if it has no shape or no polygons."""
     return surface_shape(measure_body(obj, depsgraph, SURFACE_OPTIONS))
 
 
@@ -246,7 +246,7 @@ def _shape_of_measured(measured: Measured, threads: int) -> Shape:
 
 
 class Registered(Protocol):
-    """A shape that is laid onto others of its kind: a `Shape`, or a flat one."""
+    """A shape that can be laid onto shapes of its kind: a `Shape` or a `FlatShape`."""
 
     @property
     def center(self) -> NDArray[np.float64]: ...
@@ -257,7 +257,7 @@ class Registered(Protocol):
 
 
 class SurfaceDistance:
-    """A shape's surface, to measure distances of points from after `build`.
+    """Distances of points from a shape's surface, available after `build`.
 
     Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its points are about the
     center and in units of the size.
@@ -314,7 +314,7 @@ class SurfaceDistance:
 
 
 def _as_tuples(array: NDArray) -> list[tuple]:
-    """Return the rows as `tolist` does, but as tuples, which the garbage collector does not visit again and again."""
+    """Return a list of the rows as tuples, which the garbage collector does not visit again and again like lists."""
     return list(zip(*array.T.tolist()))
 
 
@@ -325,7 +325,7 @@ def register_surfaces(
     target_skin: SurfaceDistance,
     scale: float = 1.0,
 ) -> RigidMatch:
-    """Return the motion that lays a scaled shape onto another one, by the distances of their surfaces (skins)."""
+    """Return the motion that lays a scaled shape onto another one, by the distances between their surfaces."""
 
     def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
         source_points, target_points = (

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The signatures of many objects: in batches if they were measured so, one per shape that several objects show."""
+"""The signatures of many objects: in batches for objects measured in a stack, one for each shape they share."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .shape import EXACT_DISTANCE, SURFACE_OPTIONS, Shape, surface_shape, surfac
 def signed_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, order: int
 ) -> Callable[[bpy.types.Object], Signature | Shape]:
-    """Return a function that finds objects' signatures to an order one by one, or the shape of one measured alone."""
+    """Return a function from an object to its signature to an order, or to its `Shape` if it was measured alone."""
     measured = measured_in_turn(objects, depsgraph, SURFACE_OPTIONS)
     known: dict[MeasuredStack, list[Signature | None]] = {}
 
@@ -43,14 +43,14 @@ def signed_in_turn(
 
 
 def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]:
-    """Return signatures of objects measured together; None for repaired, distant or ill-conditioned ones."""
+    """Return the signatures of a stack's members, None for repaired, distant or ill-conditioned members."""
     found: list[Signature | None] = [None] * len(stack.members)
     linear = np.array([member.matrix[:3, :3] for member in stack.members])
     is_even, determinant = are_similarities(linear), np.linalg.det(linear)
     solids = next((member.shape.solids for member in stack.members if member.shape.solids is not None), None)
     if solids is None:
         return found
-    # A body is a shape, in its own coordinates, or one object's that is mapped unevenly.
+    # A body is a shape in its own coordinates, or the unevenly mapped shape of a single object.
     body_of: dict[tuple[int, int], int] = {}
     rows, maps, of_member = [], [], {}
     for i, member in enumerate(stack.members):
@@ -80,7 +80,7 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 def _signatures(
     stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
 ) -> tuple[list[Signature], NDArray[np.float64]]:
-    """Return the signatures of surfaces after linear maps, in units of a length of each, and these lengths."""
+    """Return the signatures of linearly mapped surfaces, in units of a length for each surface, and these lengths."""
     points, triangles, first = [], [], 0
     for row, linear, center in zip(rows.tolist(), maps, centers):
         start, begin = stack.first_point[row], stack.first_triangle[row]
@@ -93,7 +93,7 @@ def _signatures(
     starts = segment_starts(point_counts)
     places = np.concatenate(points)
     radius = np.sqrt(np.maximum.reduceat((places * places).sum(axis=1), starts))
-    scale = 2.0 ** np.frexp(radius)[1]  # a power of two rounds nothing; high powers of a length exceed the numbers
+    scale = 2.0 ** np.frexp(radius)[1]  # a power of two rounds nothing
     places /= np.repeat(scale, point_counts)[:, None]
     reach, nothing = np.maximum.reduceat(np.abs(places), starts), np.zeros((len(rows), 3))
     joined = np.concatenate(triangles)

@@ -5,7 +5,7 @@
 Both ways give the same numbers.
 
 An object joins no stack if it shows more than one mesh in one place, is no solid, is large, or has a varying density:
-`measure_body` measures it. Refused objects go there, too, for the reason.
+`measure_body` measures it. It also gets the refused objects, to find the reason.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function that measures ahead in batches and yields one object's measurement at a time, in order."""
+    """Return a function that measures in batches; called with each object in order, it returns its measurement."""
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 
@@ -87,7 +87,7 @@ def _outcomes(
 
 
 class _Collector:
-    """Objects that are measured together."""
+    """A collector of objects that are measured together."""
 
     def __init__(self, depsgraph: bpy.types.Depsgraph, options: MeasureOptions):
         self.depsgraph, self.options, self.scene = depsgraph, options, depsgraph.scene
@@ -100,7 +100,7 @@ class _Collector:
         self._digests: dict[Settings, str] = {}
 
     def add(self, obj: bpy.types.Object) -> StackMember | None:
-        """Return the object as one of the stack; None if it cannot be, or reading fails: by itself it fails again."""
+        """Return the object as a member of the stack, or None if it cannot be stacked or read."""
         try:
             return self._member(obj)
         except Exception:
@@ -133,7 +133,7 @@ class _Collector:
         return member
 
     def _settings_of(self, obj: bpy.types.Object) -> Settings | None:
-        """Return the settings of a solid of one density or mass; None of others."""
+        """Return the settings of a solid of one density or mass, or None for other objects."""
         options, properties = self.options, obj.body_moments
         if options.order is not None:
             return None
@@ -168,7 +168,7 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """Return the stacked measurements by number; none if the stack fails: each object is then measured alone."""
+        """Return stacked measurements by member number; none if the stack fails, then objects are measured alone."""
         try:
             stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:

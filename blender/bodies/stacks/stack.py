@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The measurements of many objects, each a solid of one shape in one place, computed together.
 
-A shape is a mesh in its own coordinates, however many objects show it: closed ones are measured together, others are
-repaired and measured alone, and axes are found once. Objects are a shape, a place and a density or mass.
+A shape is a mesh in its own coordinates, however many objects show it. Small shapes that are closed or can be capped
+are measured together, all others are repaired and measured alone. An object is a shape, a place and a density or mass.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ METHODS = {verdict: Method(verdict) for verdict in Verdict}
 class MeshShape:
     """A mesh in its own coordinates, and its measurement.
 
-    `row`: index in the stacks of moments; `solids`: the stack that the mesh was measured with, at the same row.
+    `row`: index in the stacks of moments; `solids`: the stack in which the mesh was measured, at the same row.
     `alone`: the integrals of a mesh that was measured by itself.
     """
 
@@ -77,7 +77,7 @@ class MeshShape:
         return surface_digest(self.surface, self.face_count)
 
     def sixth_order(self) -> Moments:
-        """Return the volume's moments that axes are found by, of one that was measured by itself."""
+        """Return the volume's moments to the order that axes need, for a mesh that was measured by itself."""
         solid = self.alone
         assert solid is not None
         found = polyhedron_moments(
@@ -87,7 +87,7 @@ class MeshShape:
 
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
-    """Measure shapes of finite points in their own coordinates: volumes to third order and areas, stacked by row."""
+    """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
     small = [shape for shape in shapes if can_be_stacked(shape.surface)]
     volumes: list[Moments] = []
     areas: list[Moments] = []
@@ -120,9 +120,9 @@ def _join_moments(stacks: list[Moments]) -> Moments:
 class StackMember:
     """An object that may join a stack.
 
-    `number`: index among the collected objects. `digest`: of the settings.
-    `matrix`: (4, 4), world from the mesh's coordinates, Blender units.
-    `location`, `quaternion`: the object frame.
+    `number`: index among the collected objects. `digest`: digest of the settings.
+    `matrix`: (4, 4) map from the mesh's coordinates to the world, Blender units.
+    `location`, `quaternion`: the object's frame.
     """
 
     number: int
@@ -140,7 +140,7 @@ class MeasuredStack:
     """The measurements of many objects, in SI units and world axes; arrays have one row for each object.
 
     `from_mass`: true if the density, kg/m³, follows from a given mass.
-    `stretch`: factors of the shapes' volumes.
+    `stretch`: ratio of the object's volume to its shape's.
     `rotation`, `location`: (n, 3, 3) and (n, 3), the object frames.
     """
 
@@ -173,7 +173,7 @@ class MeasuredStack:
 
     @cached_property
     def error_bounds(self) -> NDArray[np.float64]:
-        """(n, 2, 4) of rounding and of float32 coordinates: volume, area, center, inertia."""
+        """(n, 2, 4) bounds, by rounding and by float32 coordinates, of volume, area, center and inertia."""
         volume, area, properties = self.volume, self.area, self.mass_properties
         rounding, moved = properties.rounding_error, properties.input_error
         bounds = (
@@ -243,7 +243,7 @@ class Stacked:
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
-    """Measure objects of one unit together if shapes and numbers are certain; None if there are no such objects."""
+    """Return a stack of the members with certain shapes and numbers, or None; all members must have the same unit."""
     unit, axes = members[0].settings.unit, members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
@@ -325,14 +325,14 @@ def _chosen(members: list[StackMember], which: NDArray) -> list[StackMember]:
 
 
 def _placed(moments: Moments, matrices: NDArray) -> Moments:
-    """Return the images about the images of their reference points, as `sum_of_images` gives them."""
+    """Return the moments of the images, each about the image of its reference point."""
     linear, about = matrices[:, :3, :3], moments.about
     center = linear[..., 0] * about[:, :1] + linear[..., 1] * about[:, 1:2] + linear[..., 2] * about[:, 2:]
     return image(moments, matrices, center + matrices[:, :3, 3])
 
 
 def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Moments:
-    """Return the areas of the images; if a matrix is no similarity, those of the mapped surfaces."""
+    """Return the areas of the images; if a matrix is no similarity, the mapped surface is measured."""
     even = are_similarities(matrices[:, :3, :3])
     if even.all():
         return _placed(area, matrices)

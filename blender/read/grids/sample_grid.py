@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One grid of a volume by the node Sample Grid, for Blender without the openvdb module.
+"""A grid of a volume, read by the node Sample Grid if Blender has no openvdb module.
 
-A mesh with a vertex at the center of each voxel stores there, by a node tree, the value of the nearest voxel of the
-volume: the same values to the bit. Mesh, tree and a scene to evaluate them in live for this reading only, so that
-nothing of the user's scene is changed or evaluated anew. The extent is that of Blender's bounding box; empty space
-is not known before it is sampled.
+A mesh has a vertex at the center of each voxel, and a node tree stores the value of the nearest voxel at each vertex:
+the same values to the bit. Mesh, tree and the scene that evaluates them exist for this reading only, so that nothing in
+the user's scene is changed or evaluated anew. The extent is Blender's bounding box; empty space is not known before it
+is sampled.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class SampledGrid:
 
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
-        """Yield a function from the first voxel of a block and its shape to the values."""
+        """Yield a function that takes the first voxel of a block and its shape, and returns the values."""
         made = []
 
         def keep(collection, block):
@@ -111,11 +111,11 @@ class SampledGrid:
 
 
 def _layer_at_frame_of(shown, scene):
-    """Return a view layer of an empty scene that is now at the frame of the displayed one.
+    """Set an empty scene to the frame of the displayed scene, and return a new view layer of it.
 
     Setting `frame_current` makes Blender evaluate the animation of every scene, and so revert unkeyed changes;
-    `frame_set` evaluates this scene alone, but calls handlers, which need not know. The new layer has not been
-    evaluated: else its next content would be reported as changed.
+    `frame_set` evaluates this scene alone, but calls handlers, so they are removed meanwhile. The layer is new because
+    the next content of an evaluated layer would be reported as changed.
     """
     handlers = [getattr(bpy.app.handlers, name) for name in ("frame_change_pre", "frame_change_post")]
     kept = [functions[:] for functions in handlers]

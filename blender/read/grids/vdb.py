@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One grid of a volume by Blender's openvdb module, block by block without the empty space.
+"""A grid of a volume, read by Blender's openvdb module in blocks, without the empty space.
 
 An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth of a value shows whether its node of 128 exists at
 all, so the empty rest of a sparse grid costs nothing.
@@ -25,7 +25,7 @@ from ..findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TOO_LARGE, GRID_
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes
 MAX_ROOTS = 100_000
-MAX_INDEX = 1 << 29  # an index from which on the module fails without a word
+MAX_INDEX = 1 << 29  # above this index the module fails silently
 DTYPES = {"float": np.float32, "double": np.float64, "int32": np.int32, "int64": np.int64, "bool": np.bool_}
 
 
@@ -44,12 +44,12 @@ def openvdb() -> ModuleType | None:
 class VdbGrid:
     """A grid of a .vdb file.
 
-    low, shape: (3,) the box of its active voxels, in voxels. background: value of all others. level_set: the file calls
-    it one. to_object: (4, 4) from voxels. ReadError if it cannot be measured.
+    low, shape: (3,) the box of its active voxels, in voxels. background: value of all other voxels. level_set: true if
+    the file marks the grid as one. to_object: (4, 4) from voxels. Raises ReadError if the grid cannot be measured.
     """
 
     def __init__(self, path: str, name: str) -> None:
-        module = cast("ModuleType", openvdb())  # whoever makes one has seen that it is there
+        module = cast("ModuleType", openvdb())  # callers have checked that there is a module
         try:
             self._grid = module.read(path, name)
         except (RuntimeError, KeyError, TypeError, OSError) as error:
@@ -102,7 +102,7 @@ class VdbGrid:
 
     def polygons(self) -> Surface:
         """Return the zero surface of a level set, in the object's coordinates, facing outward."""
-        points, _triangles, quads = self._grid.convertToPolygons()  # there are quads alone unless it adapts
+        points, _triangles, quads = self._grid.convertToPolygons()  # only quads without adaptivity
         return Surface(np.ascontiguousarray(points, np.float32), quads=np.ascontiguousarray(quads[:, ::-1], np.int32))
 
 

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A grid of voxels as an object shows it: of a Volume object, or of any that its nodes turn into a volume.
+"""The grid of voxels that an object shows: a Volume object, or an object that nodes turn into a volume.
 
-Blender gives voxels only as a file or through nodes. Grids that Blender has read from a .vdb file and not changed are
-read from that file; other grids are written, if its openvdb module can read them again, to Blender's temporary folder
-for as long as the reading lasts; else they are sampled by nodes.
+Blender gives voxels only as a file or through nodes. With its openvdb module, grids that Blender has read from a .vdb
+file and not changed are read from that file; other grids are written to Blender's temporary folder for as long as the
+reading lasts. Without the module, all grids are sampled by nodes.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class VolumeReading(Reading):
 
 @contextmanager
 def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | None]:
-    """Yield the named grid, else “density” or the first possible; None if the object shows polygons or no volume."""
+    """Yield the named grid, else “density” or the first scalar grid; None if polygons or no volume are shown."""
     obj = obj.original
     volume = _volume(obj, depsgraph)
     if volume is None:
@@ -105,7 +105,7 @@ def volume_reading(obj, depsgraph, grid: str = "") -> Iterator[VolumeReading | N
 
 
 def _volume(obj, depsgraph):
-    """Return the evaluated volume with its grids loaded, or None."""
+    """Return the evaluated volume with its grids loaded; None if the object shows polygons or no volume."""
     if obj.type not in {"VOLUME", "MESH", "CURVE", "FONT", "SURFACE", "POINTCLOUD", "CURVES"}:
         return None
     evaluated = obj.evaluated_get(depsgraph)
@@ -140,7 +140,7 @@ class _OwnedVolume:
 
 
 def _choose_grid(obj, volume: _OwnedVolume, name: str, findings: list[Finding]):
-    """Return the grid of that name, or the one that is meant most likely."""
+    """Return the grid of that name, or if the name is empty “density”, else the first scalar grid."""
     grids = {grid.name: grid for grid in volume.data.grids}
     if len(grids) < len(volume.data.grids):
         findings.append(finding(GRID_NAMES_REPEATED))

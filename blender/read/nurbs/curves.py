@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight ones.
+"""The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight splines.
 
-Blender's geometry set has the curves that are shown without a surface, after modifiers and shape keys. Of beveled
-curves it has the mesh alone, and they come from the splines.
+Blender's geometry set has the curves that are shown without a surface, after modifiers and shape keys. For beveled
+curves it has the mesh alone, so that they are read from the splines.
 """
 
 from __future__ import annotations
@@ -23,15 +23,15 @@ from ..visibility import evaluated_geometry
 from .deformation import deform, is_deformed, spline_modifiers
 from .splines import weighted_points
 
-STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 bends a straight line as much
+STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straight line by as much
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set
-CUSTOM_KNOTS_MODE = 4  # the mode of knots that are none of those that the flags make
-# a point; of the length; of the largest coordinate, at each step
+CUSTOM_KNOTS_MODE = 4  # the mode of custom knots, which no flags describe
+# steps per point, then tolerances: relative to the length, and for each step to the largest coordinate
 STEPS_PER_POINT, SAME_LENGTH_RTOL, AGREEMENT_RTOL = 8, 1e-4, 1e-7
 
 
 def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
-    """Return the curves of an evaluated curve object in its own coordinates, and the decisions, or raise ReadError."""
+    """Return the curves of an evaluated curve object in its own coordinates, and the findings, or raise ReadError."""
     obj = obj.original
     geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its curves
     shown = geometry.curves
@@ -54,7 +54,7 @@ def read_curves(obj, depsgraph) -> tuple[list[Curve], list[Finding]]:
 
 
 def text_curves(obj, depsgraph) -> list[Curve]:
-    """Return the outlines of a text object in its own coordinates, as its font has them, or raise ReadError."""
+    """Return the outlines of a text object as curves of its font, in its own coordinates, or raise ReadError."""
     try:
         curves = [_curve(*_kind(spline), _control_points(spline), None) for spline in obj.to_curve(depsgraph).splines]
     finally:
@@ -77,7 +77,7 @@ def is_round(obj) -> bool:
 
 
 def _is_straight(spline) -> bool:
-    """Return whether a spline has no bend but at its points."""
+    """Return whether a spline is straight between its points."""
     if spline.type == "POLY" or (spline.type == "NURBS" and spline.order_u == 2):
         return True
     pieces = _control_points(spline)[None]
@@ -99,7 +99,7 @@ def _kind(spline) -> tuple[str, bool, int, bool, bool]:
 
 
 def _control_points(spline) -> NDArray[np.float64]:
-    """Return (n, 3) points in the order in which Blender counts them; of a Bézier point both handles, around it."""
+    """Return (n, 3) points in Blender's order; a Bézier point counts as left handle, point and right handle."""
     if spline.type != "BEZIER":
         return weighted_points(spline)[:, :3].astype(np.float64)
     coordinates = np.empty((3, 3 * len(spline.bezier_points)), np.float32)
@@ -109,7 +109,7 @@ def _control_points(spline) -> NDArray[np.float64]:
 
 
 def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
-    """Yield the splines as curves, moved by shape keys and hooks; None for anything else."""
+    """Yield the splines as curves, moved by shape keys and hooks; None for splines that are too short."""
     name, splines = evaluated.original.name, list(evaluated.data.splines)
     if not splines:
         return
@@ -128,7 +128,7 @@ def _spline_curves(evaluated, depsgraph) -> Iterator[Curve | None]:
 
 
 def _has_known_knots(spline, curve: Curve | None) -> bool:
-    """Return whether the knots follow from a spline's settings: else Blender finds another length."""
+    """Return whether a spline's knots follow from its settings: then Blender finds the same length."""
     if curve is None:
         return True
     low, high = curve.space.domain
@@ -142,7 +142,7 @@ def _has_known_knots(spline, curve: Curve | None) -> bool:
 
 
 def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
-    """Yield the curves of a geometry set, None for anything else."""
+    """Yield the curves of a geometry set; None for curves that are too short."""
     count = len(curves.points)
     positions, left, right = (
         _values(curves, attribute, "vector", (count, 3)) for attribute in ("position", "handle_left", "handle_right")
@@ -176,13 +176,13 @@ def _shown_curves(curves, name: str) -> Iterator[Curve | None]:
 
 
 def _catmull_rom(points: NDArray, cyclic: bool) -> NDArray[np.float64]:
-    """Return (n, 3) handles of the equal Bézier curve: a third of the slope, half the way from neighbor to neighbor."""
+    """Return (n, 3) offsets to the handles of the equal Bézier curve: a sixth of the way from neighbor to neighbor."""
     around = np.pad(points, ((1, 1), (0, 0)), "wrap" if cyclic else "edge")
     return (around[2:] - around[:-2]) / 6.0
 
 
 def _values(curves, name: str, item: str, shape: tuple[int, int], default: float = 0.0) -> NDArray[np.float64]:
-    """Return an attribute of the points or the curves; the default if there is none."""
+    """Return an attribute of the points or the curves as an array, filled with the default if there is none."""
     if name not in curves.attributes:
         return np.full(shape, default)
     attribute = curves.attributes[name]
@@ -224,7 +224,7 @@ def _curve(
 
 
 def _join_knots(pieces: int, order: int) -> Iterator[float]:
-    """Yield the knots of Bézier pieces that follow each other."""
+    """Yield the knots of a chain of Bézier pieces."""
     yield 0.0
     for piece in range(pieces + 1):
         yield from (float(piece),) * (order - 1)

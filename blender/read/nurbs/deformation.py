@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control points as shape keys and hooks leave them.
+"""Control points, moved by shape keys and hooks.
 
 Blender evaluates a spline's shape keys and hooks into a copy that no interface shows: `evaluated.data.splines` has
-animated points, but none that a key or a hook has moved. So both are done here, as key.cc and MOD_hook.cc do them, in
-float64; whoever reads splines compares the outcome with the display mesh.
+animated points, but without the effect of keys and hooks. So both are applied here, by the formulas of key.cc and
+MOD_hook.cc in float64, and the readers of surfaces compare the patches with the display mesh.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from ....core.verdict.finding import ReadError
 from ..findings import SCALE_ZERO_AXIS
 from ..reading import float64_matrix
 
-# These move control points whatever their switch says (curve_get_tessellate_point in displist.cc); others only with
-# `use_apply_on_spline`, and only in front of the first one that makes a mesh.
+# These move control points whatever their switch says (curve_get_tessellate_point in displist.cc); other modifiers only
+# with `use_apply_on_spline`. None does after the first constructive modifier.
 ALWAYS_ON_SPLINE = {"HOOK", "SOFT_BODY", "MESH_DEFORM"}
 CONSTRUCTIVE = {
     "ARRAY",
@@ -52,7 +52,7 @@ FALLOFFS = {
 
 
 def spline_modifiers(obj) -> tuple[list, list]:
-    """Return the modifiers that move control points, and the ones that change the mesh that comes after."""
+    """Return the modifiers that move control points, and the later modifiers, which change the mesh."""
     shown = [
         modifier
         for modifier in obj.modifiers

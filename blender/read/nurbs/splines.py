@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The splines of a surface object as patches, proved against the mesh that Blender displays.
+"""The splines of a surface object as patches, checked against the mesh that Blender displays.
 
 If shape keys and hooks move control points, or a spline has knots that Blender keeps to itself (its OBJ importer makes
 such ones), the read patches may differ from the displayed ones. So the patches are evaluated at the parameters of the
 display mesh's vertices and compared with them. If they differ, the control points are recovered from these vertices, a
-linear problem in each direction; if a difference remains, the display mesh has to do.
+linear problem in each direction; if a difference remains, the display mesh is measured.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from ..findings import CONTROL_POINTS_RECOVERED, SPLINES_LEFT_OUT
 from ..reading import SplineReading
 from .deformation import deform, is_deformed, spline_modifiers
 
-AGREEMENT_RTOL = 4e-6  # relative to the largest coordinate: float32 evaluation, of order 6 by order 6
+AGREEMENT_RTOL = 4e-6  # relative to the largest coordinate: error of float32 evaluation, up to order 6 by order 6
 RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
-MAX_CONDITION = 1e4  # condition of a direction's samples
+MAX_CONDITION = 1e4  # largest condition number of a direction's samples
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
-    """Return the patches of a surface object, compared with its displayed mesh if given; None if they differ."""
+    """Return the patches of a surface object, checked against `mesh` if given; None if its mesh has to be measured."""
     original = evaluated.original
     if spline_modifiers(original)[1]:
         return None
@@ -118,7 +118,7 @@ def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
 def _verified(
     patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
 ) -> list[Patch] | None:
-    """Return the patches if they agree with the display mesh, else recovered ones if these do, else None."""
+    """Return the patches if they agree with the display mesh, else patches recovered from it, or None."""
     counts = [len(v) * len(u) for v, u in samples]
     if sum(counts) != len(shown):
         return None
