@@ -41,7 +41,7 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
-    """Return the masses of a view layer's measured objects by session uid, in one unit with as many decimals."""
+    """Return texts of the masses of a view layer's measured objects by session uid, alike in unit and decimals."""
     units = Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:
