@@ -83,7 +83,7 @@ def report(operator: Operator, *parts: Finding | str, level: Severity = Severity
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
-    """Report the reason why an operator does nothing; return the result of `execute`. values: of an English text."""
+    """Report the reason why an operator does nothing; return the result of `execute`. values: fill an English text."""
     if isinstance(reason, str):
         report(operator, reports.phrase(reason, **values), level=Severity.ERROR)
     else:
@@ -119,8 +119,8 @@ def summarize(
     All failures and warnings stay in the panel until the next action.
 
     done: the action on `changed` of `total` objects. failures: the reasons for objects left unchanged. findings: other
-    observations. idle: the reason if nothing had to be done. The texts are translated and filled. nothing: the English
-    text if there are no objects.
+    observations. idle: the reason if nothing had to be done. `done` and `idle` are translated already. nothing: the
+    English text if there are no objects.
     """
     if not total:
         done = reports.phrase(nothing)
@@ -182,7 +182,7 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
 
 
 def ask_for_table(operator: Operator, context: Context) -> set[str]:
-    """Open the file browser, at first on a table beside the .blend and of its name."""
+    """Open the file browser, by default for a .csv file beside the .blend file and with its name."""
     if not operator.filepath:
         operator.filepath = bpy.path.ensure_ext(bpy.data.filepath.removesuffix(".blend") or "masses", ".csv")
     context.window_manager.fileselect_add(operator)
