@@ -23,7 +23,7 @@ from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.verdict.finding import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
-MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
+MAX_OBJECTS_WITHOUT_REDRAW = 4  # limit of objects that are measured before the window is drawn again
 
 
 def selected_measurable(context: Context) -> list[Object]:

@@ -39,7 +39,7 @@ def plan_match(
 
 
 def is_copy(match: RigidMatch, size: float) -> bool:
-    """Return whether the surfaces of a match lie on each other; `size` is that of the body."""
+    """Return whether the surfaces of a match lie on each other, by a tolerance relative to the body's size."""
     return match.max_distance <= MAX_FIT_RTOL * size
 
 

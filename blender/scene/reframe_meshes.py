@@ -176,7 +176,7 @@ def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) ->
     sums = np.einsum("nij,ij->n", changes[:, :3], weights)
     order = np.argsort(sums, kind="stable")
     sums_in_order = sums[order]
-    margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # with the rounding of sums
+    margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # plus the rounding of sums
     starts = np.searchsorted(sums_in_order, sums - margin).tolist()
     ends = np.searchsorted(sums_in_order, sums + margin, side="right").tolist()
     groups: list[list[int]] = []

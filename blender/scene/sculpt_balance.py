@@ -92,7 +92,7 @@ class _EditedMesh:
 
 
 class _GroupedMesh:
-    """The mesh of an object in Object Mode, and a vertex group of it."""
+    """The mesh of an object in Object Mode, with the vertices and weights of one of its vertex groups."""
 
     def __init__(self, obj: Object, name: str):
         group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
@@ -113,7 +113,7 @@ class _GroupedMesh:
         self.start = self.start.reshape(-1, 3)
 
     def set_points(self, points: NDArray[np.float32]) -> None:
-        """Move the vertices to (n, 3) points."""
+        """Move all vertices to (n, 3) points."""
         self.is_changed = True
         self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
         self.mesh.vertices[0].co = self.mesh.vertices[0].co  # makes Blender update normals and bounding box

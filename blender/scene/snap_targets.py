@@ -33,7 +33,7 @@ from .transforms import world
 POSE = MeasureOptions(pose=True)
 MAX_DIRECTION_NOISE = 1e-3  # rounding in float32 of directions fixed by moments of higher order
 DIAGONAL_RTOL = 4e-7  # products of inertia by rounding in float32, relative to the trace
-UNIT_SCALE = 1e-6  # by how much the products of an object's axes may differ from 1 and 0
+UNIT_SCALE = 1e-6  # largest deviation of the products of an object's axes from 1 and 0
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class SnapTarget:
         )
 
     def _matches_shape_axes(self, frame: NDArray) -> bool:
-        """Return whether axes of equal moments lie as the shape requires: a cube's sides along any of its own axes."""
+        """Return whether axes of equal moments lie as the shape requires; a cube's axes may be swapped or reversed."""
         cosines = (frame.T @ self.axes)[:, self.shape_axes]
         expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())

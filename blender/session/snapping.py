@@ -100,7 +100,7 @@ def reframe_objects(
         with tracking_paused(), reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
             failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-            if not move_only:  # with a new scale Blender may cut faces that are not flat otherwise: another body
+            if not move_only:  # a new scale may change the triangles of faces that are not flat: another body
                 reframe.reframe(context, plans_of([plan.obj for plan in changed], known)[0])
         remeasure(context, [plan.obj for plan in changed], known)
     if not move_only:

@@ -29,7 +29,7 @@ class Lag(StrEnum):
     """Lag of live numbers behind the displayed object."""
 
     NONE = ""
-    FIRST_ORDER = "first order"  # volume, mass and center are current, inertia is that of the last measurement
+    FIRST_ORDER = "first order"  # volume, mass and center are current, the inertia is scaled from the last measurement
     BEHIND = "behind"
 
 
