@@ -154,7 +154,7 @@ def _load_settings() -> None:
 
 
 def register() -> None:
-    """Make `blender -c body_moments` known."""
+    """Register the command `blender -c body_moments`."""
     import bpy
 
     global _command
@@ -213,7 +213,7 @@ def _run() -> int:
 
 
 def _load_package() -> None:
-    """Make the add-on's folder the package PACKAGE, whatever it is called."""
+    """Import the add-on's folder, whatever its name, as the package PACKAGE."""
     place = Path(__file__).resolve().parent.parent / "__init__.py"
     spec = cast("ModuleSpec", importlib.util.spec_from_file_location(PACKAGE, place))
     package = importlib.util.module_from_spec(spec)

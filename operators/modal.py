@@ -52,7 +52,7 @@ class ModalSteps:
             return refuse(self, error)
 
     def _run(self, context: Context, in_window: bool) -> set[str]:
-        """Run every step in this call, or let the window's timer call for them."""
+        """Run all steps in this call, or start a timer of the window that runs them."""
         self._count = self._begin(context)
         if in_window and self._count > self.MAX_AT_ONCE:
             manager = context.window_manager

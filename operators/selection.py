@@ -37,12 +37,12 @@ def selected_measurable(context: Context) -> list[Object]:
 
 
 def poll_object_mode(cls: type[Operator], context: Context) -> bool:
-    """Return whether Blender is in Object Mode; give the reason why not."""
+    """Return whether Blender is in Object Mode; if not, set the reason that the disabled button shows."""
     return context.mode == "OBJECT" or reports.unavailable(cls, "Switch to Object Mode")
 
 
 def poll_selection(cls: type[Operator], context: Context) -> bool:
-    """Return whether something is selected, in any mode; give the reason why not."""
+    """Return whether anything is selected, in any mode; if not, set the reason that the disabled button shows."""
     return bool(context.view_layer.objects.selected) or reports.unavailable(cls, "Select objects")
 
 
@@ -77,7 +77,7 @@ def redraw(context: Context) -> None:
 
 
 def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> None:
-    """Report once; refusals and warnings stay in the panel until the next action."""
+    """Report all parts in one message; refusals and warnings stay in the panel until the next action."""
     outcome.remember(operator.bl_label, [part for part in parts if isinstance(part, Finding)])
     reports.report(operator, *parts, level=level)
 

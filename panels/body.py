@@ -113,7 +113,7 @@ def _verdict(layout: UILayout, context: Context, obj: Object, shown: Displayed |
 
 
 def _posed(column: UILayout, context: Context, armature: Object) -> None:
-    """Draw the meshes that an armature deforms, with warnings about missing and outdated numbers."""
+    """Draw the number of meshes that an armature deforms, and warnings about missing and outdated numbers."""
     meshes = armatures.deformed_meshes(armature)
     texts = "Sum of {count} mesh of the armature", "Sum of {count} meshes of the armature"
     rows.remark(column, context, *texts, icon="POSE_HLT", count=len(meshes))

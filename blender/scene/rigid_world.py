@@ -30,7 +30,7 @@ def require_rigid_world(scene: Scene, joints: bool = False) -> None:
 
 
 def add_rigid_bodies(context: Context, objects: Sequence[Object], type: str = "ACTIVE") -> None:
-    """Make meshes rigid bodies, all by one operator."""
+    """Make all objects rigid bodies by one call of Blender's operator."""
     if objects:
         with context.temp_override(object=objects[0], selected_objects=objects):
             bpy.ops.rigidbody.objects_add(type=type)

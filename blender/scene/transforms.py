@@ -129,7 +129,7 @@ def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.floa
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
-    """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError if it is sheared."""
+    """Set rotation and scale so that the basis has the 3×3 part `linear`; EditRefusedError if that is sheared."""
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
         raise EditRefusedError(SCALE_ZERO_AXIS)

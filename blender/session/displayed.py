@@ -78,7 +78,7 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: on possible non-parts.
+    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: caveats about the sum.
     """
 
     count: int
@@ -201,7 +201,7 @@ def remember_failure(obj: Object, reason: Finding | None) -> None:
 
 
 def failure(obj: Object) -> Finding | None:
-    """Return the reason why the last measurement with these settings failed, if it did."""
+    """Return the reason why the last measurement with the object's current settings failed, or None if it did not."""
     reason, settings = _failures.get(obj) or (None, "")
     return reason if reason is not None and settings == settings_hash(obj, bpy.context.scene) else None
 

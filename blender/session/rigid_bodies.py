@@ -37,7 +37,7 @@ PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """An object that becomes a rigid body, with the objects below it that are parts of the same one."""
+    """An object that becomes a rigid body, with the objects below it that become parts of the same body."""
 
     obj: Object
     members: tuple[Object, ...] = ()

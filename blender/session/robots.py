@@ -120,7 +120,7 @@ def collection_links(
 
 
 def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
-    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with bone limits."""
+    """Return a robot with a link, in rest frame, for each bone that has a part, and joints with the bones' limits."""
     made, findings, pieces = [], [], {}
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:

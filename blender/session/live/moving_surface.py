@@ -29,7 +29,7 @@ FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
 
 @dataclass(frozen=True, eq=False)
 class MovingSurface:
-    """A body of moving points.
+    """A body whose points move while its faces stay the same.
 
     surface: its faces, in the object's own coordinates.
     corners: (c,) vertices of all corners of the mesh that was read.

@@ -92,7 +92,7 @@ def path(empty: Object) -> Path | None:
 
 
 def support(empty: Object, frame: int) -> Support | None:
-    """Return the support polygon of a group at a frame, while the file is open."""
+    """Return the support polygon of a group at a frame, or None if none is remembered."""
     return (_supports.get(empty) or {}).get(frame)
 
 

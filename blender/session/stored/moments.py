@@ -103,7 +103,7 @@ class ComputedMoments:
 
 @dataclass(frozen=True)
 class Degree:
-    """The moments of one degree as a panel shows them: (label, text, exact) each, and their unit."""
+    """The moments of one degree as a panel shows them: rows of (label, text, exact value), and their unit."""
 
     degree: int
     unit: str

@@ -61,7 +61,7 @@ class SessionCache(Generic[Value]):
         self._values.pop(data.session_uid, None)
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Forget all values."""
         self._values.clear()
 
 

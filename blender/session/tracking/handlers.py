@@ -136,7 +136,7 @@ HANDLERS = (
 
 
 def register() -> None:
-    """Listen to Blender."""
+    """Add the handlers to Blender's lists."""
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).append(function)
 

@@ -224,7 +224,7 @@ def pin(obj: Object) -> None:
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
-    """Note that objects have other axes than before: directions that are stored in these no longer hold."""
+    """Note that objects have new axes, in which stored directions no longer hold."""
     for obj in objects:
         if (stamp := stamps.of_symmetry(obj)) is not None:
             set_edited(obj, stamp.text, True)

@@ -71,7 +71,7 @@ class Stamp(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The stored form."""
+        """The stored form: version, geometry, transform and settings, joined by colons."""
         return ":".join(self[1:5])
 
 
