@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Registration of a wing's modules.
+"""Registration of the modules of a subpackage, such as `operators`.
 
-A module has `register` and `unregister`, or tables: CLASSES in their order, POINTERS, the groups of settings by
-Blender's type and the name of their property, and MENUS, Blender's menus with the functions that draw in them.
+A module has functions `register` and `unregister`, or tables: CLASSES in the order of registration; POINTERS, groups of
+settings by Blender's type and the name of their property; MENUS, Blender's menus with functions that draw in them.
 """
 
 from collections.abc import Iterable
@@ -16,7 +16,7 @@ from bpy.props import PointerProperty
 
 
 def register_modules(package: str, names: Iterable[str]) -> None:
-    """Register the modules in order; if one fails, remove the others and let the error rise."""
+    """Register the modules in order; if one fails, unregister the modules before it and raise its error."""
     with ExitStack() as undo:
         for name in names:
             module = import_module("." + name, package)
@@ -26,7 +26,7 @@ def register_modules(package: str, names: Iterable[str]) -> None:
 
 
 def unregister_modules(package: str, names: Iterable[str]) -> None:
-    """Remove everything that `register_modules` added, in reverse."""
+    """Unregister the modules, in reverse order."""
     for name in reversed([*names]):
         _unregister(import_module("." + name, package))
 

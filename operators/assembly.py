@@ -42,7 +42,7 @@ TARGET = EnumProperty(
 
 
 def target_of(context: Context, target: str) -> Root:
-    """Return the assembly that an operator works on. MeasureError if there is none."""
+    """Return the assembly that an operator works on; raise MeasureError if there is none."""
     data = context.collection if target == "COLLECTION" else context.object
     if data is None or target == "OBJECT" and not is_assembly(data):
         raise MeasureError(NO_ACTIVE_ASSEMBLY)
@@ -50,7 +50,7 @@ def target_of(context: Context, target: str) -> Root:
 
 
 def measured_assembly(context: Context, target: str) -> "Assembly":
-    """Measure an operator's assembly as it is now. MeasureError if it has no mass."""
+    """Measure an operator's assembly as it is now; raise MeasureError if it has no mass."""
     depsgraph = context.evaluated_depsgraph_get()
     return bodies.measure_assembly(target_of(context, target), depsgraph)
 
@@ -66,7 +66,7 @@ class OBJECT_OT_body_moments_measure_assembly(ModalSteps, Operator):
     target: TARGET
 
     def _begin(self, context: Context) -> int:
-        """Start with the members; return the number of objects."""
+        """Prepare the steps that measure the members; return the number of objects to measure."""
         depsgraph = context.evaluated_depsgraph_get()
         data = target_of(context, self.target)
         properties.require_storable(data)
@@ -127,7 +127,7 @@ class _SnapToAssembly:
 
     bl_options = {"REGISTER", "UNDO"}
     target: TARGET
-    _place: Callable[..., str]  # does it, and returns the report
+    _place: Callable[..., str]  # places the cursor, empty or origin, and returns the report
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:

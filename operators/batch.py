@@ -37,7 +37,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
     """Run the command line and return its exit code.
 
     argv: the words from `measure` on. channel: a descriptor for the result, by default the standard output, which
-    nothing else in this process reaches from then on. file_needed: no file can be open.
+    nothing else in this process reaches from then on. file_needed: whether files must be named, as none can be open.
     """
     from ..command import interruption
     from ..command.files import output
@@ -77,7 +77,7 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
 
 
 def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
-    """Measure files by way of children, or in this process."""
+    """Measure files in child processes, or in this process, and return the exit code."""
     from ..command.options import arguments
 
     options = arguments.parse(argv, file_needed)
@@ -108,7 +108,7 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
 
 
 def _serve(channel: int) -> int:
-    """Be a child of the supervisor. Ends the process."""
+    """Serve the supervisor as its child, then end the process."""
     from ..command.supervisor.lifeline import Lifeline
 
     line = Lifeline(channel)  # first: importing bpy may take seconds
@@ -125,7 +125,7 @@ def _serve(channel: int) -> int:
 
 
 def _print(word: str, argv: list[str], channel: int) -> int:
-    """Run a command that neither opens files in Blender nor starts processes, and write its text."""
+    """Run a command that neither opens files in Blender nor starts processes; return the exit code."""
     from .. import command
     from ..command.files import output, own_results
 
@@ -154,7 +154,7 @@ def _load_settings() -> None:
 
 
 def register() -> None:
-    """Make `blender -c body_moments` known."""
+    """Register the command `blender -c body_moments`."""
     import bpy
 
     global _command
@@ -178,7 +178,7 @@ def _run_script() -> None:
     try:
         code = _run()
     except ModuleNotFoundError as error:
-        # Not by the table of messages, which cannot be imported either where numpy is missing.
+        # Without the table of messages, which cannot be imported either if numpy is missing.
         sys.stderr.write("body_moments: {}. Install it, or use Blender.\n".format(error))
         code = WRONG_USAGE
     except KeyboardInterrupt:
@@ -206,14 +206,14 @@ def _run() -> int:
     words = sys.argv
     bpy = sys.modules.get("bpy")
     in_blender = bpy is not None and not bpy.app.module
-    if in_blender:  # it leaves to a script what follows "--"
+    if in_blender:  # Blender leaves the words after "--" to the script
         words = words[words.index("--") :] if "--" in words else []
     batch = importlib.import_module(PACKAGE + ".operators.batch")
     return batch.main(words[1:], channel=channel, file_needed=not in_blender)
 
 
 def _load_package() -> None:
-    """Make the add-on's folder the package PACKAGE, whatever it is called."""
+    """Import the add-on's folder, whatever its name, as the package PACKAGE."""
     place = Path(__file__).resolve().parent.parent / "__init__.py"
     spec = cast("ModuleSpec", importlib.util.spec_from_file_location(PACKAGE, place))
     package = importlib.util.module_from_spec(spec)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings of the operators: refusals and warnings that stay in the panel. Other texts stand where they are shown."""
+"""Findings of the operators: refusals and warnings that stay in the panel. Other texts stand beside their reports."""
 
 from ..core.verdict.finding import error, warning
 

@@ -21,11 +21,11 @@ STEP_SECONDS, MAX_STEP_SECONDS = 0.1, 1.0
 class ModalSteps:
     """Base of operators that work in steps.
 
-    `_begin` chooses the work and returns the last value of the steps; the generator `_steps` does it and yields the
-    completed part; `_finish` alone changes anything. All of them may raise MeasureError, which is reported.
+    `_begin` chooses the work, sets the generator `_steps` and returns its last value; `_steps` does the work and yields
+    the completed amount; only `_finish` changes anything. Each may raise MeasureError, which is reported.
 
-    PROGRESS: for the status bar; it gets the value `share`, the completed share. CANCELED: the report after Esc.
-    MAX_AT_ONCE: up to so many steps are run without the window.
+    PROGRESS: text in the status bar, filled with `share`, the completed share. CANCELED: the report after Esc.
+    MAX_AT_ONCE: largest count of steps that are run at once, without redrawing the window.
     """
 
     PROGRESS = "Measuring: {share:.0%}. Esc to cancel"
@@ -52,7 +52,7 @@ class ModalSteps:
             return refuse(self, error)
 
     def _run(self, context: Context, in_window: bool) -> set[str]:
-        """Run every step in this call, or let the window's timer call for them."""
+        """Run all steps in this call, or start a timer of the window that runs them."""
         self._count = self._begin(context)
         if in_window and self._count > self.MAX_AT_ONCE:
             manager = context.window_manager

@@ -23,7 +23,7 @@ from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.verdict.finding import FileError, Finding, MeasureError, Severity, system_reason
 
 NO_FILE = "No file is named. Choose one."
-MAX_OBJECTS_WITHOUT_REDRAW = 4  # up to so many objects are measured before the window is drawn again
+MAX_OBJECTS_WITHOUT_REDRAW = 4  # limit of objects that are measured before the window is drawn again
 
 
 def selected_measurable(context: Context) -> list[Object]:
@@ -37,12 +37,12 @@ def selected_measurable(context: Context) -> list[Object]:
 
 
 def poll_object_mode(cls: type[Operator], context: Context) -> bool:
-    """Return whether Blender is in Object Mode; give the reason why not."""
+    """Return whether Blender is in Object Mode; if not, set the reason that the disabled button shows."""
     return context.mode == "OBJECT" or reports.unavailable(cls, "Switch to Object Mode")
 
 
 def poll_selection(cls: type[Operator], context: Context) -> bool:
-    """Return whether something is selected, in any mode; give the reason why not."""
+    """Return whether anything is selected, in any mode; if not, set the reason that the disabled button shows."""
     return bool(context.view_layer.objects.selected) or reports.unavailable(cls, "Select objects")
 
 
@@ -77,13 +77,13 @@ def redraw(context: Context) -> None:
 
 
 def report(operator: Operator, *parts: Finding | str, level: Severity = Severity.NOTE) -> None:
-    """Report once; refusals and warnings stay in the panel until the next action."""
+    """Report all parts in one message; refusals and warnings stay in the panel until the next action."""
     outcome.remember(operator.bl_label, [part for part in parts if isinstance(part, Finding)])
     reports.report(operator, *parts, level=level)
 
 
 def refuse(operator: Operator, reason: MeasureError | Finding | str, **values: Any) -> set[str]:
-    """Report the reason why an operator does nothing; return the result of `execute`. values: of an English text."""
+    """Report the reason why an operator does nothing; return the result of `execute`. values: fill an English text."""
     if isinstance(reason, str):
         report(operator, reports.phrase(reason, **values), level=Severity.ERROR)
     else:
@@ -119,8 +119,8 @@ def summarize(
     All failures and warnings stay in the panel until the next action.
 
     done: the action on `changed` of `total` objects. failures: the reasons for objects left unchanged. findings: other
-    observations. idle: the reason if nothing had to be done. The texts are translated and filled. nothing: the English
-    text if there are no objects.
+    observations. idle: the reason if nothing had to be done. `done` and `idle` are translated already. nothing: the
+    English text if there are no objects.
     """
     if not total:
         done = reports.phrase(nothing)
@@ -182,7 +182,7 @@ def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
 
 
 def ask_for_table(operator: Operator, context: Context) -> set[str]:
-    """Open the file browser, at first on a table beside the .blend and of its name."""
+    """Open the file browser, by default for a .csv file beside the .blend file and with its name."""
     if not operator.filepath:
         operator.filepath = bpy.path.ensure_ext(bpy.data.filepath.removesuffix(".blend") or "masses", ".csv")
     context.window_manager.fileselect_add(operator)

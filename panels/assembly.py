@@ -109,7 +109,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
 
 
 def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
-    """Draw the members, and the details of the highlighted one."""
+    """Draw the list of members, and the findings about the highlighted member."""
     layout.template_list(
         BODY_MOMENTS_UL_assembly.__name__,
         "",

@@ -113,7 +113,7 @@ def _verdict(layout: UILayout, context: Context, obj: Object, shown: Displayed |
 
 
 def _posed(column: UILayout, context: Context, armature: Object) -> None:
-    """Draw the meshes that an armature deforms, with warnings about missing and outdated numbers."""
+    """Draw the number of meshes that an armature deforms, and warnings about missing and outdated numbers."""
     meshes = armatures.deformed_meshes(armature)
     texts = "Sum of {count} mesh of the armature", "Sum of {count} meshes of the armature"
     rows.remark(column, context, *texts, icon="POSE_HLT", count=len(meshes))
@@ -126,7 +126,7 @@ def _posed(column: UILayout, context: Context, armature: Object) -> None:
 
 
 def _headline(column: UILayout, context: Context, obj: Object, shown: Displayed) -> None:
-    """Draw the method in two lines. A method of another version of the add-on is shown by its own text."""
+    """Draw the method in two lines; show an unknown method, of another version of the add-on, by its stored text."""
     key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
     source = Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
     headline, explanation = METHODS.get(key, (properties.method_text(obj).title(), ""))

@@ -43,7 +43,7 @@ def _has_density(obj: Object) -> bool:
 
 
 def material_row(layout: UILayout, context: Context, obj: Object) -> None:
-    """Draw the one row of the density that is changed most: the material, or its alternative."""
+    """Draw the density's most used setting in one row: the material, or the setting in its place."""
     if not _has_density(obj):
         return
     settings = obj.body_moments

@@ -15,7 +15,7 @@ from . import rows
 from .places import in_both_places
 
 ERROR_OF_A_DIFFERENCE = 6.0  # each principal moment is off by at most 3 times the error of a tensor entry
-EQUAL_MOMENTS = {  # by whether 1 and 2, and 2 and 3, are equal
+EQUAL_MOMENTS = {  # keys: are moments 1 and 2 equal, and moments 2 and 3?
     (True, True): "All principal moments are equal",
     (True, False): "Principal moments 1 and 2 are equal",
     (False, True): "Principal moments 2 and 3 are equal",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus, under users' names and in their usual places, and in its *Help*.
+"""Entries in Blender's own menus, with names and places that users expect, and in its *Help*.
 
 Blender's search finds entries of menus. The manual that the extension brings opens from *Help*, and from *Online
 Manual* of buttons and settings. It is HTML beside the add-on's code, which the build makes of docs/; in a checkout
@@ -30,7 +30,7 @@ _PACKAGE = __package__.rpartition(".")[0]
 _OBJECT, _SCENE = "bpy.types.bodymomentsobjectsettings.", "bpy.types.bodymomentsscenesettings."
 _OPERATOR = "bpy.ops.object.body_moments_"
 
-# The first pattern that fits a button or a setting, in lower case, and its page.
+# Lower-case patterns of buttons and settings, and their pages of the manual; the first pattern that fits counts.
 PAGES = (
     *((_OBJECT + name + "*", "walls.html") for name in ("wall", "thickness")),
     *(
@@ -127,7 +127,7 @@ def _object_menu(menu: Menu, _context: Context) -> None:
 
 
 def _snap_pie(menu: Menu, _context: Context) -> None:
-    pie = menu.layout.menu_pie()  # another one: all eight places of Blender's are taken
+    pie = menu.layout.menu_pie()  # a second pie, as all eight places of Blender's are taken
     pie.separator()  # west
     pie.separator()  # east
     south = pie.column()
@@ -158,14 +158,14 @@ def _help_entry(self: Menu, _context: Context) -> None:
 
 
 def register_manual() -> None:
-    """Offer the manual, if there is one."""
+    """Add the manual to *Help* and *Online Manual*, if there is one."""
     if folder().is_dir():
         bpy.utils.register_manual_map(_map)
         bpy.types.TOPBAR_MT_help.append(_help_entry)
 
 
 def unregister_manual() -> None:
-    """Offer it no more."""
+    """Remove the manual from *Help* and *Online Manual*."""
     with suppress(ValueError):  # there was no manual
         bpy.utils.unregister_manual_map(_map)
         bpy.types.TOPBAR_MT_help.remove(_help_entry)
@@ -194,7 +194,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove them."""
+    """Remove the entries from Blender's menus."""
     unregister_manual()
     for name, draw in reversed(ADDED):
         getattr(bpy.types, name).remove(draw)

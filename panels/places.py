@@ -27,7 +27,7 @@ ROOT = "body_moments"
 
 
 def in_both_places(contents: type, name: str = "", parent: str | None = None) -> tuple[type[Panel], type[Panel]]:
-    """Make a panel of the sidebar and one of the object's properties, closed at first, that show these contents.
+    """Make a panel of the sidebar and one of the object's properties that show these contents.
 
     `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll` and `draw_header_preset`.
     `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and `OBJECT_PT_body_moments_NAME`; "" for the main

@@ -136,7 +136,7 @@ def last_action(layout: UILayout, context: Context) -> None:
 
 
 def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -> None:
-    """Ask whether a unit is a millimeter, if the body is as large as prints in millimeters are; once a scene."""
+    """Ask, until it is answered for the scene, whether a unit is a millimeter, if the body is large and heavy."""
     scene, length = context.scene, max(context.object.dimensions)
     if (
         scene.body_moments.units_answered

@@ -22,12 +22,12 @@ from ..core.measurement.documents import plain
 from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import fill, severity
 
-# share of a row that its label takes, one of few letters, and of one
+# share of a row for its label, for one of up to 3 letters, and for one of 1 letter
 LABEL_SHARE, SHORT_LABEL_SHARE, INDEX_LABEL_SHARE = 0.36, 0.3, 0.12
 REGION_MARGIN = 88  # width of tabs, borders and an icon in the region, in unscaled pixels
 ROW_MARGIN = 80  # width for a row without an icon, but with a button
-TEXT_MARGIN = 0.2  # around a text in a row, of the size of the font
-DEFAULT_WIDTH = 300  # unscaled pixels of a region that is not known
+TEXT_MARGIN = 0.2  # space around a text in a row, relative to the font size
+DEFAULT_WIDTH = 300  # unscaled pixels, for a region of unknown width
 BOX_MARGIN = 12  # additional width of a box
 MIN_LINE_WIDTH = 50  # no line is made narrower
 MIN_PART, MIN_LAST_PART = 4, 3  # letters of a word that is broken
@@ -38,12 +38,12 @@ ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANC
 AXIS_LABELS, PRINCIPAL_LABELS = ("X", "Y", "Z"), ("1", "2", "3")
 TENSOR_LABELS = tuple("I" + name for name in ENTRIES)
 VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
-BUTTON_MARGIN = "m"  # a letter as wide as what a button has around its text
-Cell = tuple[str, str, str, str]  # label, text, what is copied, its unit
+BUTTON_MARGIN = "m"  # a letter as wide as the space around a button's text
+Cell = tuple[str, str, str, str]  # label, text, copied value, its unit
 
 
 def setting(layout: UILayout, data: PropertyGroup, name: str, text: str = "", expand: bool = False) -> None:
-    """Draw a setting with its label, by default its own, in a column: beside it, or above it in a narrow region.
+    """Draw a setting in a column, its label (by default its name) beside it, or above it in a narrow region.
 
     `expand` puts choices side by side if there is room for their names.
     """
@@ -102,7 +102,7 @@ def values(
 
 
 def center(layout: UILayout, units: Units, label: str, numbers: StoredProperties) -> None:
-    """Draw the center of mass; what is left of a coordinate by rounding, beside the body's size, is 0."""
+    """Draw the center of mass; a coordinate that is mere rounding, relative to the body's size, is shown as 0."""
     group(layout, units, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
 
 
@@ -125,12 +125,12 @@ def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) ->
 
 
 def title(layout: UILayout, label: str) -> None:
-    """Draw a label above rows, in more lines if one is too narrow for it."""
+    """Draw a label above rows, in several lines if the panel is too narrow for one."""
     _title(layout, localized(label))
 
 
 def direction(layout: UILayout, label: str, vector: Sequence[float]) -> None:
-    """Draw a unit vector in one row, or in three if that is too narrow."""
+    """Draw a unit vector in one row, or in three rows if the panel is too narrow for one."""
     cosines = ["{:.4f}".format(component).replace("-0.0000", "0.0000").replace("-", "−") for component in vector]
     if not fits(1.0 - INDEX_LABEL_SHARE, *cosines):
         table(
@@ -216,7 +216,7 @@ def _copy(row: UILayout, exact: str, unit: str) -> None:
 
 
 def fold(layout: UILayout, idname: str, label: str, closed: bool = True) -> UILayout | None:
-    """Draw a part that can be folded, and return its layout; None if it is closed. closed: at first."""
+    """Draw a part that can be folded, and return its layout, or None while it is closed. closed: whether at first."""
     header, body = layout.panel(idname, default_closed=closed)
     header.label(text=label)
     return body
@@ -289,14 +289,14 @@ def fits(share: float, *cells: str) -> bool:
 
 
 def _room() -> float | None:
-    """Return the pixels of a row beside its button, or None if no region is being drawn."""
+    """Return the width in pixels of a row without its button, or None if no region is being drawn."""
     if bpy.context.region is None:
         return None
     return bpy.context.region.width - ROW_MARGIN * bpy.context.preferences.system.ui_scale
 
 
 def _length(text: str) -> float:
-    """Return the pixels of a text, with the space around it."""
+    """Return the width in pixels of a text, with the space around it."""
     _, size = _width(bpy.context)
     blf.size(0, size)
     return blf.dimensions(0, text)[0] + TEXT_MARGIN * size

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section properties under the body's, in the order of engineers' tables."""
+"""The sub-panel of section properties, in the order of engineers' tables."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ def require_storable_data(obj: Object) -> None:
 
 
 def ancestors(obj: Object | None) -> Iterator[Object]:
-    """Yield the object, its parent, that one's parent, and so on."""
+    """Yield the object, its parent, its grandparent and so on."""
     while obj is not None:
         yield obj
         obj = obj.parent
@@ -58,7 +58,7 @@ def run_change(context: Context, change: SceneChange) -> None:
 
 
 def run_together(changes: Iterable[SceneChange]) -> SceneChange:
-    """Run several changes as one."""
+    """Return one change that runs several changes side by side; if one fails, the others are put back."""
     waiting = list(changes)
     try:
         for change in waiting:
@@ -80,7 +80,7 @@ def _advance(change: SceneChange, depsgraph: Depsgraph) -> bool:
 
 
 def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[Planned]]:
-    """Return changes, each with the data it may touch, in rounds: each after all earlier changes of the same data."""
+    """Group changes, given with the data that they may touch, into rounds: changes of the same data follow in order."""
     last: dict[ID, int] = {}
     by_round: dict[int, list[Planned]] = {}
     for change, touched in changes:
@@ -91,7 +91,7 @@ def independent_rounds(changes: Iterable[tuple[Planned, set[ID]]]) -> list[list[
 
 
 def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
-    """Return for each object itself and its direct and indirect users; its change may affect their look meanwhile."""
+    """Return, for each object, itself and its direct and indirect users, whose look its change may affect."""
     users = users_of(objects, {"OBJECT", *LINKING_TYPES})
 
     def reached(obj: Object) -> set[Object]:
@@ -105,7 +105,7 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
 
 
 def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
-    """Return the users of the objects, their users as far as they are of the kinds `through`, and so on."""
+    """Return, by data-block, the users of the objects, of those users whose types are in `through`, and so on."""
     users: dict[ID, set[ID]] = {}
     new: set[ID] = set(objects)
     while new:

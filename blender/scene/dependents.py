@@ -47,7 +47,7 @@ def referring(objects: set[Object]) -> dict[Object, set[Object]]:
 
 
 def shape(obj: Object, depsgraph: Depsgraph) -> Shape | None:
-    """Return the points of an object's evaluated surfaces in the world, of instances a sample; None if it has none."""
+    """Return the world points of an object's surfaces: all of the first instance, samples of others; None if none."""
     try:
         reading = read_object(obj, depsgraph, edges=False)
     except ReadError:
@@ -79,13 +79,13 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
     pairs = [pair for first, second in zip(before, after) for pair in zip(first, second)]
     if len(before) == len(after) and all(first.shape == second.shape for first, second in pairs):
         return all(_nearly_equal(*pair, size) for pair in pairs)
-    # Objects that shared a mesh are parts of their own once one of them has got a copy.
+    # Objects that shared a mesh are separate parts once one of them has a copy.
     samples, others = _sample_instances(before), _sample_instances(after)
     return samples.keys() == others.keys() and all(_nearly_equal(samples[n], others[n], size) for n in samples)
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
-    """Return a few points of each place by number of points, (k, few, 3), ordered by centers along a line."""
+    """Return (k, s, 3) sample points of k instances by their number of points, sorted by center along a line."""
     by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
         sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)
@@ -183,7 +183,7 @@ class DependentsGuard:
 
 
 def _has_derived_shape(obj: Object) -> bool:
-    """Return whether its shape is more than its own data, and so may come from other objects."""
+    """Return whether an object's shape is more than its own data, so that it may depend on other objects."""
     return bool(obj.modifiers or obj.type in {"CURVE", "FONT"} or getattr(obj.data, "shape_keys", None))
 
 

@@ -30,10 +30,10 @@ def place_empties(
     size: float,
     progress: Callable[[float], None],
 ) -> tuple[list[SnapTarget], dict[Object, Exception]]:
-    """Put an empty at the principal frame of each object; one put there before is moved.
+    """Put an empty at the principal frame of each object, or move the empty that an earlier run put there.
 
-    Return the objects whose empties were elsewhere, and the reasons for the others that were refused. is_parent: the
-    empties become children. display: type of new empties. size: relative to the largest radius of gyration.
+    Return the bodies whose empties were elsewhere, and the errors of refused objects. is_parent: make the empties
+    children of the objects. display: type of new empties. size: relative to the largest radius of gyration.
     """
     existing = {
         empty[OBJECT_KEY]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OBJECT_KEY in empty

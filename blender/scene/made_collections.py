@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Collections of objects made for an armature.
 
-Objects made before are replaced; all else in them stays.
+Objects of an earlier run are replaced; everything else in the collection stays.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from bpy.types import Collection, Context, Object
 
 
 class MadeCollection:
-    """The collection of a scene for an armature, with nothing made in it yet, in the view layer.
+    """A scene's collection of objects made for an armature, cleared of earlier ones and included in the view layer.
 
-    key: ID property of it and of the objects made in it: the armature object.
+    key: name of the ID property, of the collection and the objects made in it, that holds the armature object.
     """
 
     def __init__(self, context: Context, armature: Object, key: str, name: str):
@@ -33,7 +33,7 @@ class MadeCollection:
         made = [obj for obj in self._collection.objects if obj.get(self._key) == self._armature]
         meshes = {obj.data for obj in made if obj.data is not None}
         bpy.data.batch_remove(made)
-        bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])  # else an object of the user's has it
+        bpy.data.batch_remove([mesh for mesh in meshes if not mesh.users])  # other meshes have users of their own
 
     def link(self, obj: Object) -> None:
         obj[self._key] = self._armature
@@ -41,7 +41,7 @@ class MadeCollection:
 
 
 def _include(context: Context, collection: Collection) -> None:
-    """Include a collection in the view layer: Blender adds rigid bodies and joints to objects there alone."""
+    """Include a collection in the view layer, as Blender adds rigid bodies and joints only to objects in it."""
     layers, found = [context.view_layer.layer_collection], []
     for layer in layers:
         layers += layer.children

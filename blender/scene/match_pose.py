@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that are laid onto another one by the poses that are their own."""
+"""Plans that lay objects onto the active object by a match of their surfaces."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def require_matchable(context: Context, obj: Object) -> None:
 def plan_match(
     context: Context, obj: Object, shape: Shape | FlatShape, target: Shape | FlatShape, match: RigidMatch
 ) -> reframe.Plan:
-    """Return the place of the object on the target."""
+    """Return the plan that lays the object onto the target; raise EditRefusedError for a mirror image."""
     if match.is_mirror_image:
         raise EditRefusedError(MIRROR_IMAGE)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
@@ -39,12 +39,12 @@ def plan_match(
 
 
 def is_copy(match: RigidMatch, size: float) -> bool:
-    """Return whether the surfaces of a match lie on each other; `size` is that of the body."""
+    """Return whether the surfaces of a match lie on each other, by a tolerance relative to the body's size."""
     return match.max_distance <= MAX_FIT_RTOL * size
 
 
 def move_to_match(context: Context, plan: reframe.Plan) -> bool:
-    """Carry out a plan; return whether the object was elsewhere."""
+    """Carry out a plan; return False if the object was in place already."""
     off = np.abs(plan.target - world(plan.obj))
     if off[:, :3].max() <= 1e-7 and off[:, 3].max() <= reframe.location_tolerance(plan.obj, plan.size):
         return False

@@ -48,8 +48,8 @@ DEFORMING_MODIFIERS = {
 
 
 def require_editable_mesh(obj: Object) -> None:
-    """Raise EditRefusedError if the measured mesh is not the editable one."""
-    if not obj.data.is_editable:  # nor is it then of a linked object
+    """Raise EditRefusedError if the mesh is linked, or modifiers give the measured mesh other elements."""
+    if not obj.data.is_editable:  # true of linked objects, too
         raise EditRefusedError(LINKED_OBJECT)
     changing = [
         modifier.name
@@ -89,7 +89,7 @@ def select_elements(obj: Object, elements: dict[str, np.ndarray]) -> None:
 
 
 def reverse_faces(mesh: bpy.types.Mesh, elements: Sequence[Sequence[int]]) -> int:
-    """Reverse the faces of several lists, all faces if one of them is empty; return their number."""
+    """Reverse the faces in several lists of indices, or all faces if one list is empty; return the number."""
     if not all(map(len, elements)):
         elements = [range(len(mesh.polygons))]
     faces = sorted({int(index) for indices in elements for index in indices})

@@ -23,11 +23,11 @@ GROUP_NAME, MARKER_NAME = "Center of Mass", "Center of Mass Marker"
 KEY = "body_moments_nodes"  # ID property of our groups: the version of their nodes
 VERSION = 2
 COLUMN = 180  # distance of two nodes
-MARKER_SHARE = 0.04  # radius of the marker beside the object's largest side
+MARKER_SHARE = 0.04  # radius of the marker relative to the object's largest side
 
 
 class _Builder(NamedTuple):
-    """Makes nodes from left to right."""
+    """A builder of nodes and links, which places nodes by column and row."""
 
     tree: GeometryNodeTree
 
@@ -124,7 +124,7 @@ def _build(make: _Builder) -> None:
 
 
 def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSocket:
-    """Return a corner of each triangle, from the middle of the box."""
+    """Return the position of a corner of each triangle, relative to the middle of the box."""
     row = 2 + index
     corner = make.node("GeometryNodeCornersOfFace", 4, row)
     corner.inputs["Sort Index"].default_value = index
@@ -137,7 +137,7 @@ def _corner(make: _Builder, index: int, position: Node, middle: Node) -> NodeSoc
 
 
 def add_marker(context: Context, obj: Object, group: GeometryNodeTree) -> Object:
-    """Add a ball at the object's center of mass, in an object of its own at the world's origin."""
+    """Add an object, at the world's origin, that shows a ball at the center of mass of `obj`; return it."""
     tree = bpy.data.node_groups.new(MARKER_NAME, "GeometryNodeTree")
     tree.interface.new_socket("Geometry", in_out="INPUT", socket_type="NodeSocketGeometry")
     tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")

@@ -21,7 +21,7 @@ PLACE_RTOL = 4e-6  # rounding of places in float32 matrices
 
 
 def move_parent(context: Context, empty: Object, center: Sequence[float]) -> None:
-    """Put an empty at a point while its children stay. EditRefusedError if something else holds one of them."""
+    """Put an empty at a point while its children stay; raise EditRefusedError if constraints or locks prevent it."""
     require_editable(empty)
     children = [child for child in empty.children if child.parent_type == "OBJECT"]
     saved = TransformChannels(empty)

@@ -25,7 +25,7 @@ def find_primitive(obj: Object, depsgraph: Depsgraph, kind: str) -> tuple[Shape,
 
 
 def add_primitive(context: Context, obj: Object, shape: Shape, mass: float) -> Object:
-    """Add a shape that stands for an object, at its center of mass."""
+    """Add an object with the given shape and mass, at the center of mass of `obj`, and return it."""
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     name = "{} {}".format(obj.name, shape.kind.title())
     new = bpy.data.objects.new(name, _mesh(name, shape, unit))
@@ -40,7 +40,7 @@ def add_primitive(context: Context, obj: Object, shape: Shape, mass: float) -> O
 
 
 def _mesh(name: str, shape: Shape, unit: float) -> Mesh:
-    """Return the shape in Blender units, in its own frame."""
+    """Return a mesh of the shape in Blender units, in the shape's own frame."""
     made = bmesh.new()
     if shape.kind == "box":
         bmesh.ops.create_cube(made, size=1.0)

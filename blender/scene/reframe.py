@@ -56,7 +56,7 @@ from .transforms import (
     world,
 )
 
-# Their effect does not depend on an object's origin, nor on its axes.
+# Modifiers whose effect depends neither on an object's origin nor on its axes.
 FRAME_INDEPENDENT_MODIFIERS = {
     "ARMATURE",
     "BOOLEAN",
@@ -76,7 +76,7 @@ FRAME_INDEPENDENT_MODIFIERS = {
 
 
 def check(obj: Object) -> None:
-    """Raise EditRefusedError if the object's data cannot be re-expressed at all."""
+    """Raise EditRefusedError if the object cannot be given another origin or other axes at all."""
     if obj.library is not None or (obj.data is not None and obj.data.library is not None):
         raise EditRefusedError(LINKED_OBJECT)
     if obj.data is None:
@@ -136,7 +136,7 @@ def reframe(
 
 
 def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
-    """Return plans in groups that share data and want the same change of it, a child never with its parent."""
+    """Return groups of plans that share data and want the same change of it; no group has a child and its parent."""
     groups: list[list[Plan]] = []
     sharing: dict[ID, list[tuple[Matrix4, list[Plan]]]] = {}
     for plan in plans:
@@ -214,13 +214,13 @@ def check_movable(obj: Object) -> None:
     bound = [modifier.object for modifier in obj.modifiers if modifier.type == "ARMATURE" and modifier.show_viewport]
     if obj.parent_type == "ARMATURE":
         bound.append(obj.parent)
-    for armature in bound:  # in its rest pose it deforms nothing yet
+    for armature in bound:  # in rest pose, too, though it deforms nothing yet
         if armature is not None and obj not in ancestors(armature):
             raise EditRefusedError(BOUND_TO_ARMATURE, armature=armature.name)
 
 
 def move(context: Context, plan: Plan) -> None:
-    """Set the world matrix by `set_world_matrix` with the body unchanged, or leave the object in its place."""
+    """Move an object by `set_world_matrix`; put it back and raise the error if its shape or a lock prevents that."""
     obj, saved = plan.obj, TransformChannels(plan.obj)
     was, before = world(obj), shape(obj, context.evaluated_depsgraph_get())
     try:
@@ -264,7 +264,7 @@ def set_world_matrix(plan: Plan) -> SceneChange:
 
 
 def _parent_matrix(obj: Object) -> Matrix4:
-    """Return (4, 4) the factor of the basis by its parents."""
+    """Return the (4, 4) matrix by which an object's parents multiply its basis."""
     if obj.parent is None:
         return np.eye(4)
     if obj.parent_type in {"OBJECT", "ARMATURE", "LATTICE"}:

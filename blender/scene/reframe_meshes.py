@@ -3,8 +3,8 @@
 """New origins and axes of many meshes at once, for objects that show their unmodified mesh and have no users.
 
 The new places of their points are known, so that no trial is needed. Objects that share a mesh and want the same change
-of it go on sharing; for other changes, and if others use the mesh, too, it is copied. Deviations found after the move
-are put back and left to `reframe`, which looks at each object by itself. So is everything after an error.
+of it go on sharing; for other changes, and if others use the mesh, too, it is copied. Objects that miss their plan are
+put back and left to `reframe`, which changes each by itself. After an error, all objects are.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ UNCHANGED = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
 
 @dataclass
 class Plan:
-    """Plan for one object.
+    """The wanted place of one object.
 
-    target: (4, 4) the wanted matrix_world. size: of the body, in Blender units. move_only: the axes
-        are kept to the bit.
+    target: the (4, 4) matrix_world. size: of the body, in Blender units. move_only: keep the axes to the bit. findings:
+    added while the plan is carried out.
     """
 
     obj: Object
@@ -53,7 +53,7 @@ class Plan:
 
 
 def location_tolerance(obj: Object, size: float) -> float:
-    """Return the precision of an origin: some float32 steps of every location on the way to the world."""
+    """Return the tolerance of an origin's location, by float32 rounding of the size and of all ancestors' locations."""
     reach = max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
     return 4e-7 * size + 4.0 * FLOAT32 * reach
 
@@ -141,7 +141,7 @@ def _reframe_alike(
     for i in np.flatnonzero(~fits).tolist():
         channels[i].restore()
     chosen = np.flatnonzero(fits)
-    wanted = data_change(was, targets, move_only)  # without what rounding makes of places far away
+    wanted = data_change(was, targets, move_only)  # free of the rounding of places far from the origin
     owners = _give_meshes([plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2)))
     _transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
     context.view_layer.update()
@@ -149,7 +149,7 @@ def _reframe_alike(
 
 
 def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> list[int]:
-    """Copy meshes for objects that share them and want different changes; return the first plan of each."""
+    """Copy meshes that are shared but to be changed differently; return the index of the first plan of each mesh."""
     sharing: dict[Mesh, list[int]] = {}
     for i, plan in enumerate(plans):
         sharing.setdefault(plan.obj.data, []).append(i)
@@ -168,14 +168,15 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 
 def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
-    """Return groups of changes that move no point farther apart than allowed, compared after a sort by sums."""
+    """Return the indices of changes in groups that move no point farther apart than `within`."""
+    # Equal changes have nearly equal weighted sums, so that only neighbors after a sort by sums are compared.
     limit, weights = np.array(within), np.cos(np.arange(12.0)).reshape(3, 4)  # for entries no larger than 1
     weights[:, :3] *= reach.min()
     weights[:, 3] /= 3.0
     sums = np.einsum("nij,ij->n", changes[:, :3], weights)
     order = np.argsort(sums, kind="stable")
     sums_in_order = sums[order]
-    margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # with the rounding of sums
+    margin = limit + 1e-12 * np.abs(changes[:, :3] * weights).sum(axis=(1, 2)).max()  # plus the rounding of sums
     starts = np.searchsorted(sums_in_order, sums - margin).tolist()
     ends = np.searchsorted(sums_in_order, sums + margin, side="right").tolist()
     groups: list[list[int]] = []
@@ -199,7 +200,7 @@ def _worlds(objects: Sequence[Object]) -> NDArray[np.float64]:
 
 
 def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDArray[np.bool_]:
-    """Set rotations and scales to matrices (n, 3, 3); return a mask of the possible ones."""
+    """Set objects' rotations and scales to (n, 3, 3) matrices; return a mask of matrices that have no shear."""
     turns, scales, fits = rotation_and_scale(linear, np.array([obj.scale for obj in objects], np.float64))
     rows_by_mode: dict[str, list[int]] = {}
     for row, obj in enumerate(objects):

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects that are made for a character: rigid bodies with joints, and an empty at its center of mass.
 
-A bone's part moves with the bone, and so does its center: an empty for each, parented to the bone. Copy Location
-constraints, each with the share of its part in the mass of those so far, put one more empty at their weighted mean.
+A bone's part moves with the bone, so an empty at the part's center is parented to the bone. Copy Location constraints
+put one more empty at the weighted mean of these: the influence of each is its part's share of the mass so far.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .findings import RIGID_BODY_MASS_TOO_SMALL
 from .made_collections import MadeCollection
 from .rigid_world import MIN_MASS, add_joint, add_rigid_bodies, require_rigid_world
 
-CENTER_OF = "center_of_mass_of"  # ID property of what is made: the armature object
+CENTER_OF = "center_of_mass_of"  # ID property of the made objects: the armature object
 RIG_OF = "physics_rig_of"
 
 
@@ -47,7 +47,7 @@ def add_center(context: Context, rig: Rig) -> None:
 
 
 def _follower(context: Context, made: MadeCollection, armature: Object, part: BonePart, unit: float) -> Object:
-    """Add an empty that is parented to a bone, at the center of its part."""
+    """Add an empty at the center of a bone's part, parented to the bone, and return it."""
     bone = armature.data.bones[part.name]
     empty = bpy.data.objects.new("{:s} {:s} Center".format(armature.name, part.name), None)
     empty.empty_display_size = 0.1 * bone.length
@@ -62,7 +62,7 @@ def _follower(context: Context, made: MadeCollection, armature: Object, part: Bo
 
 
 def create_physics_rig(context: Context, rig: Rig) -> tuple[int, int]:
-    """Create rigid bodies and joints of a character's parts; return their numbers."""
+    """Create rigid bodies and joints of a character's parts; return the number of each."""
     parts = [part for part in rig.parts if part.measurement is not None]
     for part in parts:
         if part.mass.total < MIN_MASS:
@@ -108,7 +108,7 @@ def _body(made: MadeCollection, armature: Object, part: BonePart, unit: float) -
 
 
 def _parent_with_part(bone: Bone, bodies: dict[str, Object]) -> str | None:
-    """Return the nearest bone above that has a body."""
+    """Return the name of the nearest ancestor of a bone that has a body, or None."""
     return next((parent.name for parent in bone.parent_recursive if parent.name in bodies), None)
 
 

@@ -20,7 +20,7 @@ MIN_MASS = bpy.types.RigidBodyObject.bl_rna.properties["mass"].hard_min  # kg
 
 
 def require_rigid_world(scene: Scene, joints: bool = False) -> None:
-    """Raise EditRefusedError if nothing can be added to the scene's rigid bodies, or to its joints either."""
+    """Raise EditRefusedError if the scene takes no new rigid bodies or, with `joints`, no new joints."""
     world = scene.rigidbody_world
     if world is None:
         return
@@ -30,14 +30,14 @@ def require_rigid_world(scene: Scene, joints: bool = False) -> None:
 
 
 def add_rigid_bodies(context: Context, objects: Sequence[Object], type: str = "ACTIVE") -> None:
-    """Make meshes rigid bodies, all by one operator."""
+    """Make all objects rigid bodies by one call of Blender's operator."""
     if objects:
         with context.temp_override(object=objects[0], selected_objects=objects):
             bpy.ops.rigidbody.objects_add(type=type)
 
 
 def add_joint(context: Context, obj: Object, type: str) -> RigidBodyConstraint:
-    """Make an object a rigid body constraint."""
+    """Make an object a rigid body constraint and return the constraint."""
     if context.scene.rigidbody_world is None:
         bpy.ops.rigidbody.world_add()
     with _active(context, obj):
@@ -48,7 +48,7 @@ def add_joint(context: Context, obj: Object, type: str) -> RigidBodyConstraint:
 
 
 def remove_joint(context: Context, obj: Object) -> None:
-    """Let an object be no rigid body constraint any more."""
+    """Remove the rigid body constraint of an object."""
     with _active(context, obj):
         bpy.ops.rigidbody.constraint_remove()
 

@@ -31,9 +31,9 @@ SAMPLES_PER_SLAB = 1 << 22  # samples at a time
 
 
 class PlacedScan(NamedTuple):
-    """A scan with its voxels' even places, (4, 4) in m, the uneven positions along each axis, and findings.
+    """A scan with the (4, 4) map from its voxels to meters, uneven sample positions by axis, and findings.
 
-    target: the .vdb file beside it.
+    target: the .vdb file beside the scan.
     """
 
     scan: Scan
@@ -51,10 +51,10 @@ def read_placed(
     files: dict[str, str],
     unit: float,
 ) -> PlacedScan:
-    """Read a scan.
+    """Read a scan and place its samples.
 
-    raw: shape, type and byte order of raw samples, if the name does not state them. spacing: in m, in place of the
-    file's. files: of positions along axes, and their unit in m. Raises FileError.
+    raw: shape, type and byte order of raw samples, if the file name does not state them. spacing: in m, in place of the
+    file's. files: files of sample positions, by axis. unit: meters per unit of these files. Raises FileError.
     """
     try:
         is_raw = scan_suffix(path) == ".raw"
@@ -72,7 +72,7 @@ def read_placed(
 
 
 def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
-    """Write the scan as a grid, in units of so many meters, whole or not at all, and return its least value.
+    """Write the scan as a grid with `unit` meters per unit, whole or not at all, and return its least value.
 
     The background differs from every sample's value, so that none is lost, but is zero if no sample is negative.
     """

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sculpt Balance: chosen vertices of a mesh are moved least so that its center of mass comes over a point.
 
-The change is made on the mesh itself and measured again, the way the object is always measured; if it cuts faces that
-are not flat anew, it is solved again for the new cut. A change that misses the point is undone.
+The change is made on the mesh itself, and the object is measured again in the usual way. If faces that are not flat are
+then cut into other triangles, the change is solved again for these. A change that misses the point is undone.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from .findings import (
 )
 from .transforms import FLOAT32
 
-MAX_ATTEMPTS = 6  # at a cut of faces that suits the shape that it leads to
+MAX_ATTEMPTS = 6  # at a change that keeps the triangles that it was solved for
 REACHED_RTOL = 1e-6  # rounding of a center in float32, relative to the body's size
 ROUNDING = 1e-7  # relative to the body's size; a coordinate below is reported as 0
 
@@ -92,7 +92,7 @@ class _EditedMesh:
 
 
 class _GroupedMesh:
-    """The mesh of an object in Object Mode, and a vertex group of it."""
+    """The mesh of an object in Object Mode, with the vertices and weights of one of its vertex groups."""
 
     def __init__(self, obj: Object, name: str):
         group = obj.vertex_groups.get(name) if name else obj.vertex_groups.active
@@ -113,10 +113,10 @@ class _GroupedMesh:
         self.start = self.start.reshape(-1, 3)
 
     def set_points(self, points: NDArray[np.float32]) -> None:
-        """Move the vertices to (n, 3) points."""
+        """Move all vertices to (n, 3) points."""
         self.is_changed = True
         self.mesh.attributes["position"].data.foreach_set("vector", np.ascontiguousarray(points).ravel())
-        self.mesh.vertices[0].co = self.mesh.vertices[0].co  # tells Blender, which keeps normals and a box
+        self.mesh.vertices[0].co = self.mesh.vertices[0].co  # makes Blender update normals and bounding box
 
 
 def balance_mesh(
@@ -132,7 +132,7 @@ def balance_mesh(
     directions = np.eye(3) if across == "ALL" else _horizontal_directions(context.scene)
     with tracking_paused():  # a trial that is undone is not an edit
         balanced = _balance(context, obj, mesh, np.array(target, np.float64) * unit, directions, limit * unit, unit)
-    obj.data.update_tag()  # for others that show the mesh it is one
+    obj.data.update_tag()  # for other objects with the mesh it is an edit
     return balanced
 
 
@@ -196,7 +196,7 @@ def _restored_on_error(context: Context, mesh: _EditedMesh | _GroupedMesh) -> It
 
 
 def _require_balanceable(obj: Object) -> None:
-    """Raise EditRefusedError if the mesh cannot be changed, or its change is not the object's."""
+    """Raise EditRefusedError if the mesh is linked or has shape keys, or the object is a shell with a real wall."""
     if not obj.data.is_editable:
         raise EditRefusedError(LINKED_OBJECT)
     if obj.data.shape_keys is not None:
@@ -216,7 +216,7 @@ def _measure(context: Context, obj: Object) -> Measurement:
 
 
 def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMesh | None) -> Part:
-    """Return the surface as it is measured; EditRefusedError if its vertices differ from the mesh."""
+    """Return the measured surface; raise EditRefusedError if its vertices are not those of `mesh`."""
     reading = read_object(obj, context.evaluated_depsgraph_get(), edges=False)
     part = reading.parts[0]
     if reading.all_singular:
@@ -232,7 +232,7 @@ def _read_surface(context: Context, obj: Object, mesh: _EditedMesh | _GroupedMes
 def _mesh_coordinates(
     mesh: _EditedMesh | _GroupedMesh, balanced: BalanceResult, start: Surface, linear: NDArray
 ) -> NDArray[np.float32]:
-    """Return (n, 3) the mesh's own coordinates; vertices that are not movable stay to the bit."""
+    """Return the (n, 3) new coordinates of the mesh; vertices that are not movable stay to the bit."""
     points = mesh.start.copy()
     moves = balanced.points[mesh.movable] - start.points[mesh.movable]
     local = mesh.start[mesh.movable].astype(np.float64) + np.linalg.solve(linear, moves.T).T

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects as snapping operators need them: the place of the body, in Blender units, and the frames to be given to it.
+"""Targets of snapping operators: the place of a body, in Blender units, and the new frames for its object.
 
 Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured again they turn, by
 about rounding over the gap between the moments. Whether axes are principal is therefore decided by the tensor, which
@@ -33,7 +33,7 @@ from .transforms import world
 POSE = MeasureOptions(pose=True)
 MAX_DIRECTION_NOISE = 1e-3  # rounding in float32 of directions fixed by moments of higher order
 DIAGONAL_RTOL = 4e-7  # products of inertia by rounding in float32, relative to the trace
-UNIT_SCALE = 1e-6  # by how much the products of an object's axes may differ from 1 and 0
+UNIT_SCALE = 1e-6  # largest deviation of the products of an object's axes from 1 and 0
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,8 @@ class SnapTarget:
     """An object as measured now, world axes, lengths in Blender units.
 
     center (3,), axes (3, 3) principal, as columns, det +1; inertia (3, 3) about the center in kg·m²; gyration (3,)
-    radii; size: the largest of them; finding: about free choices. shape_axes: the axes of equal moments fixed by the
-    shape itself; is_unique: the shape fixes all.
+    radii; size: the largest of them; finding: about free choices. shape_axes: indices of axes of equal moments that the
+    shape itself fixes; is_unique: whether it fixes all axes.
     """
 
     obj: Object
@@ -92,7 +92,7 @@ class SnapTarget:
         )
 
     def _matches_shape_axes(self, frame: NDArray) -> bool:
-        """Return whether axes of equal moments lie as the shape requires: a cube's sides along any of its own axes."""
+        """Return whether axes of equal moments lie as the shape requires; a cube's axes may be swapped or reversed."""
         cosines = (frame.T @ self.axes)[:, self.shape_axes]
         expected = np.eye(3)[:, self.shape_axes] if self.is_unique else np.round(cosines)
         return bool((np.abs(cosines - expected) <= MAX_DIRECTION_NOISE).all())
@@ -126,7 +126,7 @@ def target_of(context: Context, obj: Object, measured: Measured | Stacked, stric
     body = measured.mass_properties
     principal = body.principal
     if strict:
-        # By itself, its third moments are found exactly where they are doubtful.
+        # Measured alone, a body gets exact third moments if they are doubtful.
         depsgraph = context.evaluated_depsgraph_get()
         own = measure_body(obj, depsgraph, POSE) if isinstance(measured, Stacked) else measured
         measurement = own.measurement
@@ -146,7 +146,7 @@ def matrix_at_center(obj: Object, body: SnapTarget) -> NDArray | None:
 
 
 def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
-    """Return the object's matrix with its axes along the body's, or None if they are already."""
+    """Return the matrix of the body's center and principal axes, or None if the object has them already."""
     now = world(obj)
     linear = now[:3, :3]
     is_rotation = np.abs(linear.T @ linear - np.eye(3)).max() <= UNIT_SCALE and np.linalg.det(linear) > 0.0

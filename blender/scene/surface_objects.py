@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Patches with Blender's knots as surface objects.
 
-Only Blender's operators make a grid of control points out of nothing, and only in Edit Mode. So a scene of its own,
-which is removed again, has a grid of each size made once; the patches of an object are joined there, and get their
-points last. Nothing of the user's scene is selected, changed or evaluated.
+Only Blender's operators make a grid of control points out of nothing, and only in Edit Mode. So a grid of each size is
+made once in a temporary scene; the patches of an object are joined there, and get their points last. Nothing of the
+user's scene is selected, changed or evaluated.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def _active(scene: Scene, obj: Object, selected: Sequence[Object]) -> Iterator[N
 
 
 def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
-    """Return surface data with one spline of (count_v, count_u) points, at any places."""
+    """Return surface data with one spline of (count_v, count_u) points at arbitrary places."""
     rows, columns = max(shape[0], MIN_LOFTED_POINTS), shape[1]
     data = bpy.data.curves.new("Body Moments Import", "SURFACE")
     for _ in range(columns):
@@ -158,7 +158,7 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
 def import_bodies(
     bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float
 ) -> list[tuple[Object, float]]:
-    """Make an object of each body in a collection; see `surface_object`."""
+    """Add an object of each body to a collection; return the pairs of `surface_object`."""
     made = []
     for body in bodies:
         obj, moved = surface_object(body.name, body.patches, factor)

@@ -3,8 +3,8 @@
 """An object's own transform channels, in float64.
 
 Blender's setters for `matrix_world` and `matrix_basis` take Euler angles out of a float32 matrix, each angle by itself;
-near gimbal lock the angles then no longer fit together. Here each angle is taken from the rest that the ones before it
-leave over, in float64, so that the angles rebuild any rotation.
+near gimbal lock the angles then no longer fit together. Here each angle is taken from the rotation that remains after
+the angles before it, in float64, so that the angles rebuild any rotation.
 
 The basis of an object is T(location + delta) · R(delta) R(rotation) · S(scale · delta), before
 parents and constraints.
@@ -25,19 +25,19 @@ from ..read.findings import SCALE_ZERO_AXIS
 from .findings import CHANNEL_LOCKED, PARENT_SHEARS
 
 FLOAT32 = float(np.finfo(np.float32).eps)
-MAX_SHEAR = 2e-6  # found in float32 products of a rotation and a scale
+MAX_SHEAR = 2e-6  # by rounding, in float32 products of a rotation and a scale
 
 Matrix3 = NDArray[np.float64]
 Matrix4 = NDArray[np.float64]
 
 
 def world(obj: Object) -> Matrix4:
-    """Return (4, 4) the evaluated matrix_world as float64."""
+    """Return the (4, 4) evaluated matrix_world of an object as float64."""
     return np.array(obj.matrix_world, np.float64)
 
 
 def solve(matrix: Matrix4, right_side: Matrix4) -> Matrix4:
-    """Return the solution of `matrix` · x = `right_side`, (4, 4): float64, which numpy's types do not say."""
+    """Return the (4, 4) solution x of `matrix` · x = `right_side`, declared as float64, unlike numpy's function."""
     return np.asarray(np.linalg.solve(matrix, right_side), np.float64)
 
 
@@ -63,7 +63,7 @@ def euler_matrix(angles: NDArray, mode: str) -> Matrix3:
 
 
 def euler_angles(rotation: NDArray, mode: str, near: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) angles by axis x, y, z of rotations (..., 3, 3): of all equal ones the nearest to `near`."""
+    """Return (..., 3) Euler angles by axis of (..., 3, 3) rotations: of all equivalent ones the nearest to `near`."""
     i, j, k, s = _order(mode)
     locked = np.hypot(rotation[..., k, j], rotation[..., k, k]) < 1e-7
     first = np.where(locked, near[..., i], np.arctan2(s * rotation[..., k, j], rotation[..., k, k]))
@@ -116,7 +116,7 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
-    """Return rotations and scales, with signs as now, of (..., 3, 3) maps, and a mask without sheared or zero ones."""
+    """Return rotations and scales (signs of `scale`) of (..., 3, 3) maps, and a mask of maps without shear or zeros."""
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)
@@ -129,7 +129,7 @@ def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.floa
 
 
 def set_rotation_and_scale(obj: Object, linear: Matrix3) -> None:
-    """Make the 3×3 part of the basis `linear`, a rotation times a scale; EditRefusedError if it is sheared."""
+    """Set rotation and scale so that the basis has the 3×3 part `linear`; EditRefusedError if that is sheared."""
     delta_scale = np.array(obj.delta_scale, np.float64)
     if np.linalg.norm(linear, axis=0).min() <= 0.0 or np.abs(delta_scale).min() == 0.0:
         raise EditRefusedError(SCALE_ZERO_AXIS)
@@ -183,7 +183,7 @@ def driven_channels(obj: Object) -> set[str]:
 
 
 class TransformChannels:
-    """The channels of an object as they were, to put them back."""
+    """A copy of an object's transform channels, to restore them."""
 
     NAMES = ("location", "rotation_euler", "rotation_quaternion", "rotation_axis_angle", "scale")
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The center of mass of several objects over the frames, with what supports them."""
+"""The common center of mass of several objects over a range of frames, and the support below it."""
 
 from __future__ import annotations
 
@@ -27,10 +27,11 @@ REACH = 0.01  # contact with the ground within this distance, relative to the co
 
 
 class BalanceGroup:
-    """Objects that are followed over a range of frames.
+    """Objects whose common center of mass is followed over a range of frames.
 
-    objects: by name. feet: objects that may touch the ground. centers: (3,) in Blender units, one for each frame so
-    far. supports: of the contact objects, None if they are in the air. failure: why following ended early.
+    objects: the followed objects, sorted by name. feet: objects that may touch the ground. centers: a (3,) center in
+    Blender units for each frame so far. supports: a support for each frame, None if nothing touches the ground.
+    failure: the reason if following ended early.
     """
 
     def __init__(self, context: Context, collection: str, contacts: str, ground: float, reach: float):
@@ -45,7 +46,7 @@ class BalanceGroup:
         self.failure: Finding | None = None
 
     def _members(self, collection: str) -> list[Object]:
-        """Return the followed objects, by name."""
+        """Return the followed objects, sorted by name; keep the collection in `_assembly` if its mass is given."""
         context = self._context
         if collection:
             depsgraph = context.evaluated_depsgraph_get()
@@ -66,7 +67,7 @@ class BalanceGroup:
         return sorted(members, key=lambda obj: obj.name_full)
 
     def follow(self, scene: Scene, frames: range) -> Generator[int, None, None]:
-        """Each frame in turn; the scene is at the frame of before when it ends, however it ends."""
+        """Measure frame after frame, yield the number of finished frames, and restore the scene's frame at the end."""
         before, subframe = scene.frame_current, scene.frame_subframe
         motion = Motion(len(frames))
         self._frames = frames
@@ -104,7 +105,7 @@ class BalanceGroup:
         return support_of_contacts(touching, center, down) if len(touching) else None
 
     def store(self, context: Context) -> Object:
-        """Put the path on the group's empty, a new one if there is none, and return it."""
+        """Store the path as keys of the group's empty, which is added if there is none, and return the empty."""
         inside = None
         if self.feet:
             inside = np.array([support is not None and support.stands for support in self.supports])
@@ -129,7 +130,7 @@ def _collection(name: str) -> Collection:
 
 
 def counted(member: Member) -> Iterator[Object]:
-    """Yield the objects of an assembly that count; of an instance, the instancer."""
+    """Yield the objects of an assembly that count; an instanced collection counts as its instancer."""
     if member.is_measured or member.kind == MemberKind.INSTANCE:
         yield member.data
     if member.kind != MemberKind.INSTANCE:
@@ -138,11 +139,11 @@ def counted(member: Member) -> Iterator[Object]:
 
 
 def has_given_mass(root: Member) -> bool:
-    """Return whether the mass of an assembly, or of one in it, is given: then it is not the sum of its objects'."""
+    """Return whether an assembly, or one inside it, has a given mass, which need not be the sum of its objects."""
     kinds = (MemberKind.COLLECTION, MemberKind.EMPTY)
     return any(member.kind in kinds and settings_of(member.data).mass_from == "MASS" for member in root.walk())
 
 
 def deformed_by(armature: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the objects that an armature deforms, and the ones that are parented to its bones."""
+    """Return the objects that an armature deforms, and the objects that are parented to its bones."""
     return [obj for obj in objects if is_skin_of(obj, armature) or obj.parent == armature and obj.parent_type == "BONE"]

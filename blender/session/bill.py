@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bills of masses: the rows of an assembly's tree."""
+"""Bills of masses: a row for each member of an assembly's tree."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from ..write.bill import BillRow
 
 
 def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = True) -> Iterator[BillRow]:
-    """Yield the rows of a member and of all below it.
+    """Yield the rows of a member and of all members below it.
 
-    `mass` is that of the whole in kg, `level` the number of assemblies around the member; `counted` is True if its
-    mass is part of the whole.
+    mass: of the whole assembly, in kg. level: number of assemblies around the member. counted: whether the member's
+    mass is part of the assembly's mass.
     """
     moments = part.mass
     measurement = part.measurement

@@ -33,7 +33,7 @@ from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
 REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
-# Warnings that say how the surface was closed: those of a repaired body.
+# Warnings about repairs of the surface: a body with these warnings alone counts as repaired.
 REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
 ASSEMBLY = Method(Verdict.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
@@ -52,8 +52,9 @@ class Trust(StrEnum):
 class Displayed:
     """The displayed numbers of an object, SI.
 
-    numbers: in the object frame; world: in the world frame. unit: meters per Blender unit. reason: why they are out of
-    date. live: the measurement with Live on. lag: of live numbers. is_posed: they are a sum in the present pose.
+    numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason: the reason if the
+    numbers are out of date. live: the result with Live on. lag: the lag of live numbers behind the object. is_posed:
+    whether the numbers are a sum of parts in the present pose.
     """
 
     numbers: StoredProperties
@@ -77,7 +78,7 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: on possible non-parts.
+    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: caveats about the sum.
     """
 
     count: int
@@ -90,10 +91,10 @@ class Total:
     findings: tuple[Finding, ...]
 
 
-# The last drawn numbers of an object, the key of its state but for its place, and the number of its last move.
+# By object: the key of its state without its place, the number of its last move, and its last drawn numbers.
 _drawn: SessionCache[tuple[tuple, int, Displayed | None]] = SessionCache()
 _failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
-# A scene's last total, and the generation and view layer that it is of: the panel is drawn at every mouse movement.
+# A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
 
@@ -125,9 +126,9 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object where it is drawn: a character's as it is posed.
+    """Return the displayed numbers of an original object at its current place, a character's in its current pose.
 
-    None if it has no mass.
+    None if there are no numbers, or the mass is 0.
     """
     if obj.type == "ARMATURE" or obj in following.followed or obj.body_moments.density_from in BY_OTHERS:
         shown = displayed(obj, scene)
@@ -139,7 +140,7 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def _known_displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an object that depends on no other, computed again only after its changes.
+    """Return the displayed numbers of an object that depends on no other; compute them anew only after its changes.
 
     The numbers of a thousand objects take 0.1 s.
     """
@@ -169,7 +170,7 @@ def _known_displayed(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
-    """Return the numbers of a pose bone's part, in the bone's current place; None if it has none.
+    """Return the numbers of a pose bone's part at the bone's current place, or None if there are none.
 
     bone: of an original armature object.
     """
@@ -184,7 +185,7 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
 
 
 def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
-    """Return the trust in current numbers of this method with these findings."""
+    """Return the trust in numbers that are up to date, by their method and findings."""
     warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
     if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
         return Trust.DOUBTFUL
@@ -200,7 +201,7 @@ def remember_failure(obj: Object, reason: Finding | None) -> None:
 
 
 def failure(obj: Object) -> Finding | None:
-    """Return the reason why the last measurement with these settings failed, if it did."""
+    """Return the reason why the last measurement with the object's current settings failed, or None if it did not."""
     reason, settings = _failures.get(obj) or (None, "")
     return reason if reason is not None and settings == settings_hash(obj, bpy.context.scene) else None
 

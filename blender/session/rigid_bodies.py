@@ -32,12 +32,12 @@ from .snapping import store_measured
 from .stored import assembly
 from .tracking import staleness
 
-PROBE_DENSITY = 1e6  # with which Calculate Mass is asked: rigid bodies weigh no less than a gram
+PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh no less than a gram
 
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """An object that becomes a rigid body, with the objects below it that are parts of the same one."""
+    """An object that becomes a rigid body, with the objects below it that become parts of the same body."""
 
     obj: Object
     members: tuple[Object, ...] = ()
@@ -55,7 +55,7 @@ class Measured:
 
 @dataclass(frozen=True, eq=False)
 class RigidBodies:
-    """New rigid bodies by their objects, their masses by Calculate Mass in kg, and the reasons for the other bodies."""
+    """New rigid bodies by their objects, their masses in kg by Calculate Mass, and the refusals of other bodies."""
 
     measured: dict[Object, Measured]
     calculated: dict[Object, float]
@@ -67,7 +67,8 @@ def make_rigid_bodies(
 ) -> RigidBodies:
     """Make objects rigid bodies with their mass, center of mass and principal axes.
 
-    type, shape, frame: as the operator names them. compounds: an object and its children among the objects are one.
+    type, shape, frame: values of the operator's properties. compounds: make each object and its descendants among
+    `objects` one body.
     """
     bodies = _bodies(objects) if compounds else [Body(obj) for obj in objects]
     measured: dict[Object, Measured] = {}
@@ -96,13 +97,13 @@ def make_rigid_bodies(
 
 
 def _place(context: Context, measured: dict[Object, Measured], frame: str) -> list[Finding]:
-    """Give each body the requested frame; leave out bodies that cannot have it, and return the reasons."""
+    """Give each body the requested frame; remove refused bodies from `measured`, and return the reasons."""
     failures: list[Finding] = []
     if frame == "KEEP":
         return failures
     move_only = frame == "ORIGIN"
     frame_of = matrix_at_center if move_only else matrix_along_axes
-    for _ in range(1 if move_only else 2):  # without its scale what is not flat is cut into other triangles
+    for _ in range(1 if move_only else 2):  # a new scale may cut faces that are not flat into other triangles
         plans, joints = [], {}
         for obj, one in list(measured.items()):
             target = frame_of(obj, one.target)
@@ -153,7 +154,7 @@ def _add(context: Context, measured: dict[Object, Measured], type: str, shape: s
 
 
 def _bodies(objects: Sequence[Object]) -> list[Body]:
-    """Return a body for each selected object without a selected parent, with its selected children."""
+    """Return a body for each object without a parent among `objects`, with its descendants among them."""
     chosen = set(objects)
     members: dict[Object, list[Object]] = {obj: [] for obj in objects if obj.parent not in chosen}
     for obj in objects:
@@ -166,13 +167,13 @@ def _bodies(objects: Sequence[Object]) -> list[Body]:
 
 
 def _measure_in_turn(context: Context, bodies: Iterable[Body]) -> Callable[[Object], MeasuredBody | Stacked]:
-    """Return a function that measures all their objects in turn."""
+    """Return a function that measures the objects of the bodies, one at a time and in order."""
     parts = [part for body in bodies for part in (body.obj, *body.members)]
     return measured_in_turn(parts, context.evaluated_depsgraph_get(), POSE)
 
 
 def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody | Stacked]) -> Measured:
-    """Measure a body as it is now. EditRefusedError if it cannot be a rigid body."""
+    """Measure a body as it is now; raise EditRefusedError if it cannot be a rigid body."""
     require_rigid_world(context.scene, joints=body.obj.rigid_body_constraint is not None)
     parts = [(body.obj, _measured_part(body.obj, ask))]
     for part in body.members:
@@ -194,7 +195,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
-    """Measure an object of a body as it is now. EditRefusedError if it cannot be part of a rigid body."""
+    """Measure an object of a body as it is now; raise EditRefusedError if it cannot be part of a rigid body."""
     require_storable_data(part)
     if part.type != "MESH":
         raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
@@ -205,7 +206,7 @@ def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]
 
 
 def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> dict[Object, float]:
-    """Return the mass by Blender's Calculate Mass of each body with the same density."""
+    """Return the mass in kg that Blender's Calculate Mass gives each body at the body's mean density."""
     objects = list(measured)
     if not objects:
         return {}
@@ -215,7 +216,7 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
 
 
 def _joint_in_place(context: Context, obj: Object) -> Object | None:
-    """Return an empty that takes over the object's joint at its place, or None if the object is no joint."""
+    """Add an empty with a copy of the object's joint at its place and return it, or None if there is no joint."""
     joint = obj.rigid_body_constraint
     if joint is None:
         return None

@@ -31,9 +31,9 @@ from .findings import LEFT_OUT_OF_ROBOT, ROBOT_WITHOUT_BONES
 
 @dataclass(frozen=True)
 class SceneLinks:
-    """A robot made from the scene, with findings about the omitted parts. unit: meters per Blender unit.
+    """A robot made from the scene, with findings about its links and omitted objects. unit: meters per Blender unit.
 
-    members: the objects of each link. pieces: of each bone, the surfaces and the maps that put them into the world, m.
+    members: the objects of each link. pieces: the surfaces of each bone's link, with maps into the world in meters.
     """
 
     robot: Robot
@@ -43,7 +43,7 @@ class SceneLinks:
     pieces: dict[str, tuple[tuple[Surface, NDArray[np.float64]], ...]] = field(default_factory=dict)
 
     def surface(self, context: Context, label: str) -> Surface | None:
-        """Return a link's surface, in meters along its own axes; None if it shows no faces."""
+        """Return a link's surface, in meters along the link's axes; None if the link shows no faces."""
         pose = self.robot.link(label).pose
         if label not in self.pieces:
             depsgraph = context.evaluated_depsgraph_get()
@@ -60,7 +60,7 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the named collection, if any; else the selected objects, or all objects in renders."""
+    """Return the objects of the collection if one is named, else the selected objects, or all rendered objects."""
     if collection:
         return list(bpy.data.collections[collection].all_objects)
     if selected:
@@ -71,7 +71,7 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
 def object_links(
     context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
-    """Return a robot with a link for each object that can be measured. step: called with the count of finished ones."""
+    """Return a robot with a link for each object that can be measured. step: gets the number of finished objects."""
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
@@ -95,9 +95,9 @@ def object_links(
 def collection_links(
     context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
 ) -> SceneLinks:
-    """Return a robot with a link, along the world's axes, for each child collection of `root`, or for `root` itself.
+    """Return a robot with a link along the world's axes for each child collection of `root`, or for a childless `root`.
 
-    Links are assemblies. objects: of the displayed meshes.
+    Links are assemblies. objects: the objects whose meshes the links may show.
     """
     depsgraph = context.evaluated_depsgraph_get()
     made, failures, members = [], [], {}
@@ -120,7 +120,7 @@ def collection_links(
 
 
 def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
-    """Return a robot with a link for each bone that has a part, in its rest frame, and joints with bone limits."""
+    """Return a robot with a link, in rest frame, for each bone that has a part, and joints with the bones' limits."""
     made, findings, pieces = [], [], {}
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:
@@ -146,7 +146,7 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
 
 
 def left_out(failures: list[Finding], total: int) -> list[Finding]:
-    """Return the findings about objects that could not be measured."""
+    """Return a list with one finding about all objects that could not be measured, empty if there are none."""
     if not failures:
         return []
     causes = [failure.as_record() for failure in reports.first(failures)]

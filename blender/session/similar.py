@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Comparison of the shapes of objects with that of another one."""
+"""Comparison of the shapes of objects with the shape of a wanted object."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of ord
 
 
 class Match(NamedTuple):
-    """A compared shape. verdict: its relation. distance: of the signatures. scale: relative to the wanted object."""
+    """A compared shape. verdict: relation to the wanted shape. distance: between signatures. scale: relative size."""
 
     name: str
     file: str
@@ -48,13 +48,13 @@ class SimilarSearch:
         self._mirror_images: dict[Entry, bool | None] = {}  # only if the signatures leave it open
 
     def measure(self) -> Iterator[float]:
-        """Measure the object that is searched for, in steps. Raises MeasureError if it has no signature."""
+        """Measure the wanted object, in steps. Raises MeasureError if it has no signature."""
         self._shape = comparable_shape_of(self._obj, self._depsgraph)
         yield 0.0
         self.wanted = self._shape.signature(DESCRIPTOR_ORDER)
 
     def comparison(self, objects: Sequence[Object]) -> Callable[[Object], Generator[float, None, None]]:
-        """Return a function that compares one of the objects at a time, in steps."""
+        """Return a function that compares one of the objects with the wanted object and yields the finished share."""
         wanted_shape, skin, depsgraph = self._shape, None, self._depsgraph
         flat = isinstance(wanted_shape, FlatShape)
         if flat:
@@ -86,7 +86,7 @@ class SimilarSearch:
         return compare
 
     def find_nearest(self, scaled: bool, mirrored: bool) -> list[Match]:
-        """Return the compared objects, the most similar first. scaled, mirrored: rank such copies like copies."""
+        """Return the matches, nearest first. scaled, mirrored: rank scaled copies and mirror images like copies."""
         matches = []
         for entry, likeness in rank(self.wanted, self._objects, scaled, mirrored):
             is_mirror_image = self._mirror_images.get(entry, likeness.is_mirror_image)
@@ -112,5 +112,5 @@ def _match(entry: Entry, likeness: Likeness, scaled: bool, mirrored: bool, obj: 
 
 
 def _is_mirror_image(match: RigidMatch, size: float) -> bool | None:
-    """Return whether the match is a mirror image by the surfaces, or None if they do not decide it."""
+    """Return whether the surfaces show the match to be a mirror image, or None if they do not decide it."""
     return False if match.max_distance <= MAX_FIT_RTOL * size else True if match.is_mirror_image else None

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Objects that are given other frames, with their stored results."""
+"""New origins and axes of objects, with new measurements of the objects with stored results."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ CENTER = MeasureOptions(axes=False)
 
 
 def store_measured(context: Context, measured: Iterable[tuple[Object, Measured | Stacked]]) -> dict[Object, Exception]:
-    """Store measurements of the present scene; return the reasons for objects that cannot hold theirs."""
+    """Store measurements of the present scene; return the errors of objects that cannot hold their results."""
     measured = list(measured)
     outcomes = list(results.store_many(measured, context.scene))
     shapes = {obj: found.shape_digest for obj, found in measured if isinstance(found, Stacked)}
@@ -66,13 +66,14 @@ def reframe_objects(
 ) -> tuple[list[reframe.Plan], list[Finding]]:
     """Give each object the matrix that `target_matrix` returns, while nothing visible moves.
 
-    Return the changes, and the reasons for refusals. `target_matrix` returns None if the object is in place already.
+    Return the finished plans, and the reasons for refusals. `target_matrix` returns None if the object is in place
+    already. move_only: keep the axes. strict: as for `snap_target`.
     """
 
     def plans_of(
         chosen: Sequence[Object], right: dict[Object, Measured | Stacked]
     ) -> tuple[list[reframe.Plan], list[Finding]]:
-        """Plan the moves. right: gets the measurements of objects to be stored that are in place already."""
+        """Return plans and refusals. right: gets measurements of objects in place that have stored results."""
         plans: list[reframe.Plan] = []
         failures: list[Finding] = []
         measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)
@@ -99,7 +100,7 @@ def reframe_objects(
         with tracking_paused(), reports.progress(len(plans)) as step:
             changed, refused = reframe.reframe(context, plans, step)
             failures += [reports.failure(obj.name_full, refusal) for obj, refusal in refused]
-            if not move_only:  # without its scale Blender cuts what is not flat into other triangles: another body
+            if not move_only:  # a new scale may change the triangles of faces that are not flat: another body
                 reframe.reframe(context, plans_of([plan.obj for plan in changed], known)[0])
         remeasure(context, [plan.obj for plan in changed], known)
     if not move_only:

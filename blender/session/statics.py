@@ -23,10 +23,10 @@ from .tracking import staleness
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
-    """Remember the hull of an object, and return the texts of what was decided.
+    """Compute and remember an object's convex hull; return texts about decisions, such as a simplified hull.
 
-    If the object's numbers are out of date, it is measured and added to `measured`. Raises MeasureError if it has no
-    certain center or no surface.
+    An object without up-to-date stored numbers is measured and stored before, and added to `measured`. Raises
+    MeasureError if the object has no certain center or no surface.
     """
     depsgraph = context.evaluated_depsgraph_get()
     if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
@@ -49,8 +49,8 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
 def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: list[str]) -> bool:
     """Lay the object on the ground, and return whether it had to be moved.
 
-    pose: number of a stable pose, the likeliest first, 0 for the nearest. ground: as the operator names it. notes: gets
-    the texts of what was decided.
+    pose: number of a stable pose, the likeliest first, 0 for the smallest turn. ground: value of the operator's
+    property. notes: gets texts about decisions.
     """
     reframe.check_movable(obj)
     measured: list[Object] = []
@@ -81,7 +81,7 @@ def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: 
 
 
 def _ground(context: Context, obj: Object, ground: str, center: NDArray, down: NDArray) -> float:
-    """Return the distance of the ground below the center."""
+    """Return the distance from the center down to the ground, in Blender's units."""
     if ground == "LOWEST":
         support = stability.support(obj, context.scene)
         assert support is not None  # it is known as its poses are

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reactions of the session to Blender's reports and to changed settings, in one table.
 
-Modules with sliders add their own when they keep something (`stored.walls`, `stored.threshold`).
+Modules with sliders subscribe by themselves once they have cached something (`stored.walls`, `stored.threshold`).
 """
 
 from __future__ import annotations
@@ -56,13 +56,13 @@ SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
 
 
 def register() -> None:
-    """React from now on."""
+    """Subscribe the functions of the table."""
     for subscribers, function in SUBSCRIPTIONS:
         subscribers.append(function)
 
 
 def unregister() -> None:
-    """React no more, but write the existing notes first, for the file may outlive the add-on."""
+    """Write the notes of edits, as the file may outlive the add-on; then forget them and clear all subscriptions."""
     staleness.write_notes()
     for forget in (updates.forget_file, staleness.forget_file, outcome.forget):
         forget()

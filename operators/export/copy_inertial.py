@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inertials as text on the clipboard, to be pasted into a robot description."""
+"""Mass, center and inertia of links as text on the clipboard, to be pasted into a robot description."""
 
 from bpy.props import EnumProperty
 from bpy.types import Context, Operator

@@ -122,7 +122,7 @@ class GeometryExport(RobotExport):
         return self._export_over(made, path)
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
-        """Write the geometry as Blender does, with the masses; return the findings about them."""
+        """Write the geometry by Blender's exporter, with our masses; return the findings about the robot."""
         raise NotImplementedError
 
     def _run_exporter(self, exporter: str, path: Path, options: dict) -> None:

@@ -59,7 +59,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
             return {"CANCELLED"}
         _select(context, made)
         for part in [*parts, *(reports.failure(error.subject, error) for error in refusals)]:
-            reports.report(self, part)  # a line for each; what was refused of one file does not undo the others
+            reports.report(self, part)  # one line each: a refused file does not undo the others
         return {"FINISHED"}
 
     def _paths(self) -> list[Path]:

@@ -33,9 +33,9 @@ class OnStored:
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: str) -> None:
-    """Copy a text, and report that it is done.
+    """Copy a text to the clipboard, and report `done`.
 
-    Without a window there is no clipboard, and long reports are cut short: the text goes to the standard output.
+    In background mode there is no clipboard, and long reports are cut short: the text goes to the standard output.
     """
     if bpy.app.background:
         sys.stdout.write(text.removesuffix("\n") + "\n")
@@ -152,7 +152,7 @@ def _active_index(_scene: Scene) -> int:
 
 
 def _select(_scene: Scene, index: int) -> None:
-    """Select the object of the list's line alone, and make it active; in Object Mode."""
+    """Select only the object with this index in the view layer, and make it active; only in Object Mode."""
     layer = bpy.context.view_layer
     if bpy.context.mode != "OBJECT" or not 0 <= index < len(layer.objects):
         return
@@ -164,7 +164,7 @@ def _select(_scene: Scene, index: int) -> None:
 
 
 def register() -> None:
-    """Register the operators, and the line of the list that is the active object's."""
+    """Register the operators, and the property with the index of the list's active line."""
     for cls in CLASSES:
         bpy.utils.register_class(cls)
     Scene.body_moments_listed = IntProperty(
@@ -173,7 +173,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Remove them."""
+    """Remove the property and the operators."""
     del Scene.body_moments_listed
     for cls in reversed(CLASSES):
         bpy.utils.unregister_class(cls)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Fourier transform of the active object on a grid: a file of its values, and a picture of them."""
+"""The Fourier transform of the active object on a grid: its values in a file, and slices of them in an image."""
 
 from __future__ import annotations
 

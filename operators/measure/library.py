@@ -32,7 +32,7 @@ _PAUSE = 0.05  # seconds between looks at the run
 
 
 def _sources(_operator: Operator | None, context: Context | None) -> list[tuple[str, str, str]]:
-    """Return the folder chosen in the browser, and the asset libraries of the preferences."""
+    """Return the menu's items: the folder in the file browser, and the asset libraries of the preferences."""
     libraries = context.preferences.filepaths.asset_libraries if context else ()
     found = [(FOLDER, "Folder", "The folder that is open in the file browser")]
     found += [("LIBRARY_{:d}".format(number), one.name, one.path) for number, one in enumerate(libraries)]
@@ -103,7 +103,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
         self._folder = Path(folder)
         words = [folder, "--format", "jsonl", *(["--thumbnails"] if self.thumbnails else [])]
         is_begun = (self._folder / JOURNAL).exists() and not (self._folder / RESULT).exists()
-        words += ["--resume"] if is_begun else []  # it was ended before
+        words += ["--resume"] if is_begun else []  # an earlier run was stopped
         if self.asset_metadata:
             words += ["--asset-metadata", "file" if self.overwrite else "copy"]
         blender = None if bpy.app.module else bpy.app.binary_path
@@ -141,7 +141,7 @@ class OBJECT_OT_body_moments_measure_library(ModalSteps, Operator):
 
 
 class _Documents:
-    """The documents of a journal, read again each time."""
+    """The documents of a journal, read again at each iteration."""
 
     def __init__(self, journal: Journal, paths: list[str]) -> None:
         self._journal, self._paths = journal, paths

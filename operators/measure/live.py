@@ -49,7 +49,7 @@ class OBJECT_OT_body_moments_live(Operator):
 
 
 def _subjects(context: Context) -> list[Object]:
-    """Return the measurable ones of the active object and the selected objects."""
+    """Return the measurable objects among the active and selected ones, with the meshes of posed armatures."""
     objects = armatures.subjects([context.object, *context.view_layer.objects.selected])
     return [obj for obj in objects if measurable(obj)]
 

@@ -70,7 +70,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         return bool(context.selected_objects) or reports.unavailable(cls, "Select objects")
 
     def _begin(self, context: bpy.types.Context) -> int:
-        """Start with the selected objects, in edit mode the edited ones; return their number."""
+        """Apply the settings of the redo panel and prepare the steps; return the number of selected objects."""
         copy_defaults(context.scene)
         self._objects = objects = list(context.selected_objects)
         for obj in objects:
@@ -105,7 +105,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             yield done
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
-        """Nothing is stored before everything is measured, so that a canceled run leaves nothing behind."""
+        """Store the results of all objects at the end, so that a canceled run leaves none behind."""
         failed = session.store_measured(context, self._results)
         for obj, _ in self._results:
             displayed.remember_failure(obj, None)

@@ -112,7 +112,7 @@ class OBJECT_OT_body_moments_axis_from_selection(Operator):
 
 
 def _selected_points(context: Context) -> list[Vector]:
-    """World positions: in Edit Mode in the order in which vertices were selected, else the active object last."""
+    """Return world positions: of vertices as selected in Edit Mode, else of objects' origins, the active one last."""
     if context.mode != "EDIT_MESH":
         objects = sorted(context.view_layer.objects.selected, key=lambda obj: (obj == context.object, obj.name))
         return [obj.matrix_world.translation for obj in objects]

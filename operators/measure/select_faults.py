@@ -82,7 +82,7 @@ class OBJECT_OT_body_moments_select_faults(Operator):
             if wrong:
                 faults[obj] = wrong
 
-        # Not each stored as it is measured: Blender would evaluate the scene again for every one of them.
+        # All objects are measured before any is stored: otherwise Blender would evaluate the scene for each of them.
         _, failures = selection.apply_to_all(objects, measure)
         done, unstored = selection.apply_to_all(list(measurements), store)
         failures += unstored
@@ -111,7 +111,7 @@ def _counts(found: dict[str, Any]) -> list[dict]:
 
 
 def _show_defects(context: Context, faults: dict[Object, dict[str, Any]]) -> None:
-    """Edit Mode on the faulty objects alone, with their faults selected."""
+    """Enter Edit Mode on the faulty objects alone, and select their faults."""
     for obj in list(context.view_layer.objects.selected):
         if obj not in faults:
             obj.select_set(False)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Materials for all selected objects at once, presets of one's own, and settings from one object to the others."""
+"""Materials for all selected objects at once, users' presets, and copies of settings from one object to others."""
 
 import bpy
 from bl_operators.presets import AddPresetBase
@@ -149,7 +149,7 @@ class OBJECT_OT_body_moments_preset_add(AddPresetBase, Operator):
     preset_menu = "OBJECT_PT_body_moments_presets"
     preset_subdir = PRESET_FOLDER
     preset_defines = ["settings = bpy.context.object.body_moments"]
-    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]  # it is the file's
+    preset_values = ["settings." + name for name in COPIED_PROPERTIES if name != "density_volume"]  # an object
 
 
 CLASSES = (

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Actions of the buttons beside warnings on the active object, which is measured again after them."""
+"""Operators of the buttons beside warnings: each applies a remedy, and most measure the objects again."""
 
 import bpy
 from bpy.props import BoolProperty, FloatProperty, StringProperty
@@ -18,13 +18,13 @@ from ...core.verdict.finding import MeasureError
 from ...core.verdict.findings import FLIPPED_FACES
 from .. import selection
 
-# Findings whose elements are the faces that were reversed; without elements, all faces were
+# Findings that list the reversed faces; an empty list means all faces.
 REVERSED = (FLIPPED_FACES, INVERTED_COMPONENTS)
 MILLIMETER = 0.001
 
 
 def measure_anew(context: Context, objects: list[Object]) -> None:
-    """Measure objects as the button does, with its reports."""
+    """Measure objects by the operator of the Measure button, with its reports."""
     with context.temp_override(selected_objects=objects):
         bpy.ops.object.body_moments_measure()
 

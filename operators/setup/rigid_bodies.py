@@ -114,7 +114,7 @@ class OBJECT_OT_body_moments_rigid_bodies(selection.OnSelectionInObjectMode, Ope
 
 
 def _compare_masses(context: Context, made: "RigidBodies") -> str:
-    """Return a line for each of the first bodies: its mass, and the one by Calculate Mass."""
+    """Return a line for each of the first bodies: its exact mass, and its mass by Calculate Mass."""
     units = Units.from_settings(context.scene.unit_settings)
     lines = []
     for obj, one in list(made.measured.items())[:SHOWN]:

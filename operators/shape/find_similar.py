@@ -79,7 +79,7 @@ class _SearchMixin:
     def store_and_report(
         self, context: Context, matches: list["Match"], looked_at: str, failures: list[Finding]
     ) -> set[str]:
-        """Keep the nearest matches with the scene, and report what was found."""
+        """Keep the nearest matches with the scene, and report the number of matches by similarity."""
         search = context.scene.body_moments_search
         search.wanted, search.looked_at = context.object.name, looked_at
         search.found.clear()
@@ -138,7 +138,7 @@ class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):
         yield from selection.iterate_objects(self._others, self._search.comparison(self._others), self._failures)
 
     def _finish(self, context: Context) -> set[str]:
-        """Nothing is kept or selected before everything is compared, so that a canceled search leaves nothing."""
+        """Keep and select the matches at the end, so that a canceled search changes nothing."""
         matches = self._search.find_nearest(self.scaled, self.mirrored)
         if self.select:
             chosen = {

@@ -105,10 +105,10 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
         return len(self._objects)
 
     def _finish(self, context: Context) -> set[str]:
-        """Nothing is kept before all are looked at, so that a canceled search leaves nothing behind."""
+        """Store the symmetries of all objects at the end, so that a canceled search leaves none behind."""
         for obj, shape, found_symmetry, allowed in self._results:
             stored.symmetry.store_symmetry(obj, shape, found_symmetry, allowed, self.tolerance)
-        # Blender reports what was written as a change of the object.
+        # Blender reports the stored symmetry as a change of the object.
         staleness.mark_stamps(
             context, [(obj, stamp) for obj, *_ in self._results if (stamp := stamps.of_symmetry(obj))]
         )
@@ -129,7 +129,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
 
 
 def describe(symmetry: "Symmetry") -> list[str]:
-    """Describe the elements of a symmetry."""
+    """Return translated descriptions of the elements of a symmetry."""
     phrase = reports.phrase
     if len(symmetry.revolution_axes) == 3:
         return [phrase("sphere")]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Match Pose: lay objects onto the active one by the poses that are their own."""
+"""Match Pose: lay the other selected objects onto the active one by centers of mass and principal axes."""
 
 from collections.abc import Generator, Iterator
 from typing import TYPE_CHECKING

@@ -44,7 +44,7 @@ class VIEW3D_OT_body_moments_cursor_to_center(selection.OnSelection, Operator):
         added, failures = selection.apply_to_all(objects, add)
         findings = []
         if bodies_measured:
-            # One body keeps its measured frame, with the signs by its own exact third moments.
+            # A single body keeps its measured frame, whose signs come from exact third moments.
             total = bodies_measured[0][1]
             if len(bodies_measured) > 1:
                 total = inertia.combine([moments for moments, _ in bodies_measured])

@@ -28,7 +28,7 @@ def reframe_selected(
 ) -> set[str]:
     """Give each selected object an origin at its center of mass while nothing visible moves, and report it.
 
-    along_axes: the axes too become principal ones. done: the report, for one object and for `count` of them.
+    along_axes: also align its axes with the principal axes. done: the report, for one object and for `count` objects.
     """
     objects = selection.selected_measurable(context)
     target_matrix = scene.matrix_along_axes if along_axes else scene.matrix_at_center

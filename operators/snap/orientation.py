@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Transform Orientation from Principal Axes: move, turn and scale along them without changing any data.
+"""Transform Orientation from Principal Axes: move, turn and scale along these without changing any data.
 
-Blender makes orientations only from a 3D view. Without one (batch), the operator reports it.
+Blender makes orientations only from a 3D view; without one, as in background mode, the operator only warns.
 """
 
 import bpy

@@ -5,7 +5,7 @@
 Blender's own Calculate Mass weighs the collision shape, not the object.
 
 Bullet, Blender's physics engine, takes the object's origin as the center of mass and a diagonal inertia along the
-object's axes; Axes to Principal Axes makes that right.
+object's axes; after Axes to Principal Axes both are true.
 """
 
 from typing import TYPE_CHECKING
@@ -111,7 +111,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
 
 
 def display_scaled(unit: float) -> str:
-    """Return the text that Blender shows masses in other units."""
+    """Return the message that Blender shows masses multiplied by the cube of the unit scale."""
     return reports.phrase(
         "Physics properties show masses times {factor:.6g} (unit scale cubed); the physics engine uses kilograms.",
         factor=unit**3,

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Drawing in the 3D Viewport: a few batches for all bodies, remade only after a change.
 
-Lines and discs are drawn twice, to show how deep they lie: through everything, lines faint and discs without their
-white quadrants, and then in full if nothing is in front of them. The nearest come last. The drawing depends on the
-session's generation and the settings, and with discs also on the view: as long as these stay, a redraw makes no array.
+Lines and discs are drawn twice, to show how deep they lie: first through everything, lines faint and discs without
+their white quadrants, then in full if nothing is in front of them. The nearest discs come last. The drawing depends on
+the session's generation and the settings, discs also on the view: as long as these stay, a redraw makes no array.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Batch = gpu.types.GPUBatch
 
 @dataclass(eq=False)
 class _Drawn:
-    """The batches of a region, and everything that they depend on besides the view."""
+    """The batches of a region; `key`: everything that they depend on besides the view."""
 
     key: tuple
     bodies: Bodies
@@ -135,12 +135,12 @@ def _discs(bodies: Bodies, view: lines.View, with_digits: bool) -> tuple[Batch, 
     )
 
 
-# ---------------------------------------------------------------- Drawing it
+# ---------------------------------------------------------------- Drawing
 
 
 @contextmanager
 def _restored_state() -> Iterator[None]:
-    """Put the GPU's state back, whatever happens in here."""
+    """Set the GPU's state for drawing, and restore it after the block, even after an error."""
     state = gpu.state
     blend, depth, mask = state.blend_get(), state.depth_test_get(), state.depth_mask_get()
     try:

@@ -29,7 +29,7 @@ class Bodies:
 
 
 def collect(context: Context, objects: list[Object]) -> Bodies:
-    """Gather the displayed bodies: of these objects, of selected pose bones, and if enabled of the selection as one."""
+    """Return the displayed bodies of these objects, of selected pose bones and, if enabled, of the whole selection."""
     scene = context.scene
     shown: list[Displayed | None] = [drawn(obj, scene) for obj in objects]
     shown += [drawn_bone(bone, scene) for bone in context.selected_pose_bones or ()]

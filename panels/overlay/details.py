@@ -15,13 +15,13 @@ from ...core.statics.support import Support
 from . import appearance as look
 
 FILL = 0.25  # opacity of faces
-ARROW = 0.12  # length of the tipping arrow's head, of the support polygon's extent
+ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
 Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
 
 
 @dataclass(frozen=True, eq=False)
 class Detail:
-    """segments: (k, 2, 3) and (k, 4) colors; triangles: (l, 3, 3) and (l, 4)."""
+    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors."""
 
     segments: Colored
     triangles: Colored

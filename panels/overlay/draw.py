@@ -79,7 +79,7 @@ def section(self: Panel | Menu, context: Context) -> None:
 
 
 def register() -> None:
-    """Draw from now on, if there are windows; add the section to Blender's popover."""
+    """Add the section to Blender's popover, and the draw handler if there are windows."""
     global _handle
     bpy.types.VIEW3D_PT_overlay_object.append(section)
     if not bpy.app.background:
@@ -88,7 +88,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Draw no more, free the batches, and remove the section."""
+    """Remove the section and the draw handler, and free the batches."""
     global _handle
     bpy.types.VIEW3D_PT_overlay_object.remove(section)
     if _handle is not None:

@@ -57,7 +57,7 @@ def _fan(points: NDArray) -> Part:
 
 
 def _stroke(path: NDArray, width: float) -> Part:
-    """Return a polyline with width; each of its segments is longer by half the width at both ends."""
+    """Return the triangles of a polyline of this width; each segment is longer by half the width at both ends."""
     starts, ends = path[:-1], path[1:]
     along = ends - starts
     along = along / np.linalg.norm(along, axis=1, keepdims=True) * (width / 2.0)
@@ -70,7 +70,7 @@ def _stroke(path: NDArray, width: float) -> Part:
 
 
 def _colored(*layers: tuple[Part, NDArray, float]) -> GlyphShape:
-    """Join parts with their colors, and with the factor of opacity behind other objects."""
+    """Join layers into one glyph; a layer is a part, its color, and its factor of opacity behind other objects."""
     starts = np.cumsum([0, *(len(corners) for (corners, _), _, _ in layers)])
     colors = [np.stack([color * (1.0, 1.0, 1.0, hidden), color]) for _, color, hidden in layers]
     return (

@@ -41,7 +41,7 @@ def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> list[Seg
 
 
 def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """Each axis through the center, a radius of gyration long to both sides."""
+    """Return (n, 3, 2, 3) segments of the axes through each center, a radius of gyration long to both sides."""
     arms = (axes * gyration[:, None, :]).transpose(0, 2, 1)
     return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
 
@@ -60,7 +60,7 @@ def drop_lines(centers: NDArray, gyration: NDArray, floor: float = 0.0) -> NDArr
 
 
 def _spread(gyration: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3) I_j + I_k - I_i by mass, from (n, 3) radii of gyration.
+    """Return (n, 3) values (I_j + I_k - I_i) / m from (n, 3) radii of gyration.
 
     The values are twice the mean square distance along axis i.
     """
@@ -69,7 +69,7 @@ def _spread(gyration: NDArray) -> NDArray[np.float64]:
 
 
 def box_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """Return the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i) / m."""
+    """Return the edges of the box with the same mass and inertia: sides s_i² = 6 (I_j + I_k - I_i) / m."""
     half = np.sqrt(6.0 * _spread(gyration)) / 2.0
     corners = centers[:, None] + np.einsum("nij,kj,nj->nki", axes, CORNERS, half)
     return corners[:, EDGES]
@@ -139,7 +139,7 @@ def disc_triangles(
     """Make the discs at the centers, and the digits at the ends of the axes if `with_digits`.
 
     Return (k, 3) points, (2, k, 4) colors, hidden by something in front and visible, and (l, 3) triangles, the nearest
-    bodies last; None if none is in view. `scale` is in pixels for one of `appearance`.
+    bodies last; None if no body is in view. scale: pixels of the screen per pixel of `appearance`.
     """
     sizes = view.pixel_sizes(bodies.centers).max(axis=1)
     reach = np.divide(bodies.gyration.max(axis=1), sizes, out=np.zeros(len(sizes)), where=sizes > 0.0)  # in pixels

@@ -29,7 +29,7 @@ class Lag(StrEnum):
     """Lag of live numbers behind the displayed object."""
 
     NONE = ""
-    FIRST_ORDER = "first order"  # volume, mass and center are current, inertia is that of the last measurement
+    FIRST_ORDER = "first order"  # volume, mass and center are current, the inertia is scaled from the last measurement
     BEHIND = "behind"
 
 
@@ -37,8 +37,8 @@ class Lag(StrEnum):
 class LiveResult:
     """An object's current numbers.
 
-    measurement: None if there are none; refusal: then the reason. seconds: spent on it. settings: the digest of its
-    settings.
+    measurement: None if it was refused. refusal: the reason then. seconds: duration of the measurement. settings: the
+    digest of the object's settings.
     """
 
     measurement: Measurement | None
@@ -51,10 +51,10 @@ class LiveResult:
 class Followed:
     """An object with Live on.
 
-    matrix, transform: its place at the measurement, and the key of its numbers' dependence on that. number: of the last
-    update then. tracked: its body, if that is followed rather than measured each time. surface: its faces, if a light
-    pass can follow them; first_order: volume and center in its own coordinates after the last such pass. is_pending: it
-    was evaluated anew since the measurement.
+    matrix, transform: matrix_world and transform key at the measurement. number: number of the last update then.
+    tracked: the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow
+    them. first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
+    shows_others: whether the object shows instances. is_pending: whether the object changed since the measurement.
     """
 
     result: LiveResult | None = None
@@ -78,13 +78,13 @@ def is_live(obj: Object) -> bool:
 
 
 def current_numbers(obj: Object) -> LiveResult | None:
-    """Return the numbers of an object with Live on when it was last measured, None before that."""
+    """Return the result of an object's last live measurement, or None if there is none or Live is off."""
     current = followed.get(obj)
     return None if current is None else current.result
 
 
 def stamp_of(obj: Object) -> Stamp | None:
-    """Return the stamp of the live numbers: Blender does not report every change of a setting."""
+    """Return a stamp of the settings of live numbers, as Blender does not report every change of a setting."""
     now = current_numbers(obj)
     return None if now is None else Stamp(Kind.SETTINGS, VERSION, settings=now.settings)
 

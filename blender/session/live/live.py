@@ -5,11 +5,11 @@
 Nothing is written to any data. A moving object is not measured again: its numbers are mapped to its new place. An
 object that deforms during playback or posing gets volume and center at once, in a light pass over its faces
 (moving_surface.py), within the budget of a redraw. Full numbers come from a timer, never from a handler: at once if
-they take no longer than the budget, else when updates and frames have ceased. Until then the numbers lag, and say so.
-B-spline patches are tracked (core/nurbs/tracked_solid.py). Seconds are of this thread: other work on a busy machine
-makes no number lag.
+they take no longer than the budget, else when updates and frames have ceased. Until then the panel says that the
+numbers lag. B-spline patches are tracked (core/nurbs/tracked_solid.py). Only seconds of this thread count, so that
+other work on a busy machine makes no numbers lag.
 
-Live is switched in memory, too: a property of the object would make Blender report an edit of its geometry.
+The switch is kept in memory, too: a property of the object would make Blender report an edit of its geometry.
 """
 
 from __future__ import annotations
@@ -45,11 +45,11 @@ from ..tracking import handlers, updates
 from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface
 
-BUDGET = 0.01  # s a redraw, where there are no preferences
-MAX_PASS = 5.0  # budgets that the only pass of a redraw may take
-RETRY = 0.7  # applied to the time of a pass that was left out
-IDLE = 0.25  # s without an update, after which what takes longer than the budget is measured
-POLL = 0.1  # s between two looks whether that is so
+BUDGET = 0.01  # s per redraw, if there are no preferences
+MAX_PASS = 5.0  # limit for the first pass of a redraw, in budgets
+RETRY = 0.7  # factor for the remembered time of a skipped pass, so that it is tried again
+IDLE = 0.25  # s without an update before measurements that take longer than the budget
+POLL = 0.1  # s between two checks whether these can begin
 _last_event = 0.0  # time of the last update
 
 
@@ -64,7 +64,7 @@ def map_properties(obj: Object, current: Followed, measured: Measurement, scene:
 
 
 def is_of_another_scale(obj: Object, current: Followed) -> bool:
-    """Return whether the numbers belong to another scale and cannot follow it, until the next measurement."""
+    """Return whether the object was scaled since its measurement in a way that the numbers cannot follow."""
     measured = None if current.result is None else current.result.measurement
     if measured is None or has_transform(obj, current.transform):
         return False
@@ -86,7 +86,7 @@ def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArra
 def _mapped(
     obj: Object, current: Followed, measured: Measurement, shown: StoredProperties, unit: float
 ) -> StoredProperties:
-    """Return the numbers of the stretched object, with the volume and center of the last light pass."""
+    """Return the numbers mapped to the current matrix; volume and center are those of the last light pass, if any."""
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
         return shown
@@ -132,13 +132,13 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
 
 
 def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
-    """Let the object's numbers follow its edits; the first of them."""
+    """Turn Live on for an object, and return the result of its first measurement."""
     followed[obj] = Followed(shows_others=next(updates.shown_by(obj), None) is not None)
     return update(obj, depsgraph)
 
 
 def stop(obj: Object) -> None:
-    """Let the object's numbers follow its edits no more."""
+    """Turn Live off for an object."""
     followed.forget(obj)
     handlers.count_change()
 
@@ -155,7 +155,7 @@ def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Meas
     (part,) = reading.parts
     splines = part.splines
     assert splines is not None
-    matrix = part.matrices[0] * unit  # but for its last row, which says nothing
+    matrix = part.matrices[0] * unit  # the last row is not used
     patches = [patch.transform(matrix) for patch in splines.patches]
     if np.linalg.det(matrix) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]
@@ -176,7 +176,7 @@ def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Meas
     return measurement_of(reading, measured_body, request), None
 
 
-# ---------------------------------------------------------------- When
+# ---------------------------------------------------------------- Timing
 
 
 def _budget() -> float:
@@ -186,7 +186,7 @@ def _budget() -> float:
 
 
 def note_updates(events: handlers.Updates) -> None:
-    """Follow updated objects at once, as far as the budget allows, and measure them soon."""
+    """Follow updated objects at once, as far as the budget allows, and schedule their measurement."""
     global _last_event
     _last_event = time.monotonic()
     changed = {uid: current for uid in events.reshaped if (current := followed.by_uid(uid)) is not None}
@@ -255,13 +255,13 @@ def _tick() -> float | None:
 
 
 def _is_stroking(obj: Object) -> bool:
-    """Return whether a brush is drawn over an object that is sculpted."""
+    """Return whether a sculpting stroke is being drawn on an object."""
     windows = bpy.context.window_manager.windows if obj.mode == "SCULPT" else ()
     return any(running.bl_idname.startswith("SCULPT_OT_") for window in windows for running in window.modal_operators)
 
 
 def _seconds(obj: Object) -> float:
-    """Return the duration of an object's measurement, in seconds."""
+    """Return the duration of an object's last measurement in seconds, 0 if there is none."""
     result = followed[obj].result
     return 0.0 if result is None else result.seconds
 

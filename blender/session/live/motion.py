@@ -34,10 +34,11 @@ MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured
 
 @dataclass(eq=False)
 class _Followed:
-    """An object's measurement, and the update of its geometry that it follows.
+    """The measurement of a followed object.
 
-    moments: of its mass, in the object's coordinates in SI units; given_mass: in kg, if the mass is given. mixes,
-    density: of shape keys; keys: their names; triangles: of the faces as cut in the mixes.
+    change: number of its geometry's last update then, -1 before. moments: of the mass, in the object's coordinates in
+    SI units. given_mass: in kg, if the mass is given. mixes: volume and center as polynomials of the values of the
+    shape keys `keys`, for faces cut into `triangles`; density: the density for them.
     """
 
     change: int = -1
@@ -47,7 +48,7 @@ class _Followed:
     density: float = 0.0
     keys: tuple[str, ...] = ()
     triangles: NDArray[np.integer] | None = None
-    hull: tuple[int, ConvexHull] | None = None  # and after which update of its geometry it was found
+    hull: tuple[int, ConvexHull] | None = None  # the number of the geometry's last update, and the hull then
 
 
 @dataclass(eq=False)
@@ -61,9 +62,9 @@ class Motion:
     _followed: dict[Object, _Followed] = field(default_factory=dict)
 
     def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]]:
-        """Return the mass in kg and the center, (3,) in Blender's units and the world, of an object.
+        """Return an object's mass in kg and its (3,) center of mass, in Blender's units and world axes.
 
-        Raise MeasureError if it has none, or they are not certain.
+        Raise MeasureError if there is no mass, or the center is not certain.
         """
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
@@ -90,7 +91,7 @@ class Motion:
         return followed.hull[1].points @ matrix[:3, :3].T + matrix[:3, 3]
 
     def _shape_keys(self, obj: Object, depsgraph: Depsgraph, followed: _Followed) -> bool:
-        """Sample an object that shows nothing but a mix of shape keys; return whether it is one."""
+        """Fit `mixes` to an object that shows nothing but a mix of shape keys; return whether that was possible."""
         keys = _mixed_keys(obj)
         if not keys or sample_count(len(keys)) > min(self.frames, MAX_SAMPLES):
             return False
@@ -111,7 +112,7 @@ class Motion:
 
 
 def _mixed_keys(obj: Object) -> tuple[str, ...]:
-    """Return the names of the shape keys that may change the mesh, if nothing else does; else none."""
+    """Return the names of the shape keys that may change the mesh, or none if anything else may change it, too."""
     settings = obj.body_moments
     if obj.type != "MESH" or obj.data.shape_keys is None or not obj.data.shape_keys.use_relative:
         return ()
@@ -134,10 +135,10 @@ def _coordinates(data) -> NDArray[np.float64]:
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
 ) -> tuple[float, NDArray[np.float64]] | None:
-    """Return mass and center, or None if a measurement is needed.
+    """Return mass and center by the mix of shape keys, or None if a measurement is needed.
 
-    It is needed if faces are cut otherwise than in the mixes, or if keys or matrix make the mesh flat or turn it inside
-    out.
+    It is needed if Blender cuts the faces into other triangles than in the mixes, or if keys or matrix make the mesh
+    flat or turn it inside out.
     """
     assert followed.mixes is not None and followed.triangles is not None
     triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
@@ -167,7 +168,7 @@ def _measured(
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:
-    """Return whether the moments follow the matrix: not a flat one, areas and lengths only if nothing is stretched."""
+    """Return whether a matrix can map the moments: none if singular, of areas and lengths only a similarity."""
     if are_singular(matrix[None, :3, :3])[0]:
         return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The faces of a measured body whose points may move: its current volume and center in one light pass.
 
-For deformations during playback or posing: the measured faces, flipped and capped, with the points as Blender shows
-them. There is no such pass if the faces of the mesh have changed, or had to be welded.
+It serves deformations during playback or posing: the measured faces, with their flips and caps, get the points that
+Blender shows. There is no such pass if the faces of the mesh have changed, or vertices had to be welded.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
 
 @dataclass(frozen=True, eq=False)
 class MovingSurface:
-    """A body of moving points.
+    """A body whose points move while its faces stay the same.
 
     surface: its faces, in the object's own coordinates.
     corners: (c,) vertices of all corners of the mesh that was read.
@@ -40,7 +40,7 @@ class MovingSurface:
 
     @classmethod
     def from_measured(cls, measured: Measured) -> MovingSurface | None:
-        """Return the faces of a measured body; None if it is not one mesh in the object's own place."""
+        """Return the faces of a measured body, or None unless it is one exact or repaired mesh in its own place."""
         reading, body, method = measured.reading, measured.body, measured.measurement.method
         if (
             not isinstance(reading, Reading)

@@ -39,7 +39,7 @@ SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates o
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
     """Store the results of an assembly and its members; return names of members that cannot hold them, and the reasons.
 
-    Raise EditRefusedError if the assembly itself cannot.
+    Raise EditRefusedError if the assembly itself cannot hold results.
     """
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
@@ -86,9 +86,9 @@ def clear(root: Root) -> bool:
 
 @contextmanager
 def kept_up_to_date(context: Context) -> Iterator[None]:
-    """Keep assemblies up to date while members get other frames, and their results are stored anew.
+    """Keep assemblies up to date while a block gives members other frames and stores their results anew.
 
-    A member whose mass or center changes, or whose results are out of date, leaves its assembly unchanged.
+    An assembly keeps its old stamp if a member's mass or center changes, or a member's results are out of date.
     """
     scene = context.scene
     roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
@@ -113,7 +113,7 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
 
 
 def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64], float]]:
-    """Return the stored mass of each member, its center in the world, and its radius of gyration."""
+    """Return each member's stored mass, its center in the world and its radius of gyration, in SI units."""
     bodies = {}
     for member in root.walk():
         if member.kind == MemberKind.OBJECT and member.is_measured:
@@ -137,7 +137,7 @@ def _is_same(before: tuple[float, NDArray, float], now: tuple[float, NDArray, fl
 
 
 def _write_rows(assembly: Assembly) -> None:
-    """Keep the tree with the assembly's settings."""
+    """Write the tree's members into the rows of the assembly's settings."""
     rows = settings_of(assembly.root.member.data).rows
     rows.clear()
     mass = assembly.measurement.mass_properties.mass
@@ -151,7 +151,7 @@ def _write_rows(assembly: Assembly) -> None:
 
 
 def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterator[tuple[int, MemberBody, float, bool]]:
-    """Yield each member with its depth, the factor by which an instance changes its mass, and whether that counts."""
+    """Yield each member's depth, the member, the factor of its mass by instances, and whether its mass counts."""
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == MemberKind.INSTANCE and below > 0.0:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balance groups: objects whose center of mass was followed over frames, as keys of an empty.
 
-The empty's keys decide: the path is drawn from them, so that it is the same when the file is opened again. The support
-polygons are remembered while the file is open.
+The path is drawn from the empty's keys, so that it is the same when the file is opened again. The support polygons are
+remembered while the file is open.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..tracking import handlers
 from ..tracking.cache import SessionCache
 
 GROUP = "body_balance_group"  # ID property of such an empty: the names of its objects, one a line
-INSIDE = "body_balance_inside"  # 1 where the center is over the support polygon, else 0
+INSIDE = "body_balance_inside"  # 1 if the center is over the support polygon, else 0
 CONSTANT, LINEAR = 0, 1  # values of an F-curve's interpolation
 
 
@@ -92,12 +92,12 @@ def path(empty: Object) -> Path | None:
 
 
 def support(empty: Object, frame: int) -> Support | None:
-    """Return the support polygon of a group at a frame, while the file is open."""
+    """Return the support polygon of a group at a frame, or None if none is remembered."""
     return (_supports.get(empty) or {}).get(frame)
 
 
 def _curves(empty: Object):
-    """Return the empty's F-curves, of an action of its own."""
+    """Return the F-curves of the empty's action, which is created if there is none."""
     animation = empty.animation_data_create()
     if animation.action is None:
         animation.action = bpy.data.actions.new(empty.name)
@@ -122,7 +122,7 @@ def _existing_curves(empty: Object) -> Iterable[FCurve]:
 
 
 def _keys(curves: Iterable[FCurve], data_path: str, index: int) -> NDArray[np.float64] | None:
-    """Return (k, 2) frames and values."""
+    """Return the (k, 2) frames and values of a curve's keys, or None if there is no such curve."""
     for curve in curves:
         if curve.data_path == data_path and curve.array_index == index:
             points = np.empty(2 * len(curve.keyframe_points), np.float32)

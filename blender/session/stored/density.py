@@ -65,7 +65,7 @@ def follow_density(obj: Object, scene: Scene) -> None:
     if not extent:
         return
     if any(found.code == INERTIA_GIVEN for found in properties.findings(obj)):
-        return  # no mass multiplies it
+        return  # a given inertia does not follow the mass
     mass = numbers.mass
     present = current_settings(obj, scene)
     weights = {"density": mass / extent, "mass": None}, {"density": None, "mass": mass}
@@ -121,7 +121,7 @@ def on_density(settings: PropertyGroup, context: Context) -> None:
 
 
 def on_default_density(settings: PropertyGroup, _context: Context) -> None:
-    """Let the results of objects without density follow the default of their scene."""
+    """Let the results of objects without a density of their own follow their scene's default density."""
     for obj in settings.id_data.objects:
         if not obj.body_moments.is_property_set("density"):
             follow_density(obj, settings.id_data)

@@ -45,7 +45,7 @@ def remember(obj: Object, measured: Measured) -> None:
     """Keep the places of the faults of a freshly measured object, or forget them if it has none."""
     reading = measured.reading
     if not isinstance(reading, Reading) or len(reading.parts) != 1 or reading.is_singular:
-        forget(obj)  # of several surfaces the faulty one is unknown
+        forget(obj)  # with several surfaces, the faulty one is unknown
         return
     (part,) = reading.parts
     place = np.linalg.inv(reading.matrix) @ part.matrices[0]
@@ -53,7 +53,7 @@ def remember(obj: Object, measured: Measured) -> None:
 
 
 def remember_surface(obj: Object, surface: Surface, elements: DefectiveElements, place: NDArray = OWN_PLACE) -> None:
-    """Keep the places of the faults of an object's surface, by default in its own coordinates."""
+    """Keep the places of the faults of an object's surface; `place` maps it into the object's coordinates."""
     forget(obj)
     pairs, faces = (np.concatenate([getattr(elements, name) for name in names]) for names in (PAIRS, FACES))
     if not len(pairs) and not len(faces):

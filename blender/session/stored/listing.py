@@ -30,7 +30,7 @@ _listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # by scene: the
 
 
 def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
-    """Return whether each object of a view layer is listed, and its line; sort the measured objects.
+    """Return two lists over the objects of a view layer: whether each is listed, and its line in sorted order.
 
     name: a part of the names, in any case. warnings_first: put out-of-date and doubtful objects before all others.
     """
@@ -41,7 +41,7 @@ def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, war
 
 
 def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
-    """Return the masses of a view layer's measured objects by session uid, in one unit with as many decimals."""
+    """Return texts of the masses of a view layer's measured objects by session uid, alike in unit and decimals."""
     units = Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:

@@ -66,9 +66,9 @@ class FlatMoments:
 class ComputedMoments:
     """One object's moments, SI, world axes.
 
-    volume: for a shell that of its thin volume; None for flat shapes, as is area. mass: None if it is not known to that
-    order. rotation, location: the object frame. flat: the moments of a flat shape;
-    not_flat: the reason if there are none.
+    volume: for a shell, area times thickness; None for flat shapes, like `area`. mass: None if the moments of the mass
+    are not known to this order. rotation, location: the object frame. flat: the moments of a flat shape. not_flat: the
+    reason if there are none.
     """
 
     name: str
@@ -86,7 +86,7 @@ class ComputedMoments:
 
     @property
     def known(self) -> Moments:
-        """Known moments: of the volume, else of the flat shape."""
+        """The moments of the volume, or of the flat shape if there is no volume."""
         if self.volume is not None:
             return self.volume
         assert self.flat is not None
@@ -94,7 +94,7 @@ class ComputedMoments:
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) of the volume, or the flat shape."""
+        """The (3,) center of the volume, or of the flat shape, in the world."""
         if self.volume is not None:
             return self.volume.center
         assert self.flat is not None
@@ -103,7 +103,7 @@ class ComputedMoments:
 
 @dataclass(frozen=True)
 class Degree:
-    """The moments of one degree as a panel shows them: (label, text, exact) each, and their unit."""
+    """The moments of one degree as a panel shows them: rows of (label, text, exact value), and their unit."""
 
     degree: int
     unit: str
@@ -116,7 +116,7 @@ _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
 
 
 def compute_moments(context: Context, obj: Object, order: int) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
-    """Return the moments of a body, of a flat shape, or of both, or None for a wire that bounds nothing.
+    """Return the moments of a body, a flat shape or both (None for a wire that bounds nothing), and findings.
 
     Raises MeasureError if the object is neither.
     """
@@ -164,7 +164,7 @@ def stamp_of(obj: Object) -> Stamp | None:
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
-    """Return the moments to MAX_SHOWN_ORDER by the scene's settings, and the reason if there are none."""
+    """Return the moments that a panel shows by the scene's settings, and the reason if there are none."""
     settings, computed = scene.body_moments, computed_moments(obj)
     if computed is None:
         return (), None
@@ -238,9 +238,9 @@ def in_frame(
 ) -> Moments:
     """Return the moments in a frame or about a reference.
 
-    Axes are of the frame, "WORLD" or "OBJECT", about its "ORIGIN" or the body's "CENTER"; or "NORMALIZED", as
-    `normalize` by size, of a mass by gyration; or about a "REFERENCE", along its axes. MeasureError if that is
-    impossible, or leaves the range of numbers.
+    frame: "WORLD" or "OBJECT". about: the frame's "ORIGIN", the body's "CENTER", or "NORMALIZED" (`normalize` by size,
+    for a mass by gyration). reference: replaces both, with its origin and axes. Raises MeasureError if there are no
+    such moments, or they leave the range of numbers.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         if of == "FLAT":
@@ -269,7 +269,7 @@ def _select_moments(computed: ComputedMoments, of: str) -> Moments:
 
 
 def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, reference: Reference | None) -> Moments:
-    """Return moments along the axes of the plane, about the foot of the frame's origin or of the reference."""
+    """Return moments along the axes of the plane: normalized, about the center, or about the foot of an origin."""
     moments, flat = _select_moments(computed, "FLAT").truncate(order), computed.flat
     if about == "NORMALIZED":
         return normalize(moments)
@@ -328,7 +328,7 @@ def as_csv(computed: ComputedMoments, of: str, about: str, frame: str, reference
         columns = [*columns, "moment", *bounds]
         rows = [[*which, *row] for which, row in zip(powers.tolist(), values.tolist())]
     text = io.StringIO()
-    title = re.sub("[,;]", " ", visible(computed.name))  # or the rest would be a cell of its own
+    title = re.sub("[,;]", " ", visible(computed.name))  # otherwise the rest would be another cell
     text.write("# {:s}: {:s}\n".format(title, heading))
     csv.writer(text, lineterminator="\n").writerows([columns, *rows])
     return text.getvalue()

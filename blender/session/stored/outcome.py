@@ -54,6 +54,6 @@ def last() -> ActionOutcome | None:
 
 
 def forget() -> None:
-    """Show it no more."""
+    """Forget the refusals and warnings of the last action."""
     global _last
     _last = None

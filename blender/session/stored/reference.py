@@ -78,7 +78,7 @@ def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | N
 
 
 def _stored_body(owner: Object | Collection, scene: Scene) -> MassProperties | None:
-    """Return the stored body in the world."""
+    """Return the stored mass properties in world axes, or None if there are none."""
     stored = properties.stored(owner)
     if stored is None:
         return None

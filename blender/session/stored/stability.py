@@ -33,8 +33,8 @@ SAME_SHAPE_RTOL = 1e-5  # relative to scales and centers: a turned object's floa
 class _Remembered:
     """An object's hull, with its support and poses.
 
-    hull: in the object's coordinates. shape: (4, 3) the scale and the center that `poses` are for. support: after
-    which change of which scene.
+    hull: in the object's coordinates. shape: the (4, 3) scale and center for which `poses` hold. support_key: the
+    generation and the scene for which `support` holds.
     """
 
     hull: ConvexHull
@@ -64,7 +64,7 @@ def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
 
 
 def is_known(obj: Object) -> bool:
-    """Return whether the stability of an object was asked for."""
+    """Return whether a hull of the object is remembered, because its stability was checked."""
     return obj in _remembered
 
 
@@ -76,7 +76,7 @@ def stamp_of(obj: Object) -> Stamp | None:
 def support(obj: Object, scene: Scene = None) -> Support | None:
     """Return the current support of an original object, in Blender's units and the world.
 
-    None if its stability was not asked for or no longer holds, or it has no numbers.
+    None if its stability was not checked, its hull is out of date, or it has no numbers.
     scene: sets the gravity; by default the context's.
     """
     scene = scene or bpy.context.scene
@@ -96,7 +96,7 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
 
 
 def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
-    """Return the tolerance of contacts, relative to the extent; points may be outside the hull by its gap."""
+    """Return the tolerance of contacts, relative to the extent; the body may exceed its simplified hull by the gap."""
     gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
     return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Displayed bodies as one: of a selection, of the meshes that an armature deforms, of a character's bones as posed."""
+"""Sums of displayed bodies: of a selection, of the meshes that an armature deforms, of a character's posed bones."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ def of_meshes(armature: Object, scene: Scene) -> Displayed | None:
 
 
 def of_bones(armature: Object, scene: Scene) -> Displayed | None:
-    """Return a character as the current places of its bones' parts; its own stored numbers are of the rest pose."""
+    """Return the sum of a character's parts in its current pose; its own stored numbers are of the rest pose."""
     parts = [shown for bone in armature.pose.bones if (shown := drawn_bone(bone, scene)) is not None]
     return _of_parts(armature, scene, parts)
 
 
 def members(obj: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the objects of an assembly or a character."""
+    """Return the members of an assembly or character: its descendants, and the `objects` that it deforms."""
     return [*obj.children_recursive, *skinned_objects(obj, objects)]
 
 
@@ -63,7 +63,7 @@ def _of_parts(armature: Object, scene: Scene, parts: Sequence[Displayed]) -> Dis
 
 
 def _combine(bodies: Sequence[MassProperties]) -> MassProperties | None:
-    """Return bodies as one, for all of them at once; None if they have no mass."""
+    """Return bodies as one, summed in whole arrays; None if they have no mass."""
     masses = np.array([body.mass for body in bodies])
     if not masses.sum() > 0.0:  # the stored values were changed
         return None

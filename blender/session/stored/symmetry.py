@@ -13,7 +13,7 @@ from ...bodies.shape.shape import Shape
 from ...read.fingerprint import scale_hash
 from ..tracking import stamps
 
-MAX_STORED_ELEMENTS = 32  # elements of a symmetry that are stored; of a ball's or a fine prism's nobody reads more
+MAX_STORED_ELEMENTS = 32  # limit of stored elements of a symmetry: nobody reads more for a ball or a fine prism
 
 
 def store_symmetry(

@@ -33,14 +33,14 @@ from . import density
 
 MAX_CACHED_OBJECTS = 2  # a grid may have gigabytes
 DELAY = 0.3  # s after the last change of the slider
-COARSE = "coarse"  # no key of settings: what is measured with it is out of date
+COARSE = "coarse"  # equals no key of settings, so that results with it are out of date
 
 
 @dataclass(frozen=True, eq=False)
 class _CachedGrid:
-    """One object's grid, and the stamps stored with it since.
+    """One object's grid, and the parts of the stamps stored with it since.
 
-    The stamps are of the geometry at every threshold, as undo goes back to any, and of the transform.
+    geometries: the digests at every stored threshold, as undo may go back to any of them.
     """
 
     reading: VolumeReading
@@ -51,7 +51,7 @@ class _CachedGrid:
 
 
 _cache: SessionCache[_CachedGrid] = SessionCache(MAX_CACHED_OBJECTS)
-_pending: list[tuple[Object, Scene]] = []  # whose exact numbers are due
+_pending: list[tuple[Object, Scene]] = []  # objects whose exact numbers are due
 
 
 def cache_grid(obj: Object, measured: Measured, unit: float) -> None:
@@ -95,7 +95,7 @@ def _current(obj: Object, scene: Scene | None) -> _CachedGrid | None:
 
 
 def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, preview: bool) -> bool:
-    """Write the numbers of the current threshold; False if there are none."""
+    """Write the numbers of the current threshold to the object; return False if there are none."""
     options = GridOptions.from_settings(obj.body_moments)
     request = Request.resolve(obj, unit=cached.unit)
     try:
@@ -110,7 +110,7 @@ def _store(obj: Object, scene: Scene, cached: _CachedGrid, grid: ThresholdGrid, 
 
 
 def _finish() -> None:
-    """Store the exact numbers as a timer's function: it returns None, so that it is not called again."""
+    """Store the exact numbers of the pending objects; as a timer's function, return None to be called only once."""
     while _pending:
         obj, scene = _pending.pop()
         try:

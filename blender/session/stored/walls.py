@@ -57,7 +57,7 @@ def cache_walls(obj: Object, measured: Measured, unit: float) -> None:
 
 
 def max_thickness(obj: Object) -> float | None:
-    """Return the thickness in m from which the object's wall folds over, if it is known and there is one."""
+    """Return the thickness in m from which the object's wall folds over, or None if it is unknown or unlimited."""
     cached = _current_walls(obj)
     if cached is None or obj.body_moments.wall == "THIN":
         return None

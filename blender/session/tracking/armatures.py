@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Armatures and their meshes: which are posed, and which measured characters are edited.
+"""Armatures and their meshes: meshes of posed armatures, and edits of measured characters.
 
 In Pose Mode an armature stands for the meshes that it deforms: they are posed, but not selected. A skinned mesh is
 evaluated anew whenever its armature moves, which changes nothing: the rest pose is measured. So an edit is noted if
@@ -20,7 +20,7 @@ from ...write import properties
 from . import handlers, staleness
 from .cache import SessionCache, current_value
 
-# by armature: the number of the last change, and its meshes
+# by armature: the generation, and its meshes then
 _meshes: SessionCache[tuple[int, tuple[Object, ...]]] = SessionCache()
 _watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the armatures that deform them
 
@@ -42,7 +42,7 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 
 
 def subjects(objects: Iterable[Object]) -> list[Object]:
-    """Return original objects with the meshes that they stand for in their place, each once."""
+    """Return original objects, each once, with the deformed meshes in place of posed armatures."""
     found: dict[Object, None] = {}
     for obj in objects:
         found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
@@ -50,7 +50,7 @@ def subjects(objects: Iterable[Object]) -> list[Object]:
 
 
 def watch(armature: Object, objects: Iterable[Object]) -> None:
-    """Note edits of the meshes that an armature deforms from now on."""
+    """Begin to note edits of the meshes among `objects` that an armature deforms."""
     for obj in read.rig.skinned_objects(armature, objects):
         _watched[obj.session_uid] = armature
 
@@ -64,7 +64,7 @@ def watch_all() -> None:
 
 
 def note_updates(updates: handlers.Updates) -> None:
-    """Note the edits among the updated objects."""
+    """Note an edit on an armature if one of its watched meshes has a new shape and the armature has no update."""
     if tracking_paused.depth or not _watched:
         return
     touched = {*updates.reshaped, *updates.moved, *updates.others}

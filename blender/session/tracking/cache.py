@@ -20,7 +20,7 @@ _caches: list[SessionCache] = []
 
 
 class SessionCache(Generic[Value]):
-    """One value for each original data-block; iterated over, the values.
+    """A cache with one value for each original data-block; iteration yields the values.
 
     max_size: beyond this number of values the oldest one is forgotten. By default all are kept, as edits must be.
     """
@@ -61,7 +61,7 @@ class SessionCache(Generic[Value]):
         self._values.pop(data.session_uid, None)
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Forget all values."""
         self._values.clear()
 
 
@@ -74,6 +74,6 @@ def current_value(cache: SessionCache[tuple[Any, Value]], data: ID, key: object,
 
 
 def clear_all() -> None:
-    """Empty every cache: their objects are not loaded any more."""
+    """Empty all caches; their data-blocks are no longer loaded."""
     for cache in _caches:
         cache.clear()

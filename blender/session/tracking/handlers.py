@@ -26,7 +26,7 @@ class Updates:
 
     depsgraph: its `updates` are valid until the handlers return.
     reshaped, moved, others: objects with new geometry, with a new transform only, and with neither.
-    collections: collections with any update.
+    collections: collections with new geometry, such as that of their members.
     frame_changed: whether another frame was evaluated.
     """
 
@@ -55,13 +55,13 @@ def generation() -> int:
 
 
 def count_change() -> None:
-    """Count a change, also one that Blender does not report, such as of a note about an object."""
+    """Count a change, also one that Blender does not report, such as a new note about an object."""
     global _generation
     _generation += 1
 
 
 def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
-    # All of them, in their order, even where one fails: its error is raised when the others were called.
+    # Call all of them in order, even if one fails: its error is raised after the others were called.
     with ExitStack() as calls:
         for subscriber in reversed(subscribers):
             calls.callback(subscriber, *args)
@@ -69,7 +69,7 @@ def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
 
 def _updates(scene: Scene, depsgraph: Depsgraph, frame_changed: bool) -> Updates:
     updates = Updates(scene, depsgraph, [], [], [], [], frame_changed)
-    for update in depsgraph.updates:  # no call and no attribute that is not needed
+    for update in depsgraph.updates:  # without needless calls and attributes, for speed
         data = update.id
         is_object = isinstance(data, Object)
         if not is_object and not isinstance(data, Collection):
@@ -136,7 +136,7 @@ HANDLERS = (
 
 
 def register() -> None:
-    """Listen to Blender."""
+    """Add the handlers to Blender's lists."""
     for name, function in HANDLERS:
         getattr(bpy.app.handlers, name).append(function)
 

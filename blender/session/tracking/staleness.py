@@ -2,24 +2,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Staleness of stored numbers.
 
-Compared: transform and settings, by the digests in the stamps of stored data (`stamps`).
+Transform and settings are compared, by the digests in the stamps of stored data (`stamps`).
 
-Noted: a digest of the geometry would need measuring, so an edit is noted instead, in memory only: the stamps that the
-object carried when Blender evaluated its geometry anew. When a file is saved, the notes become part of the stamps
-(`stamps.write_edited`), so that the file knows when it is opened; reading a file reports no updates.
+Edits of the geometry are noted, as a digest of the geometry would need a measurement. A note is a stamp that the object
+carried when Blender evaluated its geometry anew, in memory only. When a file is saved, the notes become part of the
+stamps (`stamps.write_edited`), because opening the file again reports no updates.
 
-Times: Blender evaluates more than the changed objects, such as an object that is copied, shown again or gets a material
-slot. So the surfaces of small meshes are kept as digests when their numbers are stored, and a note is made, or taken
-back, by comparing the current surfaces. For all other objects every update is an edit, but for
+Not every update is an edit: Blender also evaluates an object that is copied, shown again or gets a material slot. So
+the surfaces of small meshes are kept as digests when their numbers are stored, and a note is made, or taken back, by
+comparing the current surface. For all other objects every update is an edit, except
 
 - the update of a setting, which Blender reports as one of the geometry;
-- the update that follows undo, which brings back numbers and shape together. An edit that undo brings back again was
-  noted when it was made, and notes are kept: undo may bring back the numbers of before, too. In Edit Mode and Sculpt
-  Mode it brings back the shape alone, and is an edit.
+- the update that follows undo, which restores numbers and shape together. An edit that undo restores was noted when it
+  was made, and notes are kept, because undo may restore the numbers before it, too. In Edit Mode and Sculpt Mode undo
+  restores the shape alone, and its update is an edit.
 
-Means: a handler only writes down which objects were updated, for a frame of an animation may have thousands. The
-meaning of updates is found on request (`note_edits`), or before it could not be found any more: before results are
-replaced, before undo, and before the file is saved.
+A handler only writes down the updated objects, because a frame of an animation may have thousands. Their effects are
+noted on request (`note_edits`), and at the latest before results are replaced, before undo, and before the file is
+saved.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ from .stamps import EDITED, Kind, Stale, Stamp
 NO_SHAPES: Mapping[Object, bytes | None] = MappingProxyType({})
 _edited: SessionCache[frozenset[str]] = SessionCache()  # the stamps that an object carried when its geometry changed
 _shapes: dict[str, bytes] = {}  # stamp → digest of the surface when it was stored: copies of an object share both
-_resolved: dict[int, int] = {}  # session uid → the last update with noted effects
+_resolved: dict[int, int] = {}  # session uid → number of the last update whose effects are noted
 # By assembly or armature: the generation, and the present digests of its parts. Panels ask at every redraw.
 _parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
 
 
-# ---------------------------------------------------------------- What is out of date
+# ---------------------------------------------------------------- Comparison
 
 
 def stale_reason(
@@ -114,7 +114,7 @@ def _has_members(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
 def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
     """Return the present digests of an assembly's structure and of its members' results, or of a character's bones.
 
-    The members' is empty if a member is out of date. None if Blender has evaluated nothing yet.
+    The digest of results is empty if a member is out of date. None if Blender has evaluated nothing yet.
     """
     return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
 
@@ -152,18 +152,18 @@ CHECKS = {
 
 
 def is_edited(obj: Object) -> bool:
-    """Return whether geometry or transform have changed since the results were stored, whatever the settings are."""
+    """Return whether geometry or transform changed since the results were stored, or there are no results."""
     stamp = stamps.of_results(obj)
     return stamp is None or not (_has_geometry(obj, stamp) and has_transform(obj, stamp.transform))
 
 
-# ---------------------------------------------------------------- What was stored just now
+# ---------------------------------------------------------------- Marks after storing
 
 
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Take objects as up to date, after results were stored; evaluate the data that storing itself has tagged.
+    """Mark freshly stored results of objects as up to date; evaluate the data that storing itself has tagged.
 
     objects: objects of the context's view layer with results stored or removed.
     shapes: the `surface_digest` of freshly read objects.
@@ -177,7 +177,7 @@ def mark_up_to_date(
 
 
 def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:
-    """Take other data than results as up to date, after they were stored and nothing else was changed.
+    """Mark other freshly stored data than results, such as sections, as up to date, if nothing else was changed.
 
     fresh: objects of the context's view layer, and the stamps of the data.
     """
@@ -188,23 +188,23 @@ def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None
 
 
 def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
-    """Take the data with a stamp as up to date with an original object as it is evaluated."""
+    """Mark the data with a stamp as up to date with the evaluated state of an original object."""
     note_edits(obj)
     set_edited(obj, stamp.text, False)
     _remember_shape(obj, stamp, depsgraph)
 
 
 def mark_object(obj: Object) -> None:
-    """Take the stored results as up to date with an original object's current geometry."""
+    """Mark the stored results as up to date with an original object's current geometry."""
     _resolved[obj.session_uid] = updates.count()
     set_edited(obj, properties.fingerprint(obj), False)
     handlers.count_change()
 
 
 def replace_stamp(obj: Object, before: str) -> None:
-    """Take over the notes on the results, after numbers and settings were changed together and the shape was not.
+    """Carry the notes on replaced results over, after numbers and settings were changed together but not the shape.
 
-    before: the stamp of the results that were replaced.
+    before: the text of the replaced stamp.
     """
     text = properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
@@ -213,7 +213,7 @@ def replace_stamp(obj: Object, before: str) -> None:
 
 
 def pin(obj: Object) -> None:
-    """Take the results of an object as valid in its current place, after results that depend on it were stored.
+    """Bind the results of an object to its current place, after data that depend on the place were stored with them.
 
     obj: an original object that can hold results.
     """
@@ -224,13 +224,13 @@ def pin(obj: Object) -> None:
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
-    """Note that objects have other axes than before: directions that are stored in these no longer hold."""
+    """Note that objects have new axes, in which stored directions no longer hold."""
     for obj in objects:
         if (stamp := stamps.of_symmetry(obj)) is not None:
             set_edited(obj, stamp.text, True)
 
 
-# ---------------------------------------------------------------- What is noted
+# ---------------------------------------------------------------- Notes of edits
 
 
 def _edited_stamps(obj: Object) -> frozenset[str]:
@@ -238,7 +238,7 @@ def _edited_stamps(obj: Object) -> frozenset[str]:
 
 
 def set_edited(obj: Object, text: str, is_edited: bool) -> None:
-    """Note that the geometry behind this stamp has changed, or that it has not."""
+    """Note whether the geometry behind the stamp with this text has changed."""
     noted = _edited_stamps(obj)
     if is_edited != (text in noted):
         handlers.count_change()
@@ -282,12 +282,12 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
 
 def note_all_edits() -> None:
     """Note the effects of all updates on all objects."""
-    for obj in bpy.data.objects if updates.count() else ():  # while the add-on is enabled Blender gives no data
+    for obj in bpy.data.objects if updates.count() else ():  # while Blender enables the add-on, it gives no data
         note_edits(obj)
 
 
 def forget_file() -> None:
-    """Forget all notes that belong to no object."""
+    """Forget the digests of surfaces and the numbers of noted updates."""
     _resolved.clear()
     _shapes.clear()
 

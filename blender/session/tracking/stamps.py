@@ -51,7 +51,7 @@ class Kind(Enum):
 
 
 class Stamp(NamedTuple):
-    """The inputs of stored data: digests, but for the version.
+    """The inputs of stored data: digests, and the version of the fingerprint.
 
     extra: the unit scale of a section, in meters.
     """
@@ -65,13 +65,13 @@ class Stamp(NamedTuple):
 
     @classmethod
     def parse(cls, text: str, kind: Kind = Kind.RESULTS, extra: float | None = None) -> Stamp:
-        """Return a stored stamp; without a version if a script has put any other text in its place."""
+        """Return the stamp of a stored text, with an empty version if the text, such as a script's, is no stamp."""
         parts = text.split(":")
         return cls(kind, *parts, extra=extra) if len(parts) == 4 else cls(kind, "")
 
     @property
     def text(self) -> str:
-        """The stored form."""
+        """The stored form: version, geometry, transform and settings, joined by colons."""
         return ":".join(self[1:5])
 
 
@@ -80,7 +80,7 @@ _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Give an original object the stamp of data in memory. number: of the update of its geometry."""
+    """Give an original object a stamp of data in memory, and return it. number: the count of updates then."""
     stamp = Stamp(kind, VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
     _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
     return stamp
@@ -112,13 +112,13 @@ def of_section(obj: Object) -> Stamp | None:
 
 def of_symmetry(obj: Object) -> Stamp | None:
     """Return the stamp of the stored symmetry, None if there is none."""
-    # Asked first: reading a group that is not there makes one.
+    # Checked first, because reading a missing property group creates it.
     text = obj.body_moments_symmetry.fingerprint if obj.is_property_set("body_moments_symmetry") else ""
     return Stamp.parse(text, Kind.SYMMETRY) if text else None
 
 
 def with_geometry(obj: Object) -> dict[str, Kind]:
-    """Return the stored forms of all stamps of an original object that hold for its own geometry, and their kinds."""
+    """Return the texts and kinds of an original object's stamps, except those of assemblies and bones."""
     found = [of_results(obj), of_section(obj), of_symmetry(obj), *(_carried.get(obj) or {}).values()]
     return {
         stamp.text: stamp.kind for stamp in found if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
@@ -126,7 +126,7 @@ def with_geometry(obj: Object) -> dict[str, Kind]:
 
 
 def write_edited(obj: Object, edited: Container[str]) -> None:
-    """Put EDITED into those stored stamps of an original, editable object whose geometry has changed."""
+    """Put EDITED into the stored stamps of an original, editable object whose texts are in `edited`."""
     for stamp in (of_results(obj), of_section(obj), of_symmetry(obj)):
         if stamp is None or not stamp.version or stamp.text not in edited:
             continue

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data-blocks that Blender has evaluated anew, and the order: written down by number, and looked at on request.
+"""Updates: data-blocks that Blender has evaluated anew, written down with the number of their last update.
 
 A frame of an animation may have thousands of updates, of which a panel shows one, so the handler does nothing but
-write down session uids. An update of an object's geometry may be an edit, or is none: the update of a setting and that
-of undo.
+write down session uids. An update of an object's geometry may be an edit, but not if it follows a changed setting or
+undo.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Update(NamedTuple):
     """An update of a scene's view layer.
 
     number: grows from update to update; 0 if there was none. scene: session uid of the evaluated scene.
-    view_layer: the name.
+    view_layer: its name.
     """
 
     number: int
@@ -43,12 +43,12 @@ _undo_pending = False  # true if the next update is that of undo or redo
 
 
 def count() -> int:
-    """Return how many updates there were."""
+    """Return the number of updates since the file was loaded."""
     return _count
 
 
 def shown_by(obj: Object) -> Iterator[ID]:
-    """Yield the instances that an original object shows, objects and collections: their shape and place matter.
+    """Yield the objects and collections that an original object shows as instances: their shape and place matter.
 
     For collections Blender reports changes of their members.
     """
@@ -67,7 +67,7 @@ def shown_by(obj: Object) -> Iterator[ID]:
 
 
 def density_source(obj: Object) -> Object | None:
-    """Return the Volume object that the density comes from, for its shape; its place is a setting."""
+    """Return the Volume object that the density comes from, or None; its shape matters, its place is a setting."""
     settings = obj.body_moments
     return settings.density_volume if settings.density_from == "VOLUME" else None
 
@@ -86,16 +86,16 @@ def last_edit(obj: Object, since: int = 0) -> Update:
 
 
 def last_since(obj: Object, since: int) -> tuple[Update, Update]:
-    """Return the last update of an object or its instances that may be an edit, and of the geometry for any reason.
+    """Return the last update of an object or its instances that may be an edit, and the last update of the geometry.
 
-    since: number of an update. An edit is `NEVER` if it did not come after it.
+    since: number of an update. The edit is `NEVER` if it did not come after this update.
     """
     edit = last_edit(obj, since)
     return edit, max(edit, _returns.get(obj.session_uid, NEVER))
 
 
 def last_change_of_geometry(obj: Object) -> int:
-    """Return the number of the last update of an object's geometry, of any kind, or of its instances."""
+    """Return the number of the last update of an object's geometry or its instances, whether an edit or not."""
     return last_since(obj, 0)[1].number
 
 
@@ -107,7 +107,7 @@ def last_change_and_move(obj: Object) -> tuple[int, int]:
 
 
 def depsgraph_of(stamp: Update) -> Depsgraph | None:
-    """Return the dependency graph that an update was of, as it was evaluated last; None if it is gone."""
+    """Return the dependency graph of an update's view layer, as last evaluated; None if the layer is gone."""
     for scene in bpy.data.scenes:
         if scene.session_uid == stamp.scene:
             layer = scene.view_layers.get(stamp.view_layer)
@@ -116,7 +116,7 @@ def depsgraph_of(stamp: Update) -> Depsgraph | None:
 
 
 def note_updates(updates: handlers.Updates) -> None:
-    """Sort the updated data-blocks into edits, returns by undo, and moves; none while tracking is paused."""
+    """Write down updates as possible edits, no edits, moves and others; none while tracking is paused."""
     global _count, _undo_pending, _set_since
     if tracking_paused.depth:
         return
@@ -145,7 +145,7 @@ def note_updates(updates: handlers.Updates) -> None:
 
 
 def _edited_by_undo(updates: handlers.Updates) -> set[int]:
-    """Return the updated objects whose shape alone undo brings back."""
+    """Return the session uids of updated objects in Edit or Sculpt Mode, where undo restores the shape alone."""
     evaluated = [update.id for update in updates.depsgraph.updates]
     objects = [data.original for data in evaluated if isinstance(data, Object)]
     edited = {obj.session_uid for obj in objects if obj.mode == "SCULPT" or getattr(obj.data, "is_editmode", False)}
@@ -158,7 +158,7 @@ def note_setting(settings: PropertyGroup, _context: Context) -> None:
 
 
 def note_undo() -> None:
-    """Expect the update of undo or redo."""
+    """Expect the next update to be that of undo or redo."""
     global _undo_pending
     _undo_pending = True
 
