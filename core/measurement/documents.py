@@ -245,5 +245,5 @@ def _cell(value: Any) -> Any:
     return value
 
 
-# From documents, which may be gone through twice, to pieces of text.
+# Functions from documents, which may be iterated twice, to pieces of text.
 FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}

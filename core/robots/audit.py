@@ -93,7 +93,7 @@ class _Judgment:
 
 @dataclass
 class Auditor:
-    """Judges descriptions; a mesh is measured once, however many links name it."""
+    """An auditor of descriptions, which measures each mesh once, even if several links name it."""
 
     roots: Roots
     _meshes: dict[tuple, _Piece] = field(default_factory=dict)

@@ -3,8 +3,8 @@
 """The one change that makes a stated inertial agree with its geometry.
 
 A link's geometry, filled evenly, has a center and an inertia for each kilogram. If the stated values differ, each of a
-list of common mistakes is undone; agreement to the digits that files have is no coincidence. If none agrees, the mass
-may simply lie otherwise: that is no error, and only its factor is reported.
+list of common mistakes is undone; agreement to the digits of files is no coincidence. If none agrees, the mass may be
+distributed unevenly: that is no error, and only noted with the factor of the inertia.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Reference:
     origins: tuple[NDArray[np.float64], ...] = ()
 
     def compare(self, stated: StatedInertial) -> float:
-        """Return the difference of an inertial: of the center per radius of gyration or of the inertia, the larger."""
+        """Return the larger of the center's difference per radius of gyration and the inertia's relative difference."""
         radius = np.sqrt(np.trace(self.inertia) / 2.0)
         apart = float(np.linalg.norm(stated.center - self.center)) / radius
         turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(self.inertia)
@@ -127,7 +127,7 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
 
 
 def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference) -> Diagnosis:
-    """Return a diagnosis, or another one if the density shows that the lengths of the mesh are wrong, not its own."""
+    """Return a diagnosis, or one of the mesh's lengths if the density shows that these are wrong instead."""
     if found.finding.values.get("part") != LENGTHS:
         return found
     factor, density = found.finding.values["factor"], stated.mass / reference.volume

@@ -86,8 +86,8 @@ class Shape:
     kind: "mesh", "box", "ellipsoid", "capsule", "cylinder" or "sphere". pose: in the link's frame.
     size: m; sides of a box, semi-axes of an ellipsoid, radius and length along z of a capsule (without its caps) or a
     cylinder, the radius of a sphere, the factors along the axes of a mesh.
-    file: of a mesh, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
-    surface: of a mesh that is to be written, in meters along the axes of the shape.
+    file: a mesh's file, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
+    surface: the geometry of a mesh that is to be written, in meters along the axes of the shape.
     """
 
     kind: str

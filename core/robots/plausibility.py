@@ -92,7 +92,7 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
 
 
 def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tuple[list[int], NDArray[np.float64]]:
-    """Return the indices of the points whose hull's point nearest to zero is inside it, and their shares in it."""
+    """Drop chosen points until the foot from zero on their plane is in their hull; return their indices and shares."""
     while True:
         corners = points[chosen]
         # Foot on the plane through them: shares that add up to one and leave nothing along it.

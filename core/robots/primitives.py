@@ -33,7 +33,7 @@ def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
 def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     """Return radius and length, without its caps, of the capsule along the first principal axis; moments ascend.
 
-    Its moment is the least one along its axis, the mean of the others across; else it is a ball with the mean of all.
+    It has the least moment along its axis and the mean of the others across it, if possible; else it is a ball.
     With t = L/r, r = 1: V = π(t + 4/3); ∫x² dV is π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis.
     Their ratio grows with t from that of a ball, 1.
     """

@@ -127,7 +127,7 @@ class _Parser:
         return prim
 
     def attribute(self, prim: Prim) -> None:
-        """Read a statement: words, and after an equals sign a value."""
+        """Read a statement, and store the value after its equals sign, if it has one, in the prim."""
         words: list[str] = []
         while self.peek() not in ("=", "}", ";", "(") and self.peek() not in _SPECIFIERS:
             words.append(self.take()[0])
