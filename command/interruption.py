@@ -47,7 +47,7 @@ def interruptible() -> Iterator[None]:
 
 
 def check_interruption() -> None:
-    """Raise KeyboardInterrupt after a signal, as an importer may have replaced the first one by its own error."""
+    """Raise KeyboardInterrupt if a signal has come: an importer may have turned the first one into its own error."""
     if _requested:
         raise KeyboardInterrupt
 

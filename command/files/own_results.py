@@ -38,7 +38,7 @@ def is_result(path: Path) -> bool:
 
 
 def guard(force: bool) -> Callable[[Path], None]:
-    """Return a check for `whole_file`, which raises FileExistsError if a foreign file would be lost and not `force`."""
+    """Return a check for `whole_file` that raises FileExistsError if a foreign file would be lost, unless `force`."""
 
     def check(path: Path) -> None:
         if not force and not is_replaceable(path):

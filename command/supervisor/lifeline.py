@@ -59,7 +59,7 @@ class Lifeline:
         os._exit(0)
 
     def answer(self, head: dict[str, Any], data: bytes = b"") -> None:
-        """Send a line of JSON; if there is data, with its length as "bytes", and followed by it."""
+        """Send a line of JSON. If there are data, the line states their length as "bytes", and they follow it."""
         head = {**head, "bytes": len(data)} if data else head
         view = memoryview(MARK + json.dumps(head).encode() + b"\n" + data)
         while view:

@@ -138,7 +138,7 @@ class _Reader:
         return entry
 
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
-        """Return the (4, 4) matrix of an entity: its transformation after the ones that this refers to."""
+        """Return the (4, 4) matrix of an entity: its transformation, followed by the ones that this refers to."""
         chain, pointer = [], entry.matrix
         while pointer not in self._matrices and len(chain) < MAX_DEPTH:
             chain.append(self._entry(pointer, MATRIX))
@@ -204,7 +204,7 @@ class _Reader:
 
 
 def _spline_piece(fields: list[str]) -> list[Piece] | None:
-    """Return a B-spline curve in parameter space; None if it is used in part, not clamped, or of wrong weights."""
+    """Return a B-spline curve in parameter space; None if it is used in part, not clamped, or has weights ≤ 0."""
     last, degree = integers(fields, 2)
     count, knot_count = last + 1, last + degree + 2
     end = 6 + knot_count + 4 * count + 2

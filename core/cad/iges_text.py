@@ -79,7 +79,7 @@ class IgesText:
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
-        """Return the parameters of an entity, without its type. ValueError if they are cut short, or another's."""
+        """Return an entity's parameters without its type. ValueError if they are cut short or of another entity."""
         first, count = entry.parameters
         start, end = first - 1, first - 1 + count
         if not 0 <= start < end <= len(self._lines):

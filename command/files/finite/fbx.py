@@ -34,7 +34,7 @@ class FbxNode:
 
 
 def check_fbx(data: Data, _path: str) -> None:
-    """Raise FileError if a vertex of a mesh or of a shape of it is not finite."""
+    """Raise FileError if a vertex of a mesh or of its shape keys is not finite."""
     if data[:23] != _FBX_MAGIC:
         _check_ascii_fbx(data)
         return

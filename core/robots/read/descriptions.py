@@ -26,7 +26,7 @@ MAX_LINKS = 100_000
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return a file's robot description; an MJCF model includes files of the roots. FileError if it is refused."""
+    """Return a file's robot description. roots: folders of files that an MJCF model includes. FileError if refused."""
     data = _bytes(path)
     if data.startswith(_USD.encode()):
         description = AUDITED[_USD].reader_module.read(data)

@@ -199,7 +199,7 @@ def _visit(
 
 
 def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
-    """Return the (4, 4) matrix of a prim's transform operations after the matrix above it, for column vectors."""
+    """Return the (4, 4) matrix from a prim to the world, for column vectors. above: the matrix of its parent."""
     matrix = above
     for inverse, name in re.findall(r'"(!\w+!)?([\w:]*)"', prim.values.get("xformOpOrder", "")):
         if inverse == "!resetXformStack!":

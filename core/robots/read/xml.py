@@ -82,7 +82,7 @@ def _end_of_tag(data: bytes, start: int) -> int:
 
 
 def parse(data: bytes) -> Node:
-    """Return the root element of an XML document. FileError if it is invalid, too large, or declares a type."""
+    """Return the root element of an XML document. FileError if it is invalid, too large, or has a doctype."""
     document = Node("", {}, 0)
     parser, waiting, counts = expat.ParserCreate(), [document], itertools.count(1)
 
