@@ -64,7 +64,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
-    """Return the report, and the exit code: 1 after warnings, errors or a failure, 70 after one of our own faults."""
+    """Return the report, and the exit code: 1 after warnings, errors or unread files, 70 after an internal error."""
     documents, faults, internal = [], 0, 0
     for path in options.files:
         try:

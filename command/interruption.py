@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Signals end a run wherever it is, and long reads say how far they are."""
+"""Interruption of a run by signals, and progress messages of long reads."""
 
 from __future__ import annotations
 
@@ -47,13 +47,13 @@ def interruptible() -> Iterator[None]:
 
 
 def check_interruption() -> None:
-    """Raise KeyboardInterrupt if it was requested: importers in Python turn the exception into their own error."""
+    """Raise KeyboardInterrupt if a signal has come: an importer may have turned the first one into its own error."""
     if _requested:
         raise KeyboardInterrupt
 
 
 class Progress:
-    """A counter of what is read from a file ("samples", "faces"), which it reports every `PERIOD` seconds."""
+    """A counter of the "samples" or "faces" read from a file, with a report every `PERIOD` seconds."""
 
     def __init__(self, file: str, what: str) -> None:
         self._file, self._what, self._count, self._due = file, what, 0, time.monotonic() + PERIOD
@@ -65,5 +65,5 @@ class Progress:
             self.report("{:.3g} {} read. Ctrl+C ends it".format(self._count, self._what))
 
     def report(self, text: str) -> None:
-        """Report how much has been read."""
+        """Print a message about the file."""
         print_message(self._file, text)

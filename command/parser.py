@@ -15,11 +15,11 @@ class UsageError(Exception):
 
 
 class HelpRequested(Exception):
-    """Raised for --help, with its text."""
+    """The request for help by --help, with the text to print."""
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that escapes control characters, as in file names, and leaves the output of help to its caller."""
+    """A parser that escapes control characters in its messages, and raises HelpRequested instead of printing help."""
 
     def print_help(self, file: object = None) -> NoReturn:
         raise HelpRequested(self.format_help())

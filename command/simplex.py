@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`simplex`: moments in n dimensions of the body that simplices fill, or enclose as its boundary."""
+"""`simplex`: moments in n dimensions of a body that is given by simplices, which fill it or form its boundary."""
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@
 
 Every body becomes raw moments about a stated point (`Moments`), by default the middle of its bounding box, and
 everything else is derived from them.
-`from body_moments.core import ...` has the dozen names that most uses need:
+`from body_moments.core import ...` has the names that most uses need:
 
     Surface                                  triangles and quads over shared points
     measure_solid, polyhedron_moments        the body in a surface, repaired on a copy; its moments to any order
@@ -14,7 +14,7 @@ everything else is derived from them.
     signature, solid_transform               numbers that identify a shape; the Fourier transform
     Finding, MeasureError                    what was noticed or decided; what was refused, and why
 
-The packages, each with its own public names in its `__init__` (none imports one that stands below it):
+The packages, each with its own public names in its `__init__` (none imports a later one):
 
     numerics     vectors, compensated sums, rotations, quadrature, B-splines, graphs, segments of arrays
     verdict      findings and refusals, method, health of a mesh, tolerances
@@ -25,7 +25,6 @@ The packages, each with its own public names in its `__init__` (none imports one
     polyhedron   integrals over triangles and quads: to third order, to any order, in n dimensions (Sheynin and Tuzikov)
     shape        symmetry, signature, Zernike descriptors (Novotni and Klein 2003), registration, libraries
     scans        NRRD, NIfTI, numpy's and raw files
-    robots       links, joints and inertials; what geometry allows an inertial to be
     solid        whether a surface bounds a solid; holes capped, faces flipped, shells nested; its moments
     flat         polygons with holes, section properties
     fourier      Fourier transforms in closed form, and on large grids to a tolerance (Barnett et al. 2019)
@@ -37,6 +36,8 @@ The packages, each with its own public names in its `__init__` (none imports one
     statics      support polygons, resting poses; derivatives by every vertex, the least change that moves the center
     cad          B-spline surfaces of IGES and .obj files, with Blender's knots
     measurement  `Measurement`, all results of one measured object
+    files        files that are written whole or not at all
+    robots       links, joints and inertials; their formats; the audit of inertials by geometry
 
 Importing this package loads neither numpy nor any of these: each name is imported when it is first used.
 """

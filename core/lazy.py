@@ -10,9 +10,9 @@ from typing import Any
 
 
 def lazy_names(package: str, **modules: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return `__getattr__`, `__dir__` and `__all__` of a package, given the module of each public name.
+    """Return `__getattr__`, `__dir__` and `__all__` of a package. modules: the module of each public name.
 
-    The package offers its modules and packages, too. Importing the package loads none of them.
+    Modules and packages in the package are attributes, too. Importing the package loads none of them.
     """
     names = sorted(modules)
 
@@ -34,5 +34,5 @@ def lazy_names(package: str, **modules: str) -> tuple[Callable[[str], Any], Call
 
 
 def loaded_module(package: ModuleType, name: str) -> Any:
-    """Return a package's module if something has imported it, else None: it remembers nothing of this session yet."""
+    """Return a package's module if it has been imported, else None: then it holds no state of this session."""
     return sys.modules.get("{}.{}".format(package.__name__, name))

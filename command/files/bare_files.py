@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files that Blender does not open: arrays and scans, and meshes that are larger than memory.
 
-Each file is one body, called like the file.
+Each file is one body, named after the file.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from ..options.file import OF_ARRAYS, body_findings, file_findings, unused, word
 from .files import STREAMED, check_file, file_suffix
 
 BYTES_PER_FACE = 500  # approximate memory for importing and measuring a mesh
-BYTES_OF_FILE = {".stl": 50, ".ply": 19}  # for each face, at least: a file that is smaller has fewer faces
+BYTES_OF_FILE = {".stl": 50, ".ply": 19}  # Least bytes for each face: a file's size limits its faces.
 _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 
 
@@ -36,8 +36,8 @@ _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 class BareFile:
     """A file measured without Blender.
 
-    options: the options of the command line. measured: name and measurement, if any. refusal: the reason if there is
-    none.
+    options: those of the command line. objects, errors: entries of the document. measured: name, None for the object,
+    and measurement. refusal: the error if there is no measurement.
     """
 
     path: str

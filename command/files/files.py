@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Opening of a user's file as the scene, or a FileError with the reason.
+"""Opening of a user's file as the scene, which raises FileError with the reason if it fails.
 
-Every file starts from an empty scene of factory settings, so that nothing of the file before it, or of a person's own
+Every file starts from an empty scene of factory settings, so that no object of an earlier file, or of a user's own
 start-up file, is measured with it. Scripts inside .blend files never run. Files that Blender's importers accept
 silently are refused here: a FIFO (it would block for ever), an STL cut short (read as an empty mesh, or as half of
-one), a file in which no object is found.
+one), a file without objects.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ STREAMED = (".stl", ".ply")  # formats that can be measured without an import
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
-# Bone shapes are objects of the importer's own making.
+# Without disable_bone_shape, the importer of glTF adds objects that would be measured.
 _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
     ".obj": import_obj,
@@ -67,10 +67,10 @@ def file_suffix(path: str) -> str:
 
 
 def open_file(path: str) -> Opened:
-    """Make a file the open scene, and return the findings. Raises FileError."""
+    """Open a file as the scene, and return the findings about it. Raises FileError."""
     try:
         return _opened(path)
-    except OSError as error:  # such as of a disk that fails
+    except OSError as error:  # Such as from a failing disk.
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
 
 
@@ -163,7 +163,7 @@ def check_file(path: str) -> None:
 
 
 def _check_usdz(path: Path, size: int) -> None:
-    """Compare the checksums of stored entries; no other reader does."""
+    """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
     try:
         with zipfile.ZipFile(path) as archive:
             stored = [entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED]
@@ -209,7 +209,7 @@ def reason(error: Exception) -> str:
 
 
 def requested_file() -> str | None:
-    """Return the .blend file that Blender was started with.
+    """Return the .blend file that Blender was started with, None if there is none.
 
     Blender runs a command on its start-up scene if it cannot open the file.
     """

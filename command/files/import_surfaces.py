@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of B-spline surfaces as objects of the open scene: IGES, and .obj files with ``surf``.
 
-Blender has no importer for IGES, and its importer of .obj files leaves ``surf`` out without a word.
+Blender has no importer for IGES, and its importer of .obj files silently leaves out ``surf``.
 """
 
 from __future__ import annotations

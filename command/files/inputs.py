@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that a measured file refers to: --resume measures it again if one of them has changed."""
+"""Files that a measured file refers to: --resume measures the file again if one of these has changed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ...core.verdict.finding import MeasureError
 from .finite import Buffers, unquote
 from .finite.numbers import MALFORMED
 
-# Errors about a file that cannot have such a name, cannot be read, or is damaged: it refers to nothing.
+# Errors about a file with an impossible name, unreadable or damaged, which counts as without references.
 _UNREADABLE = (OSError, RuntimeError, MeasureError, *MALFORMED)
 _ASSET = re.compile(rb"@@@(.+?)@@@|@([^@\n]+)@")
 

@@ -2,10 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Output of the result: to a file, whole or not at all, or alone on the standard output.
 
-Blender and its importers print on the standard output from C. So its descriptor is taken away from them: the original
-standard output is kept for the result, and descriptor 1 becomes the standard error. It is not given back, because
-output buffered by C until then would follow the result; the entries that call this are the last thing their process
-does.
+Blender and its importers print on the standard output from C. So `claim_stdout` keeps the original
+standard output for the result, and descriptor 1 becomes the standard error. It is not restored, because output that C
+has buffered would then follow the result: the process ends after the commands that call `claim_stdout`.
 """
 
 from __future__ import annotations
@@ -35,21 +34,21 @@ def claim_stdout() -> int:
 
 
 def is_stdout(path: Path) -> bool:
-    """Return whether this is a name of the standard output."""
+    """Return whether a path is a name of the standard output."""
     return str(path) in _STDOUT
 
 
 def is_stream(path: Path | None) -> bool:
-    """Return whether a result goes to the standard output, a pipe or a device, which no file can be beside."""
+    """Return whether a result goes to the standard output, a pipe or a device, beside which no file can stand."""
     return path is None or is_stdout(path) or path.exists() and not path.is_file()
 
 
 def write_result(
     parts: Iterable[str], path: Path | None, channel: int, check: Callable[[Path], None] | None = None
 ) -> bool:
-    """Write a result to `path`, or to a descriptor if it is None, and return whether that was possible.
+    """Write a result to `path`, or to the descriptor `channel` if `path` is None, and return whether it succeeded.
 
-    Prints the reason for a failure to the standard error. check: as in `whole_file`.
+    Print the reason for a failure to the standard error. check: as in `whole_file`.
     """
     # A file name that is not UTF-8 holds lone surrogates. Escaped so, they are what JSON writes for them.
     pieces = (part.encode("utf-8", "backslashreplace") for part in parts)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Recognition of our own results by their beginning: they alone are replaced without --force."""
+"""Recognition of our own results by their beginning: only these are replaced without --force."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def is_result(path: Path) -> bool:
 
 
 def guard(force: bool) -> Callable[[Path], None]:
-    """Return a check that raises FileExistsError if a file that has appeared meanwhile would be lost."""
+    """Return a check for `whole_file` that raises FileExistsError if a foreign file would be lost, unless `force`."""
 
     def check(path: Path) -> None:
         if not force and not is_replaceable(path):

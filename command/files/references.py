@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Findings about an opened file, and its missing references: Blender opens the rest, and prints them at most."""
+"""Findings about an opened file and its missing references, which Blender does not report or only prints."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Opened:
 
 
 def import_usd(path: str) -> Opened:
-    """Import a file, and return the layers, references and payloads that were not found, by USD's reports.
+    """Import a USD file, and return errors about layers, references and payloads that USD reports as missing.
 
     Output to the standard error meanwhile appears there afterwards.
     """

@@ -24,7 +24,7 @@ _PACKED = (b"\x28\xb5\x2f\xfd", b"\x1f\x8b")  # start of a .blend compressed wit
 class Place:
     """A .blend file that is going to take results: its path without symbolic links, and a digest of its content.
 
-    Sizes and times do not change if two programs save within one tick of a file system's clock.
+    Its size and time may not change if two programs save within one tick of a file system's clock, hence the digest.
     """
 
     path: Path
@@ -40,7 +40,7 @@ class Place:
             raise FileError(FILE_NOT_WRITTEN, file=real.name, error=reason(error)) from error
 
     def save(self) -> None:
-        """Save the open scene, whole or not at all. Raises FileError."""
+        """Save the open scene, whole or not at all. FileError if this fails, or the file has changed meanwhile."""
         try:
             self._save()
         except (RuntimeError, OSError) as error:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scripts of files: those that did not run, and those of a file that Blender opened before this program was called."""
+"""Findings about scripts of files: blocked scripts, and scripts that Blender may have run before this program."""
 
 from __future__ import annotations
 

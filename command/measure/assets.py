@@ -24,7 +24,7 @@ _WITH_GEOMETRY = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
 
 
 def write(measured: Mapping[Root, Measurement], path: str, where: str) -> tuple[bool, list[Finding]]:
-    """Put numbers into the metadata of the measured assets of the open file.
+    """Store measurements in the metadata of the measured assets of the open file.
 
     Return whether the file itself is to be saved, and findings about assets without numbers. where: "copy" saves a copy
     beside the file. Raises FileError.
@@ -38,7 +38,7 @@ def write(measured: Mapping[Root, Measurement], path: str, where: str) -> tuple[
 
 
 def _store(data: bpy.types.AssetMetaData, measurement: Measurement) -> None:
-    """Store numbers, of an object in its own frame, of a collection in the scene's."""
+    """Store a measurement as metadata, of an object in its own frame, of a collection in the scene's."""
     properties = measurement.in_object_frame()
     data["body_mass"] = float(properties.mass)
     data["body_volume"] = float(measurement.volume)

@@ -22,7 +22,7 @@ from .run import Run
 
 
 def serve(line: Lifeline) -> None:
-    """Work until the supervisor closes the pipe, which ends the process."""
+    """Measure files on request, until the supervisor closes the pipe, which ends the process."""
     messages = line.messages()
     setup = next(messages)
     options = parse(setup["words"])
@@ -37,7 +37,7 @@ def serve(line: Lifeline) -> None:
     line.answer({"ready": {"blender": ".".join(map(str, bpy.app.version))}})
     for message in messages:
         with suppress(OSError):
-            os.ftruncate(2, 0)  # output about the file before
+            os.ftruncate(2, 0)  # Remove output about the previous file.
             os.lseek(2, 0, os.SEEK_SET)  # needed if it is not opened for appending, as on Windows
         _measure(run, message["measure"], line)
 
@@ -52,7 +52,7 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
 
 
 class _Told(Progress):
-    """Progress that the supervisor is sent."""
+    """A counter whose reports are sent to the supervisor."""
 
     def __init__(self, file: str, what: str, line: Lifeline) -> None:
         super().__init__(file, what)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several bodies as one in a document: assemblies and bones with results or given masses in a file.
+"""Measurement of several bodies as one: assemblies and rigs of a file that have results or a given mass.
 
 With asset metadata, collections that are assets are included.
 """
@@ -65,10 +65,10 @@ class Combined:
 
 
 def measure_combined(options: MeasureOptions, internal: Internal, assets: bool = False) -> Combined:
-    """Measure the assemblies and the characters of the open scene.
+    """Measure the assemblies and the rigs of the open scene that have results or a given mass.
 
-    `options` override the members' settings; `internal` makes the entry about an error that nobody foresaw; `assets`
-    includes assets that have a mass.
+    `options` override the members' settings; `internal` returns the entry about an unexpected error; `assets` adds
+    assets that have a mass.
     """
     scene, found = bpy.context.scene, Combined()
     wanted = replace(options, order=None)
@@ -113,7 +113,7 @@ def _assets(scene: Scene) -> Iterator[Root]:
 
 
 def _roots(scene: Scene) -> Iterator[Root]:
-    """All collections of a scene, and the empties that stand for their children."""
+    """Yield all collections of a scene, and the empties that are assemblies of their children."""
     empties = (obj for obj in scene.objects if obj.type == "EMPTY" and is_assembly(obj))
     yield from (scene.collection, *scene.collection.children_recursive, *sorted(empties, key=lambda obj: obj.name))
 

@@ -22,7 +22,7 @@ HU_ORDER = 3  # order for Hu's invariants
 
 
 def is_meant(options: Namespace, refusal: MeasureError) -> bool:
-    """Return whether an object refused as a body is to be measured as a flat shape."""
+    """Return whether --flat is given and the refusal says that an object is no body."""
     return options.flat and refusal.finding.code in NO_BODY
 
 

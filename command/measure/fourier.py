@@ -40,7 +40,7 @@ def wave_vectors_of(options: Namespace) -> FrequencyGrid | NDArray[np.float64] |
 
 
 def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions) -> tuple[Finding, ...]:
-    """Transform the object and write the file. Returns the decisions taken. Raises MeasureError and OSError."""
+    """Write an object's Fourier transform to a file, and return findings. Raises MeasureError and OSError."""
     depsgraph = bpy.context.evaluated_depsgraph_get()
     under_way: ObjectTransform | FlatTransform
     if options.flat:

@@ -31,7 +31,7 @@ def measured_together(
 ) -> Callable[[bpy.types.Object], Measured | Stacked] | None:
     """Return a function that measures objects in batches, or None if they have to be measured one by one.
 
-    They have to be if something is done between two objects, or more than mass properties is requested.
+    That is the case if an object needs settings or results of its own besides mass properties.
     """
     if options.order is not None or options.pose or options.signature or options.thumbnails:
         return None

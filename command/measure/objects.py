@@ -20,12 +20,12 @@ from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:
-    """Return an entry of `errors`, or of `left_out`."""
+    """Return an entry of a document's `errors` or `left_out`: an object's name and the reason."""
     return {"name": name, "reason": str(reason)}
 
 
 def why_nothing(left_out: int) -> Finding:
-    """Why a file without errors has no records."""
+    """Return the reason why a file without errors has no records."""
     return finding(NOTHING_RENDERED, count=left_out) if left_out else finding(NO_MEASURABLE_OBJECT)
 
 
@@ -34,8 +34,8 @@ def objects_to_measure(
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
     """Return the objects to measure, the objects left out, and the errors.
 
-    The objects to measure have unique names, the objects left out a reason; each unknown name is an error. everything:
-    nothing is left out.
+    The objects to measure come with unique names, the objects left out with a reason; each unknown name is an error.
+    everything: True to leave out nothing.
 
     Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
     """

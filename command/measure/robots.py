@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""--format urdf, sdf, mjcf, usd and gltf: the records of a file as links, and their text as a part of its document.
+"""--format urdf, sdf, mjcf, usd and gltf: the measured objects of a file as a robot, whose text its document holds.
 
-The process that measures makes the text, for that needs numpy; the one that gathers documents only passes it on.
+The process that measures makes the text, because that needs numpy; the process that gathers documents only copies it.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ def complete(
     *,
     is_opened: bool,
 ) -> dict[str, Any]:
-    """Return a document with its records as links and the entry `robot`, if such a format is requested.
+    """Return a document with the text of its links as `robot`, or unchanged if no format of robots is requested.
 
-    Prints the findings of the format to the standard error. measure_options: the options of the measurements.
+    Writes the meshes, and prints the format's findings. measure_options: the options of the measurements.
     is_opened: whether the file is the open scene, with its collections and bones.
     """
     if options.format not in FORMATS:
@@ -72,7 +72,7 @@ def complete(
 def _by_object(
     document: dict[str, Any], measured: Sequence[MeasuredObject], measure_options: MeasureOptions
 ) -> SceneLinks:
-    """Return each measured object as a link."""
+    """Return the measured objects as links."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
     made = [object_candidate(label, obj, one, labels) for label, obj, one in measured]
     robot, findings = assemble_robot(robot_name(document["file"]), sorted(made, key=lambda one: one.name))
@@ -83,7 +83,7 @@ def _by_object(
 def _of_scene(
     document: dict[str, Any], measured: Sequence[MeasuredObject], links: str, measure_options: MeasureOptions
 ) -> SceneLinks:
-    """From the scene's collections or bones."""
+    """Return the scene's collections or bones as links; if they are refused, no links and the finding."""
     name, context = robot_name(document["file"]), bpy.context
     try:
         if links == "bone":

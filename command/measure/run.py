@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a file to its document: open it, measure its objects, store the results on them if requested.
+"""Production of a file's document: opening, measurement of objects, and storage of results if requested.
 
 Every failure is an entry in `errors` and stops nothing else: a file that cannot be opened, an object that cannot be
-measured, a file that cannot be saved. A failure that nobody foresaw is such an entry too, with its traceback on the
+measured, a file that cannot be saved. An unexpected failure is such an entry too, with its traceback on the
 standard error.
 """
 
@@ -61,12 +61,12 @@ _STATUSES: dict[str, str] = {FILE_MISSING: "missing", FILE_VERSION_UNSUPPORTED: 
 
 @dataclass
 class Run:
-    """A command line at work.
+    """The execution of a command line in this process.
 
-    threads: that a measurement may use. memory: bytes that one file may take, None for any. progress: returns a counter
-    of the samples or faces read from a file. documents: one for each file, in order. internal_errors: the number of
-    their errors that are our own. has_opened, has_saved: whether the last file has become the open scene, and whether
-    it was saved in place.
+    threads: count for a measurement. memory: bytes that one file may take, None for any. progress: returns a counter
+    of the samples or faces read from a file. documents: one for each file, in order. internal_errors: count of the
+    errors that are faults of the program. has_opened, has_saved: whether the last file has become the open scene, and
+    whether it was saved in place.
     """
 
     options: Namespace
@@ -79,7 +79,7 @@ class Run:
     has_saved: bool = field(init=False)
 
     def __post_init__(self) -> None:
-        self._status: str | None = None  # of the current document, if its errors do not determine it
+        self._status: str | None = None  # Of the current document; None if its errors determine it.
         measure_options = {
             name: getattr(self.options, name) for name in ("kind", "mass", "thickness", "overlap", "wall")
         }
@@ -92,7 +92,7 @@ class Run:
         )
 
     def measure(self) -> None:
-        """Measure every file that was named, or else the one that is open."""
+        """Measure every named file, or else the open file, and add their documents."""
         options = self.options
         is_open_file_meant = not options.files and options.manifest is None and options.range is None
         for path in [None] if is_open_file_meant else options.files:
@@ -112,7 +112,7 @@ class Run:
         return found
 
     def _place(self, path: str | None) -> Place | None:
-        """Return the state of the file that is going to take results. Raises FileError."""
+        """Return the .blend file in which results will be saved, None if there is none. Raises FileError."""
         is_saved = self.options.write or self.options.asset_metadata == "file"
         is_blend = path is None or file_suffix(path) == BLEND
         target = path or bpy.data.filepath
@@ -133,7 +133,7 @@ class Run:
             else:
                 opened = self._open(path, file)
                 is_opened = True
-                # Not by way of the scene, whose unit scale is a float32 with limits.
+                # Not set in the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if is_unitless(path) else None
                 wanted = replace(wanted, unit_scale=unit)
                 chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all)
@@ -147,7 +147,7 @@ class Run:
                 objects, measured, flats = self._measure_each(chosen, wanted, of_file, opened, errors)
                 caveats += scripts_of_open_file() if path is None else ()
                 caveats += open_body_caveats((label, one.method) for label, _, one in measured)
-                if self.options.object is None:  # else whoever named them knows what they count
+                if self.options.object is None:  # A user who names objects knows what their total means.
                     caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
                     caveats += other_scenes(bpy.context.scene)
                     combined = measure_combined(wanted, self._internal_error, self.options.asset_metadata is not None)
@@ -264,7 +264,7 @@ class Run:
         return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)
 
     def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
-        """Yield a finding if nobody has set the density."""
+        """Yield a finding if neither an option nor the object sets the density."""
         if self.options.density is not None or self.options.mass is not None or self.options.material is not None:
             return
         unset = unset_density(obj, measurement, bpy.context.scene)
@@ -315,9 +315,9 @@ class Run:
         measured: list[tuple[str, bpy.types.Object, Measurement]],
         wanted: MeasureOptions,
     ) -> Iterator[dict[str, Any]]:
-        """Store the results, once all of them are there: drivers may read them and change later measurements.
+        """Store the results of all objects, and yield the entries about failures.
 
-        The given settings are stored too, or the results would be out of date.
+        It follows all measurements, as drivers may read results. Given settings are stored too, so that results fit.
         """
         if not bpy.data.filepath or path is not None and file_suffix(path) != BLEND:
             raise FileError(RESULTS_NEED_BLEND)
@@ -334,5 +334,5 @@ class Run:
 
 
 def _unavailable(part: str, refusal: MeasureError) -> Finding:
-    """Return a finding that a part of a record is missing, and why."""
+    """Return the finding that a part of a record is missing, with the cause."""
     return finding(PART_UNAVAILABLE, part=part, cause=refusal.finding.as_record())

@@ -44,7 +44,7 @@ _ROOT = __name__.removesuffix(".command.measure.supervised")
 
 
 def measure(options: Namespace, channel: int, opened: str | None) -> int:
-    """Measure the files, and return the exit code. opened: a file that this process has open, and only keeps.
+    """Measure the files, and return the exit code. opened: the file that this process has open, if any.
 
     Raises SystemExit if the options are wrong, and KeyboardInterrupt.
     """
@@ -77,7 +77,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
 
 
 def files_of(options: Namespace) -> list[str]:
-    """Return the requested files: named ones, the files of folders and of a manifest, and of these the range."""
+    """Return the requested range of the files that are named, in named folders, or in the manifest."""
     try:
         paths = [*listing.expand(options.files)]
         if options.manifest is not None:
@@ -97,7 +97,7 @@ def files_of(options: Namespace) -> list[str]:
 
 
 def _blender(options: Namespace) -> str | None:
-    """Return the Blender to start: the named one, or that of this process."""
+    """Return the Blender to start: the one named by --blender, or the one of this process; None for the bpy module."""
     bpy = sys.modules.get("bpy")
     if options.blender is not None or bpy is None or bpy.app.module:
         return options.blender
@@ -105,7 +105,7 @@ def _blender(options: Namespace) -> str | None:
 
 
 class _Places:
-    """Files of an unfinished run: beside its output, which belongs to this run alone until `ends`.
+    """Paths of the files of an unfinished run, beside its output, which is locked until `ends` is closed.
 
     work: a folder that does not exist yet. journal_is_kept: whether the journal stays if the run is interrupted.
     """
@@ -133,7 +133,7 @@ class _Places:
                     fail("argument --output: {} is in the way, and no result. Move it, or use --force".format(path))
         except BlockingIOError:
             fail("argument --output: another run is writing {}. Use another name, or wait".format(target))
-        except OSError as error:  # a name that is too long with what is added to it
+        except OSError as error:  # Such as a name that is too long with the suffix.
             fail("argument --output: {}: {}".format(error.filename or target, system_reason(error)))
 
     def set_aside(self) -> None:
@@ -148,7 +148,7 @@ def _old(path: Path) -> Path:
 
 
 class _Supervised:
-    """One run. tasks: the files, each once. done: how many of them are recorded."""
+    """A run over files by children. tasks: the files, each once. done: count of the recorded files."""
 
     def __init__(self, options: Namespace, paths: list[str], command: list[str], places: _Places) -> None:
         self._options, self._paths, self._command, self._places = options, paths, command, places
@@ -258,7 +258,7 @@ class _Supervised:
 
 @dataclass
 class _Documents:
-    """The documents of the files in their order, read again each time, so that never all of them are in memory."""
+    """The documents of the files in order, read from the journal one by one, so that they need not fit into memory."""
 
     journal: Journal
     paths: list[str]
@@ -268,7 +268,7 @@ class _Documents:
 
 
 def _digest(options: Namespace) -> str:
-    """Return a digest of everything besides the file that changes the numbers."""
+    """Return a digest of the options, positions and limits, which influence the numbers besides the file."""
     positions = [state(path) for _, path in options.positions or ()]
     text = json.dumps([of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -28,9 +28,9 @@ ONE_OBJECT = "argument --fourier: takes one object of one FILE"
 
 
 def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
-    """Parse the options of `measure`, and keep the words for children. file_needed: no file can be open.
+    """Parse the options of `measure`, and keep the words for children. file_needed: True if no file can be open.
 
-    Raises SystemExit(2) with a message on the standard error, or SystemExit(0) after --help.
+    Raises SystemExit(2) after a message on the standard error, or HelpRequested.
     """
     parser = measure_parser()
     options = parser.parse_intermixed_args(join_negative_values(argv))
@@ -66,19 +66,19 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
 
 
 def fail(reason: str) -> NoReturn:
-    """End as for any wrong usage: SystemExit(2), with a message on the standard error."""
+    """Print the reason with the usage to the standard error, and raise SystemExit(2)."""
     measure_parser().error(reason)
 
 
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
-    """Return the options that change measurements, as plain values."""
+    """Return the options that influence records by name, with paths as text."""
     names = vars(options).keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
     values = {name: getattr(options, name) for name in names}
     return {name: str(value) if isinstance(value, Path) else value for name, value in values.items()}
 
 
 def files_of_options(options: argparse.Namespace, files: Iterable[str], opened: str | None) -> list[str | Path]:
-    """Return the files that a run reads: those that it measures, the one that is open, and values of options."""
+    """Return the files that a run reads: measured files, the open file, and files that options name."""
     positions = (path for _, path in options.positions or ())
     return [path for path in (*files, opened, options.q, *positions) if path]
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks before a process measures: options with files as values, limits, and files that results would replace.
 
-Each ends as wrong usage does, with SystemExit(2) and a message.
+A failed check ends like wrong usage, with SystemExit(2) and a message.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .arguments import fail, files_of_options
 
 
 def check(options: Namespace) -> None:
-    """Check everything, for a process that measures and writes by itself."""
+    """Prepare a measurement and check output files, in a process that both measures and writes."""
     prepare(options)
     targets.check_targets(options, files_of_options(options, options.files, bpy.data.filepath))
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--material, --polynomial, --density-from and --threshold: the panel's density settings, for every object.
 
-They are put into the objects' settings, in memory. Only --write saves them, with the results that they have led to.
+They change the objects' settings in memory. Only --write saves these settings, together with the results.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .option_types import split_source
 
 
 def check(options: Namespace) -> None:
-    """Raise UsageError if there is no such material, or MeasureError if the polynomial cannot be read."""
+    """Raise UsageError if the material is unknown, or MeasureError if the polynomial cannot be read."""
     if options.material is not None and options.material not in BY_NAME:
         raise UsageError("There is no material “{}”. Known are {}".format(options.material, ", ".join(sorted(BY_NAME))))
     if options.polynomial is not None:
@@ -28,7 +28,7 @@ def check(options: Namespace) -> None:
 
 
 def density_of(options: Namespace) -> float | None:
-    """Return the one density that was given, as a number or as a material's name."""
+    """Return the density that was given as a number or as a material's name, else None."""
     return options.density if options.material is None else BY_NAME[options.material].density
 
 

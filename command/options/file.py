@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options for information missing in files, and findings about missing and unused ones."""
+"""Options for information that files lack, and findings about assumed units and unused options."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def is_unitless(path: str | None) -> bool:
 
 
 def words(names: Iterable[str]) -> list[str]:
-    """Return the options as they are written."""
+    """Return the options as they are written, such as “--unit-scale”."""
     return ["--" + name.replace("_", "-") for name in names]
 
 

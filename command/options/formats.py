@@ -16,5 +16,5 @@ def _to_robot(file_documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     return (one.get("robot", "") for one in file_documents)
 
 
-# From documents, which may be gone through twice, to pieces of text.
+# Functions from documents, which may be iterated twice, to pieces of text.
 FORMATS = {**documents.FORMATS, **dict.fromkeys(ROBOT_FORMATS, _to_robot)}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each option of `measure`, with its help. They are a public contract: an unknown one ends with exit code 2.
+"""The options of `measure`, with their help. They are a public contract; unknown options end with exit code 2.
 
 Standard library only, as the process that supervises others may have neither numpy nor Blender.
 """
@@ -16,7 +16,7 @@ from ..parser import Parser
 from . import option_types as types
 from .formats import FORMATS
 
-DEFAULT_ORDER = 2  # with --surface-moments alone: all that inertia needs
+DEFAULT_ORDER = 2  # For --surface-moments without --order: the order that inertia needs.
 DEFAULT_TIMEOUT = 1800.0  # seconds for one file
 
 _EPILOG = """\

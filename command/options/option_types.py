@@ -17,11 +17,11 @@ MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
 MAX_GRID = 256  # frequencies along an axis: its arrays take a few gigabytes
 ABOUT = ("center", "origin", "world")
-_NAMED = {"value": False, "materials": False, "attribute": True, "volume": True}  # sources of density: has it a name
+_NAMED = {"value": False, "materials": False, "attribute": True, "volume": True}  # by source: True if a name follows
 
 
 def command(text: str) -> str:
-    """Return the one command that these options belong to."""
+    """Return the text if it is “measure”, the command of these options."""
     if text != "measure":
         raise ArgumentTypeError("“{}” is no command: {} are".format(text, COMMANDS))
     return text
@@ -36,7 +36,7 @@ def _float(text: str) -> float:
 
 
 def _bounded(name: str, least: int, most: int) -> Callable[[str], int]:
-    """Return the type of a whole number within limits."""
+    """Return a function that parses a whole number within limits. name: the number, as messages name it."""
 
     def parse(text: str) -> int:
         try:
@@ -104,18 +104,18 @@ def format_name(text: str) -> str:
 
 
 def about(text: str) -> str | tuple[float, ...]:
-    """Return a point by its name or its coordinates."""
+    """Return a point: one of the names in `ABOUT`, or three coordinates."""
     return text if text in ABOUT else triple(text)
 
 
 def split_source(text: str) -> tuple[str, str]:
-    """Return a source of density, and the name behind it."""
+    """Return a source of density, and the name after its colon, or an empty text."""
     source, _, name = text.partition(":")
     return source, name
 
 
 def source(text: str) -> str:
-    """Return the source of a density: a word, followed by a name if it needs one."""
+    """Return a source of density: a word, followed by a colon and a name if it needs one."""
     word, name = split_source(text)
     if _NAMED.get(word) is not bool(name):
         raise ArgumentTypeError("{!r} is not value, materials, attribute:NAME or volume:NAME".format(text))
@@ -123,7 +123,7 @@ def source(text: str) -> str:
 
 
 def file_range(text: str) -> tuple[int, int | None]:
-    """Return A:B, the files from number A on and before number B, counted from 0; either may be left out."""
+    """Return A and B of A:B, the files from number A up to B - 1, counted from 0; 0 and None if left out."""
     begin, colon, end = text.partition(":")
     if not colon or not all(part.isascii() and (part.isdecimal() or not part) for part in (begin, end)):
         raise ArgumentTypeError("{!r} is not A:B, two whole numbers".format(text))

@@ -19,7 +19,7 @@ Fail = Callable[[str], NoReturn]  # ends a command with the reason and its usage
 
 
 def check_targets(options: Namespace, read: Sequence[str | Path], fail: Fail = fail_measure) -> None:
-    """End with a message if a result cannot be written, or would replace an input or somebody else's file."""
+    """Call `fail` with a message if a result cannot be written, or would replace an input or a foreign file."""
     for option in TARGETS:
         target = getattr(options, option, None)
         if target is None or output.is_stdout(target):

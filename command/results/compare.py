@@ -90,7 +90,7 @@ def _numbers(
 
 
 def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
-    """Each number by its name."""
+    """Return the numbers of a body's record by their names. align: in the body's own pose."""
     found: dict[str, Number] = {
         name: (entry[name], abs(entry[name] or 0.0), _bound(entry, name)) for name in _SCALARS if name in entry
     }
@@ -132,7 +132,7 @@ def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     gyration = math.sqrt((second["xx"] + second["yy"]) / area)
     bound = _flat_bound(bounds, "centroid")
     found |= {"centroid[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", entry["centroid"])}
-    turned = found["area"][2] / area  # axes are not known better than that
+    turned = found["area"][2] / area  # The axes are known to that accuracy at best.
     for name in ("x", "y", "normal"):
         found |= {
             "plane.{}[{}]".format(name, axis): (value, 1.0, turned) for axis, value in zip("xyz", entry["plane"][name])
@@ -180,7 +180,7 @@ def _product(first: Matrix, second: Matrix) -> Matrix:
 def _bound(entry: dict[str, Any], name: str) -> float:
     """Return the bound of a number in a record: rounding plus input."""
     bounds = entry["error_bound"] or {}
-    if name in ("mass", "density", "linear_density"):  # a given one of these has none, and does not differ
+    if name in ("mass", "density", "linear_density"):  # A given value has no bound, and does not differ.
         measure = "volume" if entry["volume"] else "area"
         size = entry[measure]
         return _bound(entry, measure) / abs(size) * abs(entry[name] or 0.0) if size else 0.0
@@ -188,6 +188,6 @@ def _bound(entry: dict[str, Any], name: str) -> float:
 
 
 def _bound_about(entry: dict[str, Any], distance: float) -> float:
-    """Return the bound of a tensor about a point at this distance from the center, by the parallel axes."""
+    """Return the bound of a tensor about a point at this distance from the center of mass."""
     shift = distance * _bound(entry, "mass") + 2.0 * entry["mass"] * _bound(entry, "center_of_mass")
     return _bound(entry, "inertia") + distance * shift

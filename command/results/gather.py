@@ -29,7 +29,7 @@ Entry = tuple[dict[str, Any], dict[str, Any]]  # a document, and its `attempts` 
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
-    """Return the options. Raises SystemExit(2), or HelpRequested."""
+    """Return the options of one of these commands. Raises SystemExit(2), or HelpRequested."""
     command = argv[0]
     names = "FOLDER" if command == "manifest" else "RESULT"
     parser = Parser(
@@ -54,12 +54,12 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
 
 def answer(options: argparse.Namespace) -> tuple[Iterable[str], int]:
-    """Return the text in pieces, and the exit code. Raises UsageError."""
+    """Return the pieces of the output, and the exit code. Raises UsageError."""
     return _COMMANDS[options.command](options)
 
 
 def _read(paths: Iterable[str]) -> list[Entry]:
-    """Return the documents of some files of results, in order; of two about one file the later counts."""
+    """Return the documents of files of results, in order; a later document replaces one about the same file."""
     entries: dict[str | None, Entry] = {}
     for path in paths:
         try:
@@ -77,7 +77,7 @@ def _documents(options: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def _read_file(path: str) -> Iterator[Entry]:
-    """Read the documents of one file: an object, an array, or one object a line.
+    """Yield the documents of one file: a JSON object, an array, or one object on each line.
 
     Raises ValueError, KeyError, TypeError and OSError.
     """
@@ -105,13 +105,13 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         paths = [*dict.fromkeys(listing.expand(options.paths))]
     except OSError as error:
         raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
-    if options.output and options.output.parent != Path():  # a list names files from its own folder
+    if options.output and options.output.parent != Path():  # Relative names in a list start from its folder.
         paths = [os.path.abspath(path) for path in paths]
     return listing.write_lines(paths), 0
 
 
 def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
-    """Return counts by status and method, the slowest, the widest bounds, findings by code."""
+    """Return lines with counts by status and method, findings, slowest files and widest bounds; and exit code 0."""
     statuses: Counter[str] = Counter()
     methods: Counter[str] = Counter()
     codes: Counter[tuple[str, str]] = Counter()

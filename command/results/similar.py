@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`similar`: which of the bodies measured with --signature are most like one of them."""
+"""`similar`: a ranking of bodies measured with --signature by their likeness to one of them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _COLUMNS = "{:>12} {:>10}  {:<27} {}\n"
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
-    """Return the options of `similar`. Raises SystemExit(2), or SystemExit(0) after --help."""
+    """Return the options of `similar`. Raises SystemExit(2), or HelpRequested."""
     parser = Parser(
         prog="body_moments",
         usage="body_moments similar LIBRARY [LIBRARY ...] --to NAME [options]",

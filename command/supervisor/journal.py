@@ -4,7 +4,7 @@
 
 A line has the file's key (path, size, time of its last change, digest of the options, versions of the add-on and of
 Blender), its status, the attempts and seconds it took, sizes and times of the files that it refers to, and its
-document. A line that is torn or damaged counts as none; of two with one path the later counts.
+document. Torn and damaged lines are ignored; the last line of a path counts.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Entry:
 
 
 class Journal:
-    """An open journal, to which lines are appended. entries: the last of each path. Raises OSError."""
+    """An open journal, to which lines are appended. entries: the last line of each path. Raises OSError."""
 
     def __init__(self, path: Path) -> None:
         self.entries: dict[str, Entry] = {}
@@ -99,7 +99,7 @@ class Journal:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Wait for the disk, and let go of the file. Raises OSError."""
+        """Flush the file to the disk, and close it. Raises OSError."""
         os.fsync(self._file.fileno())
         self._file.close()
 
@@ -115,10 +115,10 @@ def state(path: str) -> dict[str, int | None]:
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Keep a folder for the files of one unfinished run within the block, and remove it afterwards.
+    """Create and lock a folder for the files of one run within the block, and remove it afterwards.
 
-    The lock is one of the operating system: it ends with its process, however that ends. A file system without locks is
-    used without one. Raises BlockingIOError if another run has the folder, and OSError.
+    The operating system holds the lock, and releases it when the process ends for any reason. A file system without
+    locks is used without one. Raises BlockingIOError if another run has the folder, and OSError.
     """
     folder.mkdir(exist_ok=True)
     with open(folder / "lock", "wb") as file:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A child's end of the pipes to its supervisor.
 
-The child ends when the supervisor does, however that ended. On Linux the system itself sees to that, also within a
-file that Blender never comes back from. Elsewhere a thread waits for the end of the pipe.
+The child ends when the supervisor ends for any reason. On Linux the system itself kills it, even if Blender hangs on a
+file. Elsewhere a thread waits for the end of the pipe.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import Any
 
-MARK = b"\x1e"  # begins an answer; what Blender prints before it comes to us does not
-WINDOW = "BODY_MOMENTS_WINDOW"  # a variable of the environment: set in a run that ends with the process that started it
-_PR_SET_PDEATHSIG = 1  # of Linux: the signal that a process gets when the one that started it ends
+MARK = b"\x1e"  # Begins an answer; other lines are output of Blender.
+WINDOW = "BODY_MOMENTS_WINDOW"  # Environment variable of a run that ends with its parent.
+_PR_SET_PDEATHSIG = 1  # Linux: sets the signal that a process gets when its parent ends.
 
 
 def end_with_parent(number: int) -> None:
-    """Get this signal when the process that started this one ends. Linux alone."""
+    """Request a signal to this process for the end of its parent; without effect on other systems than Linux."""
     if sys.platform.startswith("linux"):
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, number)
 
 
 def end_with_window() -> None:
-    """End with the window that started this process for a run over files, if any."""
+    """Make this process end with the window that started it for a run over files, if one did."""
     if os.environ.pop(WINDOW, ""):
         end_with_parent(signal.SIGTERM)
 
@@ -59,7 +59,7 @@ class Lifeline:
         os._exit(0)
 
     def answer(self, head: dict[str, Any], data: bytes = b"") -> None:
-        """Send a line, followed by `bytes` of data, if any."""
+        """Send a line of JSON. If there are data, the line states their length as "bytes", and they follow it."""
         head = {**head, "bytes": len(data)} if data else head
         view = memoryview(MARK + json.dumps(head).encode() + b"\n" + data)
         while view:

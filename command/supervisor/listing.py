@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""List of the files of a run: named files, the files of folders, and of a list (a manifest).
+"""The files of a run: named files, files in folders, and files of a list (a manifest).
 
 A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files": N}, then {"path": "…"} for each file.
 A name may hold any character, a line break too.
@@ -25,7 +25,7 @@ SUFFIXES = (
     *(".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz"),
 )
 COPY_SUFFIX = ".body_moments.blend"  # suffix of our own copies of .blend files
-_RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # others are data files of headers
+_RAW = re.compile(r"_\d+x\d+x\d+_[a-z0-9]+\.raw$", re.IGNORECASE)  # Other .raw files belong to headers.
 
 
 def expand(names: Iterable[str]) -> Iterator[str]:
@@ -70,7 +70,7 @@ def write_lines(paths: Iterable[str]) -> Iterator[str]:
 
 
 def read(path: Path) -> list[str]:
-    """Return the files that a manifest lists; relative names are meant from its folder. Raises UsageError."""
+    """Return the files that a manifest lists; relative names start from its folder. Raises UsageError."""
     try:
         with open(path, "rb") as file:
             lines = [json.loads(line) for line in file if line.strip()]

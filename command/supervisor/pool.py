@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Children that measure files, one file in flight in each: so a death, a hang or too much memory blames exactly one."""
+"""Children that measure one file each at a time, so that a crash, a hang or too much memory blames only that file."""
 
 from __future__ import annotations
 
@@ -26,21 +26,21 @@ ATTEMPTS = 2  # for a file that ends its child; the second in a fresh child
 START_LIMIT = 300.0  # seconds in which a child must be ready
 MAX_FAILED_STARTS = 5  # in a row
 _WATCH = 0.05 if sys.platform.startswith("linux") else 1.0  # seconds between looks at the memory of children
-_STEP = 0.2  # seconds that are waited for what children answer
-_LOG_TAIL = 1 << 16  # bytes of what a child has said
+_STEP = 0.2  # Longest wait for an answer of a child, in seconds.
+_LOG_TAIL = 1 << 16  # Bytes of a child's output that are kept.
 
 
 class ChildError(Exception):
-    """No child can be started; carries its output."""
+    """The error that no child can be started, with the output or end of the last one."""
 
 
 class SetupError(Exception):
-    """Children refuse the options; carries their complete message."""
+    """The error that children refuse the options, with their complete message."""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """seconds: that one file may take. memory: bytes that it may take, None for any."""
+    """Limits of one file. seconds: its time. memory: its bytes, None for any."""
 
     seconds: float
     memory: int | None = None
@@ -51,7 +51,7 @@ class TaskOutcome:
     """Outcome of a task.
 
     status: "answered", "crashed", "timeout" or "memory". head, data: the answer. how: the signal or exit code of a
-    crash. attempts, seconds: of all attempts. said: the child's output on its standard error.
+    crash. attempts: their count. seconds: their total time. said: the child's output on its standard error.
     """
 
     task: str
@@ -68,8 +68,8 @@ class TaskOutcome:
 class _Child:
     """A child process.
 
-    started: time of its start, or of its task. deadline: for being ready, or done. task: its current file. is_fresh:
-    whether it was given no file yet. doomed: the reason if we ended it.
+    started: time of its start, or of its task's. deadline: time by which it must be ready, or its task done. task: its
+    current file. is_fresh: True before its first file. doomed: the reason if we ended it.
     """
 
     process: subprocess.Popen[bytes]
@@ -96,7 +96,7 @@ class _Child:
 
 
 class Pool:
-    """Children at work on tasks, which are names of files.
+    """A pool of child processes that work on tasks, which are names of files.
 
     command: starts a child. count: their largest number. setup: the first message to each. work: a folder for all
     their files, which must not exist, and is removed in the end. Use it as a context manager; its end kills the
@@ -115,7 +115,7 @@ class Pool:
         self._started = self._failed_starts = 0
         self._watched = 0.0
         self.about: dict[str, Any] = {}  # report of the children when they are ready
-        self.notes: list[tuple[str, str]] = []  # file and sentence: what children say while they work
+        self.notes: list[tuple[str, str]] = []  # Files and sentences that children send while they work.
 
     def __enter__(self) -> Pool:
         self._work.mkdir(parents=True)
@@ -129,7 +129,7 @@ class Pool:
         shutil.rmtree(self._work, ignore_errors=True)
 
     def add(self, tasks: Iterable[str]) -> None:
-        """More to do, each task once."""
+        """Queue more tasks."""
         self._tasks.extend(tasks)
 
     @property
@@ -196,7 +196,7 @@ class Pool:
             child.requests.flush()
 
     def _read(self, child: _Child) -> None:
-        """Put a child's answers among the events, and at last its end; runs in a thread."""
+        """Queue a child's answers as events, and finally its end; runs in a thread."""
         stream = child.answers
         with suppress(ValueError, TypeError, AttributeError, OSError):  # a child that answers nonsense counts as dead
             while line := stream.readline():
@@ -236,7 +236,7 @@ class Pool:
         return [TaskOutcome(task, "answered", attempts + 1, seconds, head, data, said=said)]
 
     def _give(self, child: _Child) -> None:
-        """Send the next task, if any."""
+        """Send the next task to an idle child, if there is one."""
         child.deadline = float("inf")
         tasks = self._again if self._again and child.is_fresh else self._tasks
         if tasks:
@@ -247,7 +247,7 @@ class Pool:
             self._send(child, {"measure": child.task})
 
     def _ended(self, child: _Child) -> list[TaskOutcome]:
-        processes.kill([child.process])  # and whatever it has left behind
+        processes.kill([child.process])  # Its descendants, too.
         self._children.remove(child)
         said = self._stderr_tail(child)
         self._close(child)
@@ -268,7 +268,7 @@ class Pool:
         return [TaskOutcome(child.task, child.doomed or "crashed", attempts, seconds, how=how, said=said)]
 
     def _watch(self) -> None:
-        """End children that are late or too large."""
+        """End children that have passed their deadline or use too much memory."""
         now = time.monotonic()
         for child in self._children:
             if now >= child.deadline:
@@ -284,7 +284,7 @@ class Pool:
         processes.kill([child.process], gently=gently)
 
     def _stderr_tail(self, child: _Child) -> str:
-        """Return the end of a child's output on its standard error about its file."""
+        """Return the end of a child's standard error since the beginning of its current file."""
         try:
             with open(child.log, "rb") as file:
                 file.seek(max(0, os.fstat(file.fileno()).st_size - _LOG_TAIL))
@@ -293,7 +293,7 @@ class Pool:
             return ""
 
     def _close(self, child: _Child) -> None:
-        """Let go of a child that has ended, and of its files."""
+        """Close the pipes of a child that has ended, and remove its files."""
         for stream in (child.requests, child.answers):
             with suppress(OSError):
                 stream.close()

@@ -26,7 +26,7 @@ _SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", 
 
 
 def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
-    """Return the command that starts our command line with these words, in a Blender, or in this Python as above."""
+    """Return the command that runs our command line with these words in a Blender, else in Python; None without bpy."""
     batch = importlib.util.find_spec("...operators.batch", __package__)
     assert batch is not None and batch.origin is not None
     script = str(Path(batch.origin).resolve())
@@ -80,14 +80,14 @@ def kill(processes: Sequence[subprocess.Popen[bytes]], *, gently: bool = False) 
 
 
 def _signal(process: subprocess.Popen[bytes], number: int) -> None:
-    """To the group that a child leads, while the child has not been waited for."""
+    """Send a signal to the process group that a child leads, unless the child has ended and been waited for."""
     if process.returncode is None:
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(process.pid, number)
 
 
 def how_it_ended(code: int | None) -> str:
-    """Return the name of the signal that a process has died of, or its exit code."""
+    """Return a text about a process's end: the name of the signal, or the exit code."""
     if code is None:
         return "no answer"
     try:
@@ -113,7 +113,7 @@ def memory_of(pid: int) -> int | None:
 
 
 def _memory_by_tool(pid: int) -> int | None:
-    """All that is resident, as the tool says it that macOS and BSD have."""
+    """Return the resident bytes of a process according to `ps`, a tool of macOS and BSD, or None if unknown."""
     words = ["ps", "-o", "rss=", "-p", str(pid)]
     try:
         answer = subprocess.run(words, capture_output=True, timeout=_TOOL).stdout
@@ -133,7 +133,7 @@ def memory_of_machine() -> int | None:
 
 
 def memory_share(count: int = 1) -> int | None:
-    """Return the bytes that each of so many processes may take, or None if the machine's memory is unknown."""
+    """Return the bytes that each of `count` processes may take, or None if the machine's memory is unknown."""
     machine = memory_of_machine()
     return None if machine is None else int(_MEMORY_SHARE * machine / count)
 

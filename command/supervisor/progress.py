@@ -14,7 +14,7 @@ PERIOD = 5.0  # seconds between lines
 
 
 class Progress:
-    """total: how many files there are; done: how many of them were recorded by an earlier run."""
+    """The counts of a run. total: count of its files. done: count of the files that an earlier run has recorded."""
 
     def __init__(self, total: int, done: int = 0) -> None:
         self.counts: Counter[str] = Counter()

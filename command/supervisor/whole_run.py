@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A whole run over files in a process of its own, for a window that goes on living meanwhile: the same command line."""
+"""A whole run over files in a process of its own, started by a window that stays usable meanwhile."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ class WholeRun:
 
     @property
     def exit_code(self) -> int | None:
-        """None while it is under way."""
+        """The exit code of the run, None while it is under way."""
         return self._process.poll()
 
     def done(self) -> int:
-        """Return the number of measured files."""
+        """Return the count of files that the journal records so far."""
         try:
             with open(self._journal, "rb") as file:
                 file.seek(self._place)

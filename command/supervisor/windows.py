@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Memory queries on Windows by its own library: its command for that takes half a second a call."""
+"""Memory queries by a library of Windows, because a command of Windows takes half a second for each query."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class _Status(ctypes.Structure):
 
 
 def memory_of(pid: int) -> int | None:
-    """Return the bytes of a process's own memory, or None if unknown."""
+    """Return the bytes of a process's private memory, or None if unknown."""
     with suppress(OSError, AttributeError):
         library = _library()
         library.OpenProcess.restype = ctypes.c_void_p

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rational B-spline surfaces (type 128) of an IGES file, Initial Graphics Exchange Specification 5.3.
 
-They stand alone, in trimmed surfaces (144) with curves that trim nothing, or in subfigures (308, 408); with their
-transformations (124) and the unit of the global section. Other surfaces and solids are refused by name; curves, points
-and annotation bound nothing and are left out.
+They stand alone, in trimmed surfaces (144) whose curves trim nothing, or in subfigures (308, 408). Transformations
+(124) and the unit of the global section are applied. Other surfaces and solids are refused by name; curves, points and
+annotation bound nothing and are left out.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
 MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
 RECURSION = "references to itself, or nested too deeply"
 MAX_PIECES = 10_000  # pieces of the boundary of a surface
-# Surfaces and solids that Blender's surfaces are not, by the names of the specification. What is missing here is no
-# surface: curves, points, annotation, structure.
+# Surfaces and solids that Blender's surfaces cannot represent, by the names of the specification. All other types
+# are curves, points, annotation or structure.
 REFUSED = {
     **{108: "Plane", 114: "Parametric Spline Surface", 118: "Ruled Surface", 120: "Surface of Revolution"},
     **{122: "Tabulated Cylinder", 140: "Offset Surface", 143: "Bounded Surface", 150: "Block", 152: "Wedge"},
@@ -40,16 +40,16 @@ REFUSED = {
     **{416: "External Reference", 430: "Solid Instance", 510: "Face", 514: "Shell"},
 }
 NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTANCE: "Subfigure Instance", **REFUSED}
-# Index of the parameter that points to the entity under this one.
+# Index of the parameter that points to the surface or solid which an entity refers to.
 REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, 510: 0}
-CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # and points: they bound nothing
+CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # Curves and points, which bound nothing.
 PARAMETER_CURVE = 142
 Value = TypeVar("Value")
 Pair: TypeAlias = tuple[Value, Value]
 
 
 def read_iges(path: Path) -> SurfaceFile:
-    """Read the surfaces as one body, called like the file. FileError if there is none that can be kept."""
+    """Read the surfaces as one body, named after the file. FileError if no surface can be kept."""
     return _Reader(path).read()
 
 
@@ -78,7 +78,7 @@ class _Reader:
         return self._refusals.file([SurfaceBody(self._name, tuple(patches))], self._text.unit, notes)
 
     def _references(self) -> Iterator[int]:
-        """Yield the entities that others stand on, and so are none by themselves."""
+        """Yield the numbers of entities that are parts of other entities, and so are not placed by themselves."""
         for entry in self._entries.values():
             if entry.type not in REFERENCES and entry.type != DEFINITION:
                 continue
@@ -89,16 +89,16 @@ class _Reader:
                 else:
                     yield from integers(fields[REFERENCES[entry.type] :], 1)
             except ValueError:
-                continue  # refused where it is placed
+                continue  # It is refused when it is placed.
 
     @staticmethod
     def _members(fields: list[str]) -> list[int]:
-        """Return the pointers to a subfigure's members, which stand behind its depth, its name and their number."""
+        """Return the pointers to a subfigure's members, which follow its depth, its name and the member count."""
         (count,) = integers(fields[2:], 1)
         return integers(fields[3:], count)
 
     def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
-        """Return the patches of an entity in its place. above: (4, 4) by the subfigures that it is in, path."""
+        """Return an entity's patches in place. above, path: (4, 4) matrix and pointers of the subfigures around it."""
         kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
             self._refusals.add(SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind)
@@ -138,7 +138,7 @@ class _Reader:
         return entry
 
     def _matrix(self, entry: Entry) -> NDArray[np.float64]:
-        """Return (4, 4) the matrix of an entity, with the transformations that its own refers to."""
+        """Return the (4, 4) matrix of an entity: its transformation, followed by the ones that this refers to."""
         chain, pointer = [], entry.matrix
         while pointer not in self._matrices and len(chain) < MAX_DEPTH:
             chain.append(self._entry(pointer, MATRIX))
@@ -171,14 +171,14 @@ class _Reader:
         return self._surface(base, above @ self._matrix(entry))
 
     def _trims_nothing(self, fields: list[str], surface: int, domain: Pair[Pair[float]]) -> bool:
-        """Return whether the outer boundary is that of the surface's own domain."""
+        """Return whether the outer boundary curve just follows the boundary of the surface's domain."""
         (outer,) = integers(fields[3:], 1)
         _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
         pieces = self._pieces(curve, 0, iter(range(MAX_PIECES))) if base == surface else None
         return pieces is not None and trims_nothing(pieces, domain)
 
     def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
-        """Return the curve as lines and splines in order; None if it is something else.
+        """Return a curve as its lines and splines in order; None if a part is of another kind, moved, or too deep.
 
         depth: the number of curves around it. left: yields an item for each further piece that is allowed.
         """
@@ -204,7 +204,7 @@ class _Reader:
 
 
 def _spline_piece(fields: list[str]) -> list[Piece] | None:
-    """Return a B-spline curve in parameters; None if only a part of it is meant."""
+    """Return a B-spline curve in parameter space; None if it is used in part, not clamped, or has weights ≤ 0."""
     last, degree = integers(fields, 2)
     count, knot_count = last + 1, last + degree + 2
     end = 6 + knot_count + 4 * count + 2
@@ -221,7 +221,7 @@ def _spline_piece(fields: list[str]) -> list[Piece] | None:
 
 
 def _spline(fields: list[str]) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:
-    """Return knots, orders, points, weights and domain of a surface; s is the first direction of the file."""
+    """Return knots, orders, (count_s, count_t, 3) points, (count_s, count_t) weights and domain of a surface."""
     last_s, last_t, degree_s, degree_t = integers(fields, 4)
     counts, degrees = (last_s + 1, last_t + 1), (degree_s, degree_t)
     if min(degrees) < 1:

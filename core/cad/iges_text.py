@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """IGES files in fixed ASCII form as numbers: the global section, the directory, the parameters of entities.
 
-Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Nothing that a file says about its own lengths is
-believed: pointers and counts are compared with the file.
+Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Pointers and counts of a file are not trusted, but
+compared with its length.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
 
 FORMAT = "IGES (fixed ASCII form)"
 LINE = 80  # columns
-SECTION = 72  # column of the letter of a line's section
+SECTION = 72  # Column of the letter that names a line's section.
 PARAMETERS = 64  # columns that parameters may take
 UNITS = {
     **{1: 0.0254, 2: 1e-3, 4: 0.3048, 5: 1609.344, 6: 1.0, 7: 1e3},
@@ -41,8 +41,8 @@ _STRING = re.compile(r"\s*(\d{1,9})H")
 class Entry:
     """An entity in the directory.
 
-    number: of its first line, by which others point to it. parameters: (first line, lines). matrix: pointer to a
-    transformation, or 0. hidden, dependent: flags of its status number.
+    number: number of its first line, which pointers hold. parameters: first line and count of lines. matrix: pointer to
+    a transformation, or 0. hidden, dependent: flags of its status number.
     """
 
     number: int
@@ -55,7 +55,7 @@ class Entry:
 
 
 class IgesText:
-    """An IGES file. unit: meters. entries: by number. FileError if it is none, or damaged."""
+    """An IGES file. unit: m per unit. entries: entities by number. FileError if it is damaged, or no IGES file."""
 
     def __init__(self, path: Path) -> None:
         lines = _lines(path.read_bytes().decode("latin-1"))
@@ -79,7 +79,7 @@ class IgesText:
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
-        """Return the parameters of an entity, behind its type. ValueError if they end too early, or are another's."""
+        """Return an entity's parameters without its type. ValueError if they are cut short or of another entity."""
         first, count = entry.parameters
         start, end = first - 1, first - 1 + count
         if not 0 <= start < end <= len(self._lines):
@@ -92,7 +92,7 @@ class IgesText:
 
 
 def _lines(text: str) -> list[str]:
-    """Split into lines of 80 columns, with or without line breaks between them."""
+    """Return the lines of a text: split at line breaks, else after every 80 columns; blank lines are left out."""
     # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
     cut = [text[start : start + LINE] for start in range(0, len(text), LINE)]
     lines = re.split(r"\r\n|\r|\n", text) if re.match(r"[^\r\n]{0,80}[\r\n]", text) else cut
@@ -100,7 +100,7 @@ def _lines(text: str) -> list[str]:
 
 
 def _global_fields(text: str) -> tuple[str, str, list[str]]:
-    """Return the delimiter of parameters, the end mark, and the parameters from the third on. Raises ValueError."""
+    """Return the delimiter of parameters, the end mark, and the parameters from the third on. ValueError if damaged."""
     delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
     if not rest.startswith(delimiter):
         raise ValueError("no delimiter")
@@ -112,7 +112,7 @@ def _global_fields(text: str) -> tuple[str, str, list[str]]:
 
 
 def _unit(fields: list[str]) -> float:
-    """Return the meters for a unit of the model. ValueError if its scale or its number is not possible."""
+    """Return the meters per unit of the model. FileError if the unit is unknown, ValueError if a field is wrong."""
     scale_word, flag_word, name = padded(fields[10:], 3)
     scale = float(numbers([scale_word])[0]) or 1.0
     flag = _integer(flag_word) or 1
@@ -146,7 +146,7 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
 
 
 def _split(text: str, delimiter: str, end: str) -> list[str]:
-    """Return the fields of a record. ValueError if it has no end."""
+    """Return the fields of a record, strings without their lengths. ValueError if it has no end mark."""
     if "H" not in text:
         record, found, _ = text.partition(end)
         if not found:
@@ -176,14 +176,14 @@ def _integer(word: str) -> int:
 
 
 def integers(fields: list[str], count: int) -> list[int]:
-    """Return the first fields. ValueError if they are fewer, or not whole numbers."""
+    """Return the first `count` fields as whole numbers. ValueError if there are fewer, or one is no whole number."""
     if not 0 <= count <= len(fields):
         raise ValueError("too few parameters")
     return [_integer(word) for word in fields[:count]]
 
 
 def padded(fields: list[str], count: int) -> list[str]:
-    """Return the first fields, with blank ones for the missing."""
+    """Return the first `count` fields, with blank fields for missing ones."""
     return fields[:count] + [""] * (count - len(fields))
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Free-form surfaces of Wavefront .obj files: ``surf`` of B-splines and Bézier patches, rational or not.
 
-Advanced Visualizer, Appendix B1, Object Files (.obj), version 3.0. A body for each ``o``. Like Blender's own importer,
-Y up becomes Z up. Faces, lines and curves are that importer's.
+Advanced Visualizer, Appendix B1, Object Files (.obj), version 3.0. Each ``o`` makes a body. As in Blender's importer,
+Y up becomes Z up. Faces, lines and curves are left to that importer.
 """
 
 from __future__ import annotations
@@ -43,20 +43,20 @@ def has_surfaces(path: str | Path) -> bool:
 
 
 def read_obj(path: Path) -> SurfaceFile:
-    """Read the surfaces, in no unit. FileError if there is none that can be kept."""
+    """Read the surfaces, without a unit. FileError if no surface can be kept."""
     return _Reader(path).read()
 
 
 @dataclass
 class _Element:
-    """A ``surf`` as it stands in the file, and the state in which it does."""
+    """A ``surf`` statement, with the settings that are in effect at its place in the file."""
 
     name: str
     type: str
     rational: bool
     degrees: list[str]
     words: list[str]
-    vertices: int  # before it: what negative numbers count from
+    vertices: int  # Count of vertices before it, from which negative indices count back.
     body: str
     knots: dict[str, list[str]] = field(default_factory=dict)
     trimmed: bool = False
@@ -106,7 +106,7 @@ class _Reader:
                 current.trimmed = True
 
     def _statements(self) -> Iterator[tuple[str, list[str]]]:
-        """Yield the statements that matter here, continued lines as one."""
+        """Yield keyword and arguments of each statement about surfaces, continued lines joined."""
         with open(self._path, encoding="utf-8", errors="replace") as file:
             before: list[str] = []
             for line in file:
@@ -120,7 +120,7 @@ class _Reader:
                     yield word, line.partition("#")[0].split()[1:]
 
     def _points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return (n, 3) and (n,) the vertices and their weights, NaN if they are no numbers."""
+        """Return the (n, 3) vertices and their (n,) weights, NaN for a vertex with a word that is no number."""
         table = np.full((len(self._vertices), 4), 1.0)
         for row, words in zip(table, self._vertices):
             count = 4 if len(words) in (4, 5) else 3  # with six and more, colors follow
@@ -139,7 +139,7 @@ def _number(word: str) -> float:
 
 
 def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch]:
-    """Return the patches of one surface. ValueError, IndexError and SurfaceRefusedError if it cannot be kept."""
+    """Return the patches of one surface. ValueError, IndexError or SurfaceRefusedError if it cannot be kept."""
     if element.trimmed:
         raise SurfaceRefusedError(SURFACE_TRIMMED)
     if element.type not in ("bspline", "bezier"):
@@ -170,7 +170,7 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
 
 
 def _indices(words: list[str], count: int) -> NDArray[np.int64]:
-    """Return the vertices that are meant, from 0."""
+    """Return the vertex indices of words, from 0. count: vertices before them. ValueError if one does not exist."""
     numbers = np.array([parse_whole(word.partition("/")[0]) for word in words], np.int64)
     numbers = np.where(numbers > 0, numbers - 1, numbers + count)
     if (numbers < 0).any() or (numbers >= count).any():

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numbers in statements of .obj files: vertices and their indices, parameters of free-form curves and surfaces.
+"""Checks of the numbers in .obj files: vertices and their indices, parameters of free-form curves and surfaces.
 
-Blender puts 0 for a number that is missing or none, leaves out faces with a wrong index, and does not read the
-statement behind a byte order mark.
+Blender reads a missing or wrong number as 0, leaves out faces with a wrong index, and does not read the statement
+after a byte order mark.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def check_obj_text(data: Data) -> None:
 
 
 def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
-    """Yield the starts and texts of blocks of whole statements, a line each."""
+    """Yield the offset and the text of blocks of whole statements, continued lines joined to one."""
     start = 0
     while start < len(data):
         end = data.rfind(b"\n", start, start + BLOCK) + 1 or data.find(b"\n", start) + 1 or len(data)
@@ -79,8 +79,8 @@ def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
 
 
 def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArray]], NDArray]:
-    """Return places of statements that may be wrong, with the counts of v, vt, vn before each; and those behind all."""
-    letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # so that three letters of any word can be looked at
+    """Return offsets of possibly wrong statements, each with the counts of v, vt, vn before it; and final counts."""
+    letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # Padded so that three letters can be read from any word on.
     is_word = letters > ord(" ")
     is_word[1:] &= letters[:-1] <= ord(" ")
     ends = np.flatnonzero(letters[:-3] == ord("\n"))
@@ -111,7 +111,7 @@ def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArra
 
 
 def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return the places of indices, the kind of each (0, 1, 2 for v, vt, vn), and the absolute values."""
+    """Return the (n,) offsets of indices, their kinds (0, 1, 2 for v, vt, vn), and their absolute values."""
     is_part = is_inside & ((letters - ord("0") < 10) | (letters == ord("-")) | (letters == ord("+")))
     at = np.flatnonzero(is_part & ~np.append(False, is_part[:-1]))
     text = np.where(is_part, letters, np.uint8(ord(" "))).tobytes()
@@ -124,7 +124,7 @@ def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[ND
 def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
     """Return the part that an importer would misread, or None. before: counts of v, vt and vn."""
     kind = line.split(None, 1)[0]
-    # Behind an index without a space, a comment is a part of it; 1.#IND has none.
+    # Without a space before it, a comment is a part of an index; 1.#IND is a number without a comment.
     words = re.split(rb"\s#" if kind in INDICES else rb"(?<!\.)#", line)[0].split()[1:]
     faults: Iterable[Fault | None]
     if kind in VERTICES:
@@ -147,7 +147,7 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
 
 
 def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Fault | None:
-    """Return why a word is no index of v, vt and vn, or None. Importers ignore vt and vn if there are none."""
+    """Return the fault of a word that is no index of v, vt and vn, or None. Without any vt or vn theirs are ignored."""
     if not re.fullmatch(_ANY_INDEX, word):
         return shorten(word), WHOLE
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):

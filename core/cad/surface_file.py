@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces of a file, by its suffix."""
+"""Reader of the surfaces of a file, chosen by its suffix."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SUFFIXES = tuple(_READERS)
 
 
 def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> SurfaceFile:
-    """Return the B-spline surfaces of an IGES or .obj file within `limits.text_bytes`. FileError, or OSError."""
+    """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`. Raise FileError or OSError."""
     path = Path(path)
     read = _READERS.get(path.suffix.lower())
     if read is None:

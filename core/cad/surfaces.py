@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The contents of a file of surfaces: bodies of patches, and refused surfaces, by name."""
+"""The contents of a file of surfaces: bodies of patches, and the names of refused surfaces."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ from .findings import (
 MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form
 MAX_SURFACES = 10_000  # surfaces placed by a file
-MAX_TOTAL_POINTS = 1 << 22  # control points of all its patches
+MAX_TOTAL_POINTS = 1 << 22  # Control points of all patches of a file.
 MAX_NAMES = 1000  # names in a refusal
 MAX_REASONS = 8  # reasons in one refusal
-MAX_COORDINATE = 3e38  # below what float32 holds
+MAX_COORDINATE = 3e38  # Just below the largest float32.
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceBody:
-    """Surfaces that a file has as one thing, with Blender's flags *Bézier* and *Endpoint*, in the file's unit."""
+    """Surfaces of one object in a file, as patches for Blender's flags *Bézier* and *Endpoint*, in the file's unit."""
 
     name: str
     patches: tuple[Patch, ...]
@@ -64,7 +64,7 @@ class Refusals:
     points: int = 0  # points of all patches that were kept
 
     def keep(self, kind: str, name: str, make: Callable[[], list[Patch]]) -> list[Patch]:
-        """Return the patches of a surface, none if it is refused. kind, name: its names in the file."""
+        """Return the patches of a surface; if it is refused, note that and return none. kind, name: for messages."""
         before = self.points
         try:
             patches = make()
@@ -84,7 +84,7 @@ class Refusals:
         return []
 
     def add(self, code: str, kind: str, name: str, **values: object) -> None:
-        """Note one surface, or another entity, as refused."""
+        """Note that one surface, or another entity, was refused, with the finding's code and values."""
         self.names.setdefault((code, kind, tuple(values.items())), []).append(name)
 
     def findings(self) -> tuple[Finding, ...]:
@@ -100,7 +100,7 @@ class Refusals:
     def file(
         self, bodies: Sequence[SurfaceBody], unit: float | None = None, notes: Sequence[Finding] = ()
     ) -> SurfaceFile:
-        """Return the surface file. FileError if it would be empty."""
+        """Return a SurfaceFile of the bodies with patches, and the refusals. FileError if no body has any."""
         refused, kept = self.findings(), tuple(body for body in bodies if body.patches)
         if not kept and refused:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
@@ -118,7 +118,7 @@ def blender_patches(
     domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
     matrix: NDArray,
 ) -> list[Patch]:
-    """Return the patches that Blender can hold for a surface with any knots; ValueError if there is no such surface.
+    """Return a surface with any knots as patches that Blender can hold; ValueError if its data are inconsistent.
 
     points: (count_s, count_t, 3), weights: (count_s, count_t) or None, domain: the wanted part of each direction,
     matrix: (4, 4) from the points to the file's coordinates.

@@ -15,7 +15,7 @@ TRIM_RTOL = 1e-7  # float32 rounding: distance of the curve from the sides, rela
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A piece of a curve by its control points (n, 2). straight: they are the corners of a polygonal line."""
+    """A piece of a curve with (n, 2) control points. straight: True if they are the corners of a polygonal line."""
 
     points: NDArray[np.float64]
     straight: bool
@@ -35,7 +35,7 @@ def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tu
         last = points[-1]
         sides = _sides(points)
         if not piece.straight and not sides.all(axis=0).any():
-            return False  # a curve around a corner cuts it off
+            return False  # A smooth curve around a corner of the domain cuts it off.
         for start, end, here, there in zip(points[:-1], points[1:], sides[:-1], sides[1:]):
             shared = here & there
             if not shared.any():
@@ -50,6 +50,6 @@ def trims_nothing(pieces: Sequence[Piece], domain: tuple[tuple[float, float], tu
 
 
 def _sides(points: NDArray) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the sides of the unit square that each point is on: below, right, above, left."""
+    """Return an (n, 4) mask of the sides of the unit square that each point is on: bottom, right, top, left."""
     x, y = points.T
     return np.abs(np.stack([y, x - 1.0, y - 1.0, x], axis=1)) <= TRIM_RTOL

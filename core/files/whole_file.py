@@ -14,10 +14,10 @@ from typing import BinaryIO
 
 @contextmanager
 def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Iterator[BinaryIO]:
-    """Open a file to write to, which takes the place of `path` once it is complete, and is gone if that fails.
+    """Yield an open file that replaces `path` once the block is complete, and is removed if it fails.
 
-    A pipe or a device is written to, and not replaced. check: raises FileExistsError if `path` must not be replaced. It
-    is called last of all, because the file may have appeared meanwhile. Raises OSError.
+    A pipe or a device is written to directly. check: raises FileExistsError if `path` must not be replaced. It is
+    called just before that, because the file may have appeared meanwhile. Raises OSError.
     """
     if path.exists() and not path.is_file():
         with open(path, "wb") as file:
@@ -34,7 +34,7 @@ def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Itera
 
 @contextmanager
 def partial_file(path: Path) -> Iterator[Path]:
-    """Yield the path of a hidden file beside `path` to write first, which is removed when the block ends."""
+    """Yield the path of a hidden file beside `path` for incomplete data; remove that file when the block ends."""
     partial = hidden_path(path, "{}.partial".format(os.getpid()))
     try:
         yield partial
@@ -49,7 +49,7 @@ def hidden_path(path: Path, ending: str) -> Path:
 
 
 def replace(partial: Path, path: Path) -> None:
-    """Put a complete file in the place of another, whose mode it takes, once it is on the disk. Raises OSError."""
+    """Flush a complete file to the disk, copy the mode of `path` to it, and replace `path` by it. Raises OSError."""
     with open(partial, "rb+") as file:
         os.fsync(file.fileno())
     with suppress(FileNotFoundError):

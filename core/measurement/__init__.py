@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurements of objects, and the records, documents and pages made of them."""
+"""Measurements of objects, and the records, documents and HTML pages made from them."""
 
 from ..lazy import lazy_names
 

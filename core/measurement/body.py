@@ -19,10 +19,10 @@ from .findings import WALL_UNSUPPORTED
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """All parts of an object together, in SI units and world axes; the base class knows moments to third order only.
+    """The moments of a whole object, in SI units and world axes; the base class knows them to third order only.
 
     `volume`: known to third order at least. `length`: of a wire. `wall`: the material of a shell of real thickness.
-    `mass`: kg, of a body of varying density; `higher_mass`: the same to the requested order, above third.
+    `mass`: moments in kg of a body of varying density; `higher_mass`: the same to the requested order, above third.
     `density_from`: source of a varying density, with a code ``density_from_…``.
     `density_key`: settings that decide a varying density, for the fingerprint; `materials`: full names of those read.
     `estimated`: true if the error bounds are estimates.
@@ -50,22 +50,22 @@ class Body:
     face_count: int = 0
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the volume's and the area's moments to another order, or raise ReadError if they are not known."""
+        """Return the moments of the volume, and of the area if wanted, to an order; ReadError if they are unknown."""
         raise ReadError(WALL_UNSUPPORTED, quantity="A moment above third order or of the area")
 
     def third_order(self) -> Moments:
-        """Return the moments behind the principal frame of a solid or a wire, with exact third order."""
+        """Return the moments of a solid or a wire that its principal frame is computed from, with exact third order."""
         return self.volume
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments of the volume, or the area, that axes are found by.
+        """Return the moments of the volume, or of the area, from which the principal axes are found.
 
-        The moments of one surface in one place, mapped evenly, are in its own coordinates: its axes do not depend on
-        the place.
+        For a single surface under a similarity they are in the surface's own coordinates, so that the axes do not
+        depend on its placement.
         """
         volume, areas = self.moments(order, area)
         return volume if areas is None else areas
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the surfaces in world coordinates, in float64: of the solid, or the sheets unchanged."""
+        """Yield the surfaces of the solid, or the unchanged sheets, in world coordinates as float64."""
         return iter(())

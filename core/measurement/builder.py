@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies become measurements: mass properties, frame, bounds. Every `Measurement` is built here."""
+"""Construction of every `Measurement` from a body: mass properties, frame and error bounds."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from .findings import (
 from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from .settings import Settings
 
-# faces up to which moments of higher order, for a frame that needs them, take no time to speak of
+# Up to so many faces, higher moments for a principal frame take negligible time.
 MAX_FACES_HIGH_ORDER = 20_000
 NO_AXES_FIXED = "isotropic"
 Extent = tuple[float, float, float]  # a volume or area, and the bounds of rounding and of float32 coordinates
@@ -47,7 +47,7 @@ def build_measurement(
     estimated: bool = False,
     **fields: Any,
 ) -> Measurement:
-    """Return a measurement: extents and bounds by moments and properties, the other fields as given."""
+    """Return a measurement with volume, area and bounds from the moments and properties; other fields as given."""
     rounding, moved = mass_properties.rounding_error, mass_properties.input_error
     known: dict[str, Any] = {"volume_moments": volume, "area_moments": area}
     return Measurement(
@@ -64,7 +64,7 @@ def build_measurement(
 
 
 def measure_body(body: Body, settings: Settings, *, findings: tuple[Finding, ...] = (), **fields: Any) -> Measurement:
-    """Return the results of measuring a body, with its moments to the requested order.
+    """Return the measurement of a body, with its moments to the requested order.
 
     findings: about the reading. fields: name, type, frame and fingerprint of the measurement. Raise MeasureError if the
     body has no mass, or no moments of that order.
@@ -119,7 +119,7 @@ def measure_total(
     health: MeshHealth | None = None,
     **fields: Any,
 ) -> Measurement:
-    """Return the results of bodies whose mass moments have been added: `mass`, kg to third order, SI, world axes.
+    """Return the measurement of several bodies from the sum of their mass moments, in kg, to third order, world axes.
 
     `volume`, m³, and `area`, m², come with their bounds. `rotation` (3, 3), axes as columns, belongs to the frame in
     which the results are stored. Raise MeasureError if no mass is certain, or if the second moments are impossible for
@@ -138,14 +138,14 @@ def measure_total(
 
 
 def _total_moments(extent: Extent, about: NDArray[np.float64], measure: Measure) -> Moments:
-    """Return moments of which the total alone is known."""
+    """Return moments of which only the total and its bounds are known; all others are zero."""
     raw, rounding, inputs = np.zeros((3, monomial_count(KNOWN_ORDER)))
     raw[0], rounding[0], inputs[0] = extent
     return Moments(raw, about, measure, rounding, inputs)
 
 
 def extent_of(measurement: Measurement, name: str) -> Extent:
-    """Return the "volume" or "area" of a measurement, with its bounds."""
+    """Return the "volume" or "area" of a measurement, with its bounds of rounding and input."""
     bound = measurement.error_bound
     return getattr(measurement, name), bound[name], bound["input"][name]
 
@@ -161,7 +161,7 @@ def add_extents(extents: list[Extent]) -> Extent:
 
 
 def find_extent(body: Body, settings: Settings) -> Moments:
-    """Return the moments of volume, sheet, wall or length that the density multiplies, or raise ReadError."""
+    """Return the moments of volume, sheet, wall or length that density multiplies; ReadError if they are zero."""
     if body.length is not None:
         return body.length
     volume = body.area * settings.thickness if _is_thin(body, settings) else body.wall or body.volume
@@ -193,7 +193,7 @@ def _weigh(body: Body, measured: Moments, settings: Settings) -> tuple[Moments, 
 
 
 def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | None:
-    """Return a function for the higher moments of the principal frame, None if they are not known."""
+    """Return a function that computes higher moments for the principal frame, None if they are unknown."""
     if not body.any_order or body.mass is not None or body.length is not None or body.wall is not None:
         return None  # walls have none either, because their axes follow a slider
     return partial(_frame_moments, body, shell)
@@ -209,7 +209,7 @@ def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
 
 
 def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | None, Moments] | None:
-    """Return the moments of volume and area to the requested order; None if a body has them anyway."""
+    """Return the moments of volume and area to an order; None if the body's own suffice. Raise ReadError if unknown."""
     shell = settings.kind == "shell"
     if order < KNOWN_ORDER and (shell or not settings.surface):
         return None
@@ -235,8 +235,8 @@ def _bounds(volume: NDArray, area: NDArray, of_mass: dict[str, float]) -> dict[s
 
 
 def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
-    """Return mass properties of moments in kg, without unique axes for a point."""
-    if not mass.total > 0.0:  # a bone of flat faces alone: refused there
+    """Return the mass properties of moments in kg; if all mass is at a point, zero inertia and no unique axes."""
+    if not mass.total > 0.0:  # A bone of flat faces alone; from_moments refuses it.
         return MassProperties.from_moments(mass, preferred_axes=preferred_axes)
     central = mass.truncate(2).about_center()
     if np.abs(central.raw[4:]).max() > 4.0 * central.rounding_error[4:].max():

@@ -5,7 +5,7 @@
 A public contract, `body-moments/1`.
 
 A document is the result of one file: one record for each object, their total, and the objects that could not be
-measured. Nothing here needs numpy or Blender: a process that only gathers results of others writes the same.
+measured. Nothing here needs numpy or Blender, so that a process that only gathers results can write documents, too.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), 
 
 # Content of the file of a Fourier transform.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
-FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # and of a flat shape, of its plane in the world
+FLAT_SPECTRUM_ARRAYS = ("axes", "origin")  # Additional arrays of a flat shape: its plane in the world.
 
 # An innermost list of numbers that json.dumps has spread over lines. No text can hold a line break, so none matches.
 # Patterns are compiled at their first use: registration reads the constants of this module alone.
 _NUMBER_ROWS = r"\[\n\s+((?:[-+.\deE]+|null)(?:,\n\s+(?:[-+.\deE]+|null))*)\n\s*\]"
 
-# Beginnings of formulas, as OWASP lists them, or an apostrophe that does not stand for one.
+# Beginnings of formulas, as OWASP lists them, or an apostrophe of the text itself.
 _FORMULA = r"['\t\r\n]|\s*[=+\-@\uff1d\uff0b\uff0d\uff20]"
 
 
 def plain(value: Any) -> Any:
-    """Return the value as JSON can hold it: Python's own types, and None for every number that is not finite."""
+    """Return a value as JSON can hold it: arrays as lists, keys as text, and None for numbers that are not finite."""
     if hasattr(value, "tolist"):  # an array, or a number of one
         value = value.tolist()
     if isinstance(value, dict):
@@ -83,7 +83,7 @@ def document(
 
 
 def failed_document(file: str, reason: str, status: str, *, blender: str | None, frame: str) -> dict[str, Any]:
-    """Return the document of a file without any measurement, for one reason."""
+    """Return the document of a file that was not measured, with the reason as its only error."""
     total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
     total |= {"findings": [], "warnings": [], "notes": []}
@@ -92,7 +92,7 @@ def failed_document(file: str, reason: str, status: str, *, blender: str | None,
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield one document as itself, several as an array, indented for a reader with each row of numbers on one line."""
+    """Yield the text of one document, or of an array of several, indented, with each row of numbers on one line."""
     waiting, several = "", False
     for number, entry in enumerate(documents):
         text = json.dumps(entry, indent=2, ensure_ascii=False, allow_nan=False)
@@ -112,19 +112,19 @@ def _indented(text: str) -> str:
 
 
 def to_json_lines(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield one document a line."""
+    """Yield each document as one line of JSON."""
     for entry in documents:
         yield json.dumps(entry, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def to_csv(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield one row an object under one header; documents is gone through twice.
+    """Yield a header and one row for each object; `documents` is iterated twice.
 
     Unmeasured objects have a row too, with the reason under `error`, and so do excluded ones, with the reason under
     `left_out`.
 
-    Spreadsheets take text that begins with =, +, -, @ and the like for a formula. It gets an apostrophe before it, and
-    so does text that has one there already: whoever reads a text removes one apostrophe from its start.
+    Spreadsheets take text that begins with =, +, -, @ and the like for a formula. Such text gets an apostrophe before
+    it, and so does text that begins with one: a reader removes one apostrophe from the start of a text.
     """
     names = dict.fromkeys(_COLUMNS)
     for row in _csv_rows(documents):
@@ -162,11 +162,11 @@ _COLUMNS = (
     "symmetry",
 )  # fmt: skip
 _OPTIONAL_COLUMNS = ("armature", "density_from", "thickness", "length", "linear_density", "principal_axes_unique")
-_LAST_COLUMNS = ("warnings", "error")  # notes and findings stand before them
+_LAST_COLUMNS = ("warnings", "error")  # All other columns, such as notes and findings, come before these.
 
 
 def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
-    """Return the record of a flat shape as one flat row."""
+    """Return the record of a flat shape as a row: a dict of column names and values."""
     row = {name: entry[name] for name in ("name", "type", "area")} | {"kind": "flat"}
     row |= _nested("error_bound", entry["error_bound"])
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"])}
@@ -176,7 +176,7 @@ def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
-    """Return a record as one flat row; entries of lists and tables get a column each."""
+    """Return an object's record as a row: a dict with a column for each entry of its lists and tables."""
     row = {name: entry[name] for name in (*_COLUMNS, *_OPTIONAL_COLUMNS) if name in entry}
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["center_of_mass"])}
     row |= {f"inertia_{name}": entry["inertia"][i][j] for name, i, j in TENSOR}
@@ -224,7 +224,7 @@ def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _line(cells: Iterable[Any]) -> str:
-    """Return a row of a table.
+    """Return a line of CSV.
 
     Before Python 3.13 the csv module quotes only line breaks that it ends a row with.
     """
@@ -245,5 +245,5 @@ def _cell(value: Any) -> Any:
     return value
 
 
-# From documents, which may be gone through twice, to pieces of text.
+# Functions from documents, which may be iterated twice, to pieces of text.
 FORMATS = {"json": to_json, "jsonl": to_json_lines, "csv": to_csv}

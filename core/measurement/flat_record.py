@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The record of a flat shape, one of a document's `flat`, in SI units; x and y are the axes of its plane."""
+"""The record of a flat shape, an entry of a document's `flat`, in SI units; x and y are the axes of its plane."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .documents import plain
 from .record import described
 
 _FIRST, _SECOND = ((1, 0, 0), (0, 1, 0)), ((2, 0, 0), (0, 2, 0), (1, 1, 0))
-SHIFT_ROUNDINGS = 16.0  # u of the distance, from the plane to the frame
+SHIFT_ROUNDINGS = 16.0  # Rounding of the shift from plane to frame, in u of the distance.
 
 
 def flat_record(
@@ -39,9 +39,9 @@ def flat_record(
 ) -> dict[str, Any]:
     """Return one shape's record.
 
-    kind: of the object. moments: about the centroid, along the plane's axes from its origin, to second order at least.
-    order: adds `moments`, about the foot of the frame's origin or of the point `about`, as in `record`. frame: its
-    name, and the object frame's axes and origin. more: further entries.
+    kind: the object's type. moments: about the centroid, along the plane's axes, to second order at least.
+    order: adds `moments`, about the projection of the frame's origin or of the point `about` (as in `record`) on the
+    plane. frame: its name, and the object frame's axes and origin. more: further entries.
     """
     axes, location = (np.eye(3), np.zeros(3)) if frame[0] == "world" else frame[1:]
 
@@ -89,7 +89,7 @@ def flat_record(
 
 
 def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict[str, float]:
-    """Return bounds of the area, each coordinate of the centroid and each second moment, by central moments."""
+    """Return bounds of area, centroid coordinates and second moments. bounds: of the central moments."""
     first, second = (
         float(np.linalg.norm([bounds[monomial_index(*row)] for row in rows])) for rows in (_FIRST, _SECOND)
     )
@@ -103,7 +103,7 @@ def _bounds(central: Moments, bounds: NDArray[np.float64], shift: float) -> dict
 def _point(
     about: str | Sequence[float] | None, centroid: NDArray, axes: NDArray, location: NDArray, own: NDArray
 ) -> NDArray[np.float64]:
-    """Return (3,) in the world the point that moments are about, before it is projected; `own`: the object's origin."""
+    """Return the (3,) world position of the point `about`, not yet on the plane. own: the object's origin."""
     if about == "center":
         return centroid
     if about in ("origin", "world"):
@@ -112,6 +112,6 @@ def _point(
 
 
 def _by_powers(values: NDArray[np.float64], order: int) -> dict[str, float]:
-    """Return numbers by the exponents of x and y, as "p,q"."""
+    """Return moments in a dict, with the exponents of x and y as keys "p,q"."""
     powers, positions = multi_indices(2, order).tolist(), plane_positions(order)
     return {"{},{}".format(p, q): value for (p, q), value in zip(powers, values[positions].tolist())}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The results of measuring one object: the numbers, how they came about and how far they hold."""
+"""The results of measuring one object: numbers, their methods and their error bounds."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ UNIFORM_DENSITIES = DENSITY_FROM_VALUE, DENSITY_FROM_MASS = finding(DENSITY_FROM
 class Measurement:
     """One object in SI units and world axes.
 
-    kind: "solid", "shell" or "wire". method: the verdict, and what it is about: polygons, B-spline patches measured
-        instead of their display mesh, or a grid.
+    kind: "solid", "shell" or "wire". method: the verdict and its source: polygons, B-spline patches measured instead of
+        their display mesh, or a grid.
     density in kg/m³, thickness of a shell in m (0 for solids), volume in m³ (of a shell: area times thickness), area
     in m².
     volume_moments: to order 3, None for a thin shell; area_moments: to order 3 for a shell, else order 0; both to a
         higher order if requested.
     mass_moments: the moments that carry the mass, and the mass in kg per unit of them.
-    higher_mass: if the density is not one number, its moments in kg to the requested order, above third.
-    rotation, location: (3, 3) and (3,) the object frame, its unit scale.
+    higher_mass: moments in kg to the requested order, above third, if the density varies.
+    rotation, location: (3, 3) and (3,), the object frame without scale.
     error_bound: absolute bounds "volume", "area", "center_of_mass", "inertia" of rounding, and the same under "input"
-        for storing coordinates as float32; "estimated": True if the former are estimates.
-    findings: the decisions taken on the way.
-    fingerprint: of the input of the numbers.
-    length: of a wire, m; its density in kg/m is its mass by that, and `density` is 0; else None.
+        for storing coordinates as float32; "estimated": True if those of rounding are estimates.
+    findings: decisions during the measurement.
+    fingerprint: fingerprint of the input.
+    length: of a wire, m, else None. A wire's `density` is 0; its linear density is mass per length, kg/m.
     display_volume: the volume of the display mesh of B-spline patches, m³; None if not requested.
     density_from: the source of the density, with a code `density_from_…`. materials: names of the materials considered
         for it.
@@ -68,7 +68,7 @@ class Measurement:
     higher_mass: Moments | None = None
 
     def moments_of_mass(self, order: int) -> Moments | None:
-        """Return the moments of the mass, kg, to an order; None if they are not known to that."""
+        """Return the moments of the mass, kg, to an order; None if they are not known to that order."""
         moments, factor = self.mass_moments
         if order <= moments.order:
             return replace(moments.truncate(order), measure=Measure.MASS) * factor

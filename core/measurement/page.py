@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Documents as one HTML file that needs no network: a table of all bodies to sort and to filter, with pictures.
 
-Standard library only. Everything that comes from files is escaped, and the page's own policy lets no script run but
+Standard library only. Everything that comes from files is escaped, and the page's security policy allows no script but
 its own.
 """
 
@@ -82,7 +82,7 @@ text.addEventListener("input",filter);status.addEventListener("change",filter);f
 
 
 def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
-    """Yield the page in pieces; the documents are gone through twice."""
+    """Yield the HTML page in pieces; `documents` is iterated twice."""
     statuses = Counter(document["status"] for document in documents)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
     policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(digest)
@@ -151,7 +151,7 @@ def _row(
 
 
 def _picture(entry: dict[str, Any]) -> str:
-    """Return the record's own picture, else the box of equal inertia with the principal axes."""
+    """Return HTML of the record's thumbnail, else of the box of equal inertia with its axes; empty without mass."""
     thumbnail = entry.get("thumbnail")
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Text for terminals and pages, made safe.
 
-Names come from files: an escape sequence in one would be obeyed, a line break would make a line that nobody has
-written, and characters that set the direction of writing would show another name.
+Names come from files: a terminal would obey an escape sequence in a name, a line break would forge a line of output,
+and characters that set the direction of writing would show another name.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _DIRECTIONS = {*"\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2
 
 
 def visible(text: str) -> str:
-    r"""Return the text on one line, with \x1b, \n, \u202e and the like in the place of such characters."""
+    r"""Return the text on one line, with control and direction characters escaped as \x1b, \n, \u202e."""
     return "".join(
         character.encode("unicode_escape").decode()
         if character in _DIRECTIONS or unicodedata.category(character) in _ESCAPED
@@ -27,10 +27,10 @@ def visible(text: str) -> str:
 
 
 def counted(number: int, name: str) -> str:
-    """Return "1 link", "2 links"."""
+    """Return a count with its noun, in the plural unless it is 1, such as "2 links"."""
     return "{:d} {}{}".format(number, name, "" if number == 1 else "s")
 
 
 def print_message(*parts: object) -> None:
-    """Write one line to the standard error: the program's name and the parts, with colons between."""
+    """Write the program's name and the parts to standard error as one line, separated by colons."""
     sys.stderr.write("{}\n".format(visible(": ".join(map(str, (PROGRAM, *parts))))))

@@ -40,8 +40,8 @@ def record(
     """Return one object's record.
 
     frame: "world" or "object". order: adds `moments`, volume moments up to that order, which the
-    measurement must have, about the frame's origin; of a shell, for its thin volume. surface:
-    area moments of the same object, world frame, added to them. more: further entries. about: "center", "origin",
+    measurement must have, about the frame's origin; of a thin shell, area moments times thickness.
+    surface: its area moments, world frame, listed beside them. more: further entries. about: "center", "origin",
     "world", or a point in the frame: adds `inertia_about`, and the moments are about it.
     """
     properties = measurement.mass_properties if frame == "world" else measurement.in_object_frame()
@@ -100,7 +100,7 @@ def record(
 
 
 def described(findings: Iterable[Finding]) -> dict[str, list]:
-    """Return a record's `findings` as data, `warnings` with their messages from that severity on, and other `notes`."""
+    """Return a record's `findings` as data, and their messages: `notes` for notes, `warnings` for severer ones."""
     entry = {"findings": [], "warnings": [], "notes": []}
     add_findings(entry, findings)
     return entry
@@ -116,7 +116,7 @@ def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
 
 
 def _finding_record(finding: Finding) -> dict[str, Any]:
-    """Return code, severity, message, values, and the elements if there are any."""
+    """Return a finding as data: code, severity, message, values, and the first elements if there are any."""
     entry = {
         "code": finding.code,
         "severity": str(severity(finding)),
@@ -128,7 +128,7 @@ def _finding_record(finding: Finding) -> dict[str, Any]:
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
-    """Return the entry of all objects as one body, in the world frame, with findings about the total."""
+    """Return the `total` entry: all objects as one body in the world frame, and findings about it."""
     entry = {
         "mass": math.fsum(measurement.mass_properties.mass for measurement in measurements),
         "volume": math.fsum(measurement.volume for measurement in measurements),
@@ -156,7 +156,7 @@ def _inertial(properties: MassProperties) -> dict[str, Any]:
 def _point(
     about: str | Sequence[float] | None, measurement: Measurement, properties: MassProperties, frame: str
 ) -> NDArray[np.float64]:
-    """Return the place of a point in the frame; without one, the frame's origin."""
+    """Return the (3,) coordinates of the point `about` in the frame, by default the frame's origin."""
     if about == "center":
         return properties.center
     if about == "origin" and frame == "world":
@@ -173,13 +173,13 @@ def _inertia_about(point: NDArray[np.float64], properties: MassProperties) -> ND
 
 
 def _about(point: NDArray[np.float64], moments: Moments, measurement: Measurement, frame: str) -> Moments:
-    """World-frame moments about a point of the frame and along its axes."""
+    """Return world-frame moments about a point of a frame and along the frame's axes."""
     if frame == "object":
         return moments.in_frame(measurement.rotation, measurement.location + measurement.rotation @ point)
     return moments.about_point(point)
 
 
 def _by_powers(values: NDArray[np.float64]) -> dict[str, float]:
-    """Return numbers by the exponents of their monomials, as "p,q,r"."""
+    """Return moments in a dict, with the exponents of x, y and z as keys "p,q,r"."""
     powers = monomials(order_from_count(len(values))).tolist()
     return {",".join(map(str, exponents)): value for exponents, value in zip(powers, values.tolist())}

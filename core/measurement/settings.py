@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of one measurement as values: everything that influences its numbers, without gaps."""
+"""The settings of one measurement: all values that influence its results, besides the geometry."""
 
 from __future__ import annotations
 
@@ -12,15 +12,14 @@ from ..numerics.float32 import shortest_decimal
 
 @dataclass(frozen=True)
 class Settings:
-    """Settings of one object's measurement, in SI units; of density and mass one at most.
+    """Settings of one object's measurement, in SI units; at most one of density and mass is given.
 
     kind: "solid", "shell" or "wire". density: kg/m³, of a wire kg/m; mass: kg. thickness: of a shell, m. overlap:
     "signed" or "union". wall: of a shell, "thin", "inward", "outward" or "centered". unit: meters per Blender unit.
     varying: text of the settings that decide a varying density or a given center or inertia. order: of the moments;
-    None for the order that mass properties need. surface: moments of the area, too. pose: the principal frame follows
+    None for the order that mass properties need. surface: area moments, too. pose: the principal frame follows
     the shape to sixth order, for any number of faces. compare: bodies that need no display mesh are compared with it.
-    axes: moments above third order choose the principal axes if these leave a choice; without, any of the remaining
-    axes may result.
+    axes: True to choose ambiguous principal axes by moments above third order; else any of them may result.
     """
 
     kind: str = "solid"
@@ -48,7 +47,7 @@ class Settings:
         """Digest of the settings behind stored results; settings without use for the kind do not count."""
         is_shell = self.kind == "shell"
         density = None if self.varying else self.density
-        # properties hold such decimals
+        # Blender's properties hold values with the shortest decimals.
         density, mass = [None if value is None else shortest_decimal(value) for value in (density, self.mass)]
         used = [
             self.kind.upper(),

@@ -41,7 +41,7 @@ RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
 
 @dataclass(frozen=True, eq=False)
 class LinkAudit:
-    """Findings about one link. repaired: its corrected inertial, None if it stays."""
+    """Findings about one link. repaired: its corrected inertial, None if it stays. density: kg/m³, None if unknown."""
 
     link: StatedLink
     findings: tuple[Finding, ...]
@@ -70,7 +70,7 @@ class _Piece:
     upright: NDArray[np.float64] | None = None
 
     def turned(self) -> _Piece:
-        """Return the piece with the axis up that its file says."""
+        """Return the piece rotated so that the up axis of its mesh file becomes z."""
         if self.upright is None:
             return self
         moments = None if self.moments is None else self.moments.transform(_matrix(Pose(np.zeros(3), self.upright)))
@@ -82,7 +82,7 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its difference from that geometry filled evenly."""
+    """Comparison of an inertial with some geometry. apart: its relative difference from an even filling of it."""
 
     findings: list[Finding]
     impossible: bool
@@ -93,7 +93,7 @@ class _Judgment:
 
 @dataclass
 class Auditor:
-    """Judges descriptions; a mesh is measured once, however many links name it."""
+    """An auditor of descriptions, which measures each mesh once, even if several links name it."""
 
     roots: Roots
     _meshes: dict[tuple, _Piece] = field(default_factory=dict)
@@ -122,7 +122,7 @@ class Auditor:
         return LinkAudit(link, (*findings, *found.findings), found.repaired, found.density)
 
     def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Finding]]:
-        """Return the shapes by their roles, and findings about unmeasured ones."""
+        """Return the measured shapes by role, and findings about shapes that cannot be measured."""
         pieces: Pieces = {}
         unread: list[Finding] = []
         for stated in shapes:
@@ -136,7 +136,7 @@ class Auditor:
         return pieces, unread
 
     def _piece(self, stated: StatedShape) -> _Piece:
-        """Return the piece in the coordinates of the shape itself."""
+        """Return a measured shape in its own coordinates; raise MeasureError if its mesh cannot be read."""
         shape = stated.shape
         if shape.kind != "mesh":
             return _primitive(shape)
@@ -150,7 +150,7 @@ class Auditor:
 
 
 def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
-    """Judge an inertial by its geometry. incomplete: True if some geometry could not be read, and shows nothing."""
+    """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then none are compared."""
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()
@@ -176,7 +176,7 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
 
 
 def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
-    """Return a surface's hull points, with the moments of the body that it bounds, if certain."""
+    """Return a surface's points, with the moments of the body that it bounds if they are certain."""
     points = np.asarray(surface.points, np.float64)
     try:
         solid = measure_solid(surface)
@@ -187,7 +187,7 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
 
 
 def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
-    """Return all shapes of a role, filled evenly; None if one of them bounds no certain body."""
+    """Return all shapes of one role as evenly filled geometry; None if a shape bounds no certain body."""
     placed = []
     for stated, piece in pieces:
         if piece.moments is None:
@@ -202,7 +202,7 @@ def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None
 
 
 def _turned(pieces: Pieces) -> list[tuple[Finding, Reference]]:
-    """Return the geometry as it would be if its shapes' angles were stated in degrees."""
+    """Return, for each role with angles, the finding and the geometry if those angles were meant in degrees."""
     result = []
     for found in pieces.values():
         if any(stated.angles is not None and any(stated.angles) for stated, _ in found):
@@ -226,7 +226,7 @@ def _matrix(pose: Pose) -> NDArray[np.float64]:
 
 
 def _primitive(shape: Shape) -> _Piece:
-    """Return a primitive in its own frame: volume, ∫x² dV along its axes, and points around it."""
+    """Return a primitive in its own frame, with its moments and points that enclose it."""
     if shape.kind == "box":
         sides = np.array(shape.size)
         corners = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]) * sides

@@ -3,8 +3,8 @@
 """The one change that makes a stated inertial agree with its geometry.
 
 A link's geometry, filled evenly, has a center and an inertia for each kilogram. If the stated values differ, each of a
-list of common mistakes is undone; agreement to the digits that files have is no coincidence. If none agrees, the mass
-may simply lie otherwise: that is no error, and only its factor is reported.
+list of common mistakes is undone; agreement to the digits of files is no coincidence. If none agrees, the mass may be
+distributed unevenly: that is no error, and only noted with the factor of the inertia.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from .stated import StatedInertial, rotation_of_angles
 AGREES, DIFFERS = 5e-3, 1e-2  # For radius of gyration and inertia: equal; too different for digits to explain.
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
-DENSITIES = (10.0, 30_000.0)  # kg/m³ of what robots are made of: foam, and more than the heaviest metal
+DENSITIES = (10.0, 30_000.0)  # kg/m³, possible range of a robot: from foam to above the heaviest metal.
 USUAL_DENSITIES = (100.0, 12_000.0)  # Typical range; a change that only the density shows must lead into it.
 AXES = np.array(list(permutations(range(3))))[1:]
 PRODUCT_NAMES = ("xy", "xz", "yz")
@@ -49,7 +49,7 @@ LENGTHS = "lengths of the inertial, the inertia twice,"
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A link's geometry, filled evenly: m³; (3,) center in the link's frame, m; inertia about it for 1 kg, m².
+    """A link's geometry, filled evenly: volume, m³; (3,) center in the link's frame, m; inertia about it of 1 kg, m².
 
     origins: (3,) the origins of its shapes.
     """
@@ -60,20 +60,20 @@ class Reference:
     origins: tuple[NDArray[np.float64], ...] = ()
 
     def compare(self, stated: StatedInertial) -> float:
-        """Return how far an inertial is from this geometry, of its radius of gyration and its inertia."""
+        """Return the larger of the center's difference per radius of gyration and the inertia's relative difference."""
         radius = np.sqrt(np.trace(self.inertia) / 2.0)
         apart = float(np.linalg.norm(stated.center - self.center)) / radius
         turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(self.inertia)
         return max(apart, float(turned))
 
     def uniform(self, mass: float) -> StatedInertial:
-        """Return the inertial of this geometry with a mass."""
+        """Return the inertial of this geometry, filled evenly with a mass in kg."""
         return StatedInertial(mass, self.center, mass * self.inertia)
 
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """Diagnosis of an inertial: the change, or a note, and the corrected inertial, None if it stays as it is.
+    """Diagnosis of an inertial: a finding that names the change, and the corrected inertial, None if it stays.
 
     is_of_geometry: True if the geometry has to change.
     """
@@ -88,7 +88,7 @@ def diagnose(
 ) -> Diagnosis | None:
     """Return the one change that corrects an inertial, or a note about the place of the mass; None if it agrees.
 
-    references: candidates for the geometry, such as visual and collision shapes. otherwise: with a shape corrected.
+    references: candidates for the geometry, such as visual and collision shapes. otherwise: corrected ones.
     """
     if not references:
         return None
@@ -113,7 +113,7 @@ def diagnose(
 
 
 def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
-    """Diagnose mass and inertia that are both a thousand times off, which only the density shows."""
+    """Diagnose an inertial that agrees with its geometry but has an unusual density, such as a wrong unit of mass."""
     density = stated.mass / reference.volume
     if DENSITIES[0] <= density <= DENSITIES[1]:
         return None
@@ -127,18 +127,18 @@ def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
 
 
 def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference) -> Diagnosis:
-    """Decide by the density if both the file's and the mesh's lengths may be wrong."""
+    """Return a diagnosis, or one of the mesh's lengths if the density shows that these are wrong instead."""
     if found.finding.values.get("part") != LENGTHS:
         return found
     factor, density = found.finding.values["factor"], stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
-    if DENSITIES[0] <= other <= DENSITIES[1]:  # then `density` is not: cubes of factors are farther apart
+    if DENSITIES[0] <= other <= DENSITIES[1]:  # Then `density` is not in the range: cubes of factors are farther apart.
         return Diagnosis(finding(AUDIT_UNIT, part="lengths of the mesh", factor=1.0 / factor), is_of_geometry=True)
     return found
 
 
 def _times(values: ArrayLike, factor: float) -> NDArray[np.float64]:
-    """Return the product, by a division if that keeps the decimals of the file."""
+    """Return values times a factor; divide by its inverse if that is whole, to keep the decimals of the file."""
     inverse = round(1.0 / factor)
     values = np.asarray(values, np.float64)
     return values / inverse if inverse and 1.0 / inverse == factor else values * factor
@@ -148,7 +148,7 @@ Change = tuple[str, dict, StatedInertial]
 
 
 def _changes(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """Yield each change that may correct an inertial, with its result, the likelier ones first."""
+    """Yield each change that may correct an inertial, with the corrected inertial; likelier changes come first."""
     yield from _units(stated, reference)
     yield from _points(stated, reference)
     yield from _frames(stated)
@@ -176,7 +176,7 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
-    """Yield the inertia about another point than the center; the parallel-axis term with the wrong sign."""
+    """Yield changes for an inertia about another point than the center, or a parallel-axis term of the wrong sign."""
     term = stated.mass * _square(stated.center)
     yield AUDIT_INERTIA_ELSEWHERE, {"part": "link"}, stated.along_link(stated.inertia - term)
     yield AUDIT_INERTIA_SHIFTED_TWICE, {}, stated.along_link(stated.inertia + term)
@@ -191,7 +191,7 @@ def _square(arm: NDArray) -> NDArray[np.float64]:
 
 
 def _frames(stated: StatedInertial) -> Iterator[Change]:
-    """Yield the inertial frame's rotation in other units, the other way round, or not meant."""
+    """Yield changes of the inertial frame's rotation: other units or order, transposed, or left out."""
     if stated.angles is not None:
         for unit, wanted, convert in (("degrees", "radians", radians), ("radians", "degrees", degrees)):
             turned = rotation_of_angles(*map(convert, stated.angles))
@@ -228,7 +228,7 @@ def _signs(stated: StatedInertial) -> Iterator[Change]:
 
 
 def _orders(stated: StatedInertial) -> Iterator[Change]:
-    """Yield axes in another order: of the tensor, of the center, of both."""
+    """Yield changes that reorder the axes of the tensor, the center or both, or turn them by 90 degrees."""
     for order in AXES:
         swapped = stated.inertia[np.ix_(order, order)]
         center, diagonal = stated.center[order], np.diag(np.diag(stated.inertia))
@@ -244,7 +244,7 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
             (PRODUCTS, pairs, stated.along_link(diagonal + (swapped - other_diagonal))),
         ):
             yield AUDIT_ORDER, {"part": part, "order": text}, changed
-    for axis in range(3):  # a quarter turn: y up for z up
+    for axis in range(3):  # A quarter turn, such as y up instead of z up.
         for way in (1.0, -1.0):
             turn = np.eye(3)
             first, second = (axis + 1) % 3, (axis + 2) % 3
@@ -257,7 +257,7 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
 
 
 def _transposed(stated: StatedInertial) -> Iterator[Change]:
-    """Principal axes taken as rows for columns when the tensor was put together."""
+    """Yield changes for a tensor that was made with its principal axes as rows instead of columns."""
     moments, axes = np.linalg.eigh(stated.inertia)
     for order in permutations(range(3)):
         for signs in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (-1, 1, 1)):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of robot formats, from which the command line, the exporters and the audit take theirs.
+"""The table of robot formats that the command line, the exporters and the audit use.
 
 It imports nothing heavy: a format's modules are loaded when they are used.
 """
@@ -18,9 +18,9 @@ class RobotFormat(NamedTuple):
     short, copy_tip: name and tooltip in Copy Inertial. export_label, export_tip: name and tooltip of the exporter.
     writer: module of `write/` with `check(robot)` and `write(robot, remarks, inertial_only=...)`; for formats that the
     audit repairs also `inertial_text`. holds_meshes: False if meshes are files of their own.
-    binary_suffixes: endings of the format's binary files, in which readers take no text.
-    reader: module of `read/` with `read`, "" if the audit does not read it. root: the first element of such a file.
-    read_suffixes: endings of such files beside `suffix`.
+    binary_suffixes: endings of the format's binary files, which must not hold text.
+    reader: module of `read/` with `read`, "" if the audit does not read the format. root: the first element of a file.
+    read_suffixes: more endings of files that the audit reads, besides `suffix`.
     """
 
     name: str

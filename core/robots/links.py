@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measured bodies become the links of a robot."""
+"""Conversion of measured bodies to the links of a robot."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
 
 
 class Candidate(NamedTuple):
-    """A measured body as a link, None if it has no mass.
+    """A measured body. link: None if the body has no mass.
 
-    parents: names of other candidates, the nearest first. free: the degrees of freedom in the parent.
+    parents: names of other candidates, the nearest first. free: its degrees of freedom relative to its parent.
     """
 
     name: str
@@ -30,7 +30,7 @@ class Candidate(NamedTuple):
 
 
 def robot_name(file: str | None) -> str:
-    """Return the name of a file's robot."""
+    """Return a robot's name: the file's name without its suffix, else "robot"."""
     return PurePath(file).stem if file else "robot"
 
 
@@ -41,7 +41,7 @@ def make_candidate(
     scale: Sequence[float] = (1.0, 1.0, 1.0),
     free: tuple[FreeAxis, ...] = (),
 ) -> Candidate:
-    """Return a measured body as a link in its own frame. scale: (3,) that of its own geometry."""
+    """Return a candidate with the measured body as a link in its own frame. scale: (3,) of the object's geometry."""
     body = measurement.in_object_frame()
     if not body.mass:
         return Candidate(name, None)
@@ -53,7 +53,7 @@ def make_candidate(
 
 
 def assemble_robot(name: str, candidates: Sequence[Candidate]) -> tuple[Robot, list[Finding]]:
-    """Return a robot of the candidates with mass, joined to their nearest parents; and findings about the others."""
+    """Return a robot of the candidates with mass, joined to their nearest parents, and findings."""
     links = {one.name: one.link for one in candidates if one.link is not None}
     joints = []
     for one in candidates:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links, joints and their contents in SI units, as the writers of robot formats take and the readers give them."""
+"""Links, joints and their contents in SI units: the data that robot formats are written from."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ class Pose:
     rotation: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
 
     def __matmul__(self, other: Pose) -> Pose:
-        """Return the place of the other frame, given in this one."""
+        """Return the pose of a frame in the outer frame, from its pose `other` in this frame."""
         return Pose(self.rotation @ other.position + self.position, self.rotation @ other.rotation)
 
     def inverse(self) -> Pose:
-        """Return the place of the other frame in this one."""
+        """Return the pose of the outer frame in this one."""
         return Pose(-self.rotation.T @ self.position, self.rotation.T)
 
 
@@ -40,8 +40,8 @@ class Inertial:
     """Mass, center and inertia of one link, along the link's axes.
 
     mass: kg. center: (3,) in the link's frame, m. inertia: (3, 3) about the center, kg·m²; I_xy = -∫xy dm.
-    moments: (3,) its principal moments, ascending, none greater than the sum of the others.
-    axes: (3, 3) its principal axes as columns, determinant 1.
+    moments: (3,) principal moments, kg·m², ascending, none greater than the sum of the others.
+    axes: (3, 3) principal axes as columns, determinant 1.
     """
 
     mass: float
@@ -54,10 +54,10 @@ class Inertial:
     def with_agreeing_axes(
         cls, mass: float, center: NDArray, inertia: NDArray, moments: NDArray, axes: NDArray
     ) -> Inertial:
-        """Return an inertial with a principal pair that gives its tensor to rounding.
+        """Return an inertial whose principal moments and axes reproduce its tensor to rounding.
 
-        For all but equal moments a measurement takes axes near to the object's own, between which the tensor differs by
-        up to a millionth. Readers of the pair alone would miss that, so the axes turn to the tensor's own.
+        For almost equal moments a measurement takes axes near to the object's own, so the pair may differ from the
+        tensor by a millionth. Readers of the pair alone would miss that, so the axes are turned to the tensor's.
         """
         largest = np.abs(inertia).max()
         along = axes.T @ inertia @ axes
@@ -71,7 +71,7 @@ class Inertial:
         return cls(float(mass), center, inertia, moments, axes)
 
     def place(self, pose: Pose) -> Inertial:
-        """Return the same along the axes of the frame in which the link's stands at `pose`."""
+        """Return the inertial in another frame, in which the link has the given pose."""
         turn = pose.rotation
         inertia = turn @ self.inertia @ turn.T
         return Inertial(
@@ -86,8 +86,8 @@ class Shape:
     kind: "mesh", "box", "ellipsoid", "capsule", "cylinder" or "sphere". pose: in the link's frame.
     size: m; sides of a box, semi-axes of an ellipsoid, radius and length along z of a capsule (without its caps) or a
     cylinder, the radius of a sphere, the factors along the axes of a mesh.
-    file: of a mesh, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
-    surface: of a mesh that is to be written, in meters along the axes of the shape.
+    file: a mesh's file, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
+    surface: the geometry of a mesh that is to be written, in meters along the axes of the shape.
     """
 
     kind: str
@@ -112,7 +112,7 @@ class FreeAxis:
 
     @property
     def is_limited(self) -> bool:
-        """True if either limit is a number."""
+        """True if either limit is finite."""
         return self.lower > -inf or self.upper < inf
 
 
@@ -127,7 +127,7 @@ class Joint:
 
     @property
     def is_ball(self) -> bool:
-        """True if it turns freely about every axis."""
+        """True if the joint only rotates, about three axes without limits."""
         turns = [free for free in self.free if free.kind == "rotate" and not free.is_limited]
         return len(turns) == len(self.free) == 3
 
@@ -149,7 +149,7 @@ class Link:
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """Links and the joints that make trees of them; ValueError if a name stands twice, or joints close a loop."""
+    """Links, and joints that make trees of them. ValueError if names repeat, a link is missing, or joints loop."""
 
     name: str
     links: tuple[Link, ...]
@@ -183,19 +183,19 @@ class Robot:
 
     @property
     def roots(self) -> tuple[Link, ...]:
-        """The links that no joint holds."""
+        """The links without a parent."""
         return tuple(link for link in self.links if link.name not in self._joint_by_child)
 
     def link(self, name: str) -> Link:
-        """Return the link of that name."""
+        """Return the link with a name."""
         return self._link_by_name[name]
 
     def joint_of(self, child: str) -> Joint | None:
-        """Return the joint that holds a link, None for a root."""
+        """Return the joint between a link and its parent, None for a root."""
         return self._joint_by_child.get(child)
 
     def children(self, name: str) -> list[Link]:
-        """Return the links that hang on one."""
+        """Return the child links of the link with a name."""
         return self._children.get(name, [])
 
     def ordered(self) -> Iterator[Link]:
@@ -212,7 +212,7 @@ class Robot:
         return link.pose if joint is None else self.link(joint.parent).pose.inverse() @ link.pose
 
     def rigid_parts(self, link: Link) -> list[Link]:
-        """Return a link and everything that only fixed joints hold to it, parents first."""
+        """Return a link and all links below it that are connected by fixed joints only, parents first."""
         parts, waiting = [], [link]
         while waiting:
             part = waiting.pop()
@@ -222,7 +222,7 @@ class Robot:
         return parts
 
     def rigid_inertial(self, link: Link) -> Inertial | None:
-        """Return the inertial of a link with everything fixed to it, along the link's axes; None without any mass."""
+        """Return the inertial of a link with all links fixed to it, in the link's frame; None if all lack mass."""
         to_link = link.pose.inverse()
         parts = [(part, part.inertial) for part in self.rigid_parts(link) if part.inertial is not None]
         if len(parts) == 1 and parts[0][0] is link:
@@ -233,7 +233,7 @@ class Robot:
 
 
 def combine_inertials(inertials: list[Inertial]) -> Inertial:
-    """Return several inertials, given along the same axes, as one."""
+    """Return the total of several inertials that are given in the same frame."""
     bodies = []
     for inertial in inertials:
         raw = np.zeros(monomial_count(3))

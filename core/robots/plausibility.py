@@ -26,7 +26,7 @@ from .findings import (
 )
 from .stated import StatedInertial
 
-ROUNDING = 1e-3  # relatively: what numbers printed with few digits may break
+ROUNDING = 1e-3  # Relative excess that numbers printed with few digits may cause.
 ZERO_RTOL = 1e-14  # Relative to the largest moment: zero after finding the principal axes.
 CENTER_RTOL = 1e-3  # Relative to the hull's size.
 SPREAD_RTOL = 5e-3
@@ -42,14 +42,14 @@ class Hull:
 
     @property
     def size(self) -> float:
-        """The diagonal of the box around it."""
+        """The diagonal of the points' bounding box, m."""
         return float(np.linalg.norm(np.ptp(self.points, axis=0)))
 
     def distance(self, point: NDArray) -> float:
         """Return a lower bound, proven by a separating plane, of a point's distance from the hull in m, zero within.
 
-        Wolfe's algorithm (Math. Programming 11, 1976): the point nearest to that of the hull of at most four points,
-        which are changed until a plane through their nearest one has all others behind it.
+        Wolfe's algorithm (Math. Programming 11, 1976): find the nearest point of the hull of at most four points, and
+        exchange them until the plane through that nearest point has all points of the hull behind it.
         """
         shifted = self.points - point
         chosen, shares = [int(np.argmin((shifted**2).sum(axis=1)))], np.ones(1)
@@ -68,13 +68,13 @@ class Hull:
         return bound
 
     def spread_limit(self, center: NDArray, directions: NDArray) -> NDArray[np.float64]:
-        """Return the (k,) largest variances along unit directions of mass with this center, zero if it is outside."""
+        """Return the (k,) largest possible variances of mass with a center along (k, 3) unit directions, in m²."""
         heights = (self.points - center) @ directions.T
         return np.maximum(heights.max(axis=0), 0.0) * np.maximum(-heights.min(axis=0), 0.0)
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return why no body, or none within the hull (None if unknown), has an inertial; empty if no test excludes it."""
+    """Return the reasons why no body, or no body within a known hull, has an inertial; empty if it is possible."""
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not np.isfinite(numbers).all():
         return [finding(INERTIAL_NOT_FINITE)]
@@ -92,7 +92,7 @@ def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
 
 
 def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tuple[list[int], NDArray[np.float64]]:
-    """Return the chosen points, and their shares, that make the point of their hull nearest to zero."""
+    """Drop chosen points until the foot from zero on their plane is in their hull; return their indices and shares."""
     while True:
         corners = points[chosen]
         # Foot on the plane through them: shares that add up to one and leave nothing along it.
@@ -104,7 +104,7 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
         falls = wanted <= 0.0
         way = float((shares[falls] / np.maximum(shares[falls] - wanted[falls], np.finfo(float).tiny)).min())
         shares = shares + way * (wanted - shares)
-        kept = shares > 1e-14  # without at least one of those that fall, which is zero to rounding
+        kept = shares > 1e-14  # This drops at least one falling share, which is zero to rounding.
         chosen = [one for one, keep in zip(chosen, kept) if keep]
         shares = shares[kept] / shares[kept].sum()
 
@@ -128,7 +128,7 @@ def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
 
 
 def spread_directions(count: int) -> NDArray[np.float64]:
-    """Return (count, 3) directions all around, evenly: a spiral."""
+    """Return (count, 3) unit directions, spread evenly over the sphere along a spiral."""
     index = np.arange(count) + 0.5
     height, turn = 1.0 - 2.0 * index / count, index * np.pi * (1.0 + 5.0**0.5)
     across = np.sqrt(1.0 - height * height)

@@ -33,7 +33,7 @@ def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
 def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     """Return radius and length, without its caps, of the capsule along the first principal axis; moments ascend.
 
-    It has the least moment along its axis and the mean of the others across it, else is a ball with the mean of all.
+    It has the least moment along its axis and the mean of the others across it, if possible; else it is a ball.
     With t = L/r, r = 1: V = π(t + 4/3); ∫x² dV is π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis.
     Their ratio grows with t from that of a ball, 1.
     """
@@ -68,7 +68,7 @@ def _capsule(t: float) -> tuple[float, float]:
 
 
 def _spreads(moments: NDArray) -> NDArray[np.float64]:
-    """Return (3,) I_j + I_k - I_i, at least as much as changes no moment, so that no side is zero."""
+    """Return (3,) I_j + I_k - I_i, raised to a least value that changes no moment, so that no side is zero."""
     first, second, third = moments
     spreads = np.array([second + third - first, third + first - second, first + second - third])
     return np.maximum(spreads, LEAST_SPREAD * spreads.max())

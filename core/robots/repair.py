@@ -11,7 +11,7 @@ from .stated import Description, StatedInertial, StatedLink
 
 
 def repaired_copy(description: Description, repairs: Sequence[tuple[StatedLink, StatedInertial]]) -> bytes:
-    """Return a description's file with other inertials. repairs: links with an inertial, and its replacement."""
+    """Return the bytes of a description's file with replaced inertials. repairs: links and their new inertials."""
     data, writer = description.source, FORMATS[description.format].writer_module
     places = [(link.span, link, inertial) for link, inertial in repairs if link.span is not None]
     for (start, end), link, inertial in sorted(places, key=lambda place: place[0], reverse=True):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Statements of a robot description about its links in SI units, as the format means them, not yet judged."""
+"""Links of a robot description as its file states them, in SI units, not yet audited."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ Angles = tuple[float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class StatedInertial:
-    """One link's inertial as its file has it.
+    """One link's inertial as its file states it.
 
     `center`: (3,) in the link's frame.
     `tensor`: (3, 3) about the center, along the axes of the inertial frame.
-    `rotation`: (3, 3) the inertial frame's axes in the link's.
+    `rotation`: (3, 3) the inertial frame's axes in the link's frame, as columns.
     `angles`: roll, pitch and yaw, if the rotation was stated so.
     `quaternion`: four numbers in the order of the file, if the rotation was stated so.
     """
@@ -43,12 +43,12 @@ class StatedInertial:
         return self.rotation @ self.tensor @ self.rotation.T
 
     def along_link(self, inertia: NDArray | None = None, **changes) -> StatedInertial:
-        """Return it with the tensor along the link's axes, or another one, and other changes."""
+        """Return a copy in a frame along the link's axes, with its own or a given inertia, and other changes."""
         tensor = self.inertia if inertia is None else inertia
         return replace(self, tensor=tensor, rotation=np.eye(3), angles=None, quaternion=None, **changes)
 
     def principal(self) -> Inertial:
-        """Return it with its principal moments and axes, none of the moments above the sum of the others."""
+        """Return an inertial with principal moments and axes, no moment above the sum of the others."""
         tensor = (self.inertia + self.inertia.T) / 2.0
         moments, axes = np.linalg.eigh(tensor)
         axes = axes * (1.0, 1.0, np.sign(np.linalg.det(axes)))
@@ -62,7 +62,7 @@ class StatedShape:
 
     `shape`: for a mesh, its `file` is the name in the description.
     `angles`: roll, pitch and yaw, if the pose was stated so.
-    `points`, `triangles`: only of a mesh in the description itself.
+    `points`, `triangles`: of a mesh in the description itself, else None.
     """
 
     shape: Shape
@@ -74,11 +74,11 @@ class StatedShape:
 
 @dataclass(frozen=True, eq=False)
 class StatedLink:
-    """One link as its file has it.
+    """One link as its file states it.
 
     `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial matters.
     `findings`: about content that the reader could not use.
-    `local`: (4, 4) from the file's coordinates to the link's axes in its unit; None if they are the same.
+    `local`: (4, 4) from the file's coordinates to the link's axes, in the file's unit; None if they are the same.
     """
 
     name: str

@@ -95,7 +95,7 @@ def _field(path: Path, name: str, wanted: str, values: Sequence[float]) -> FileE
 def sample_matrix(
     scan: Scan, spacing: Sequence[float] | None, origin: Sequence[float] | None, unit_scale: float | None
 ) -> tuple[NDArray[np.float64], tuple[Finding, ...]]:
-    """Return the positions of the samples of a scan, in meters.
+    """Return the matrix from sample indices of a scan to positions in meters, and findings.
 
     Parameters
     ----------

@@ -19,9 +19,9 @@ from .findings import FILE_EXCEEDS_LIMIT, LIMITS_UNRECOGNIZED
 class Limits:
     """Limits of a file.
 
-    samples: of one scan. unpacked_bytes: of compressed samples, all of which are in memory. entries: of an archive.
-    header_bytes: of a header. text_bytes: of a file of surfaces, which is text. allow_outside: if a header may name a
-    file of samples outside of its own folder.
+    samples: count in one scan. unpacked_bytes: size of compressed samples, which are unpacked into memory.
+    entries: count in an archive. header_bytes: size of a header. text_bytes: size of a file of surfaces, which is text.
+    allow_outside: True if a header may name a file of samples outside of its own folder.
     """
 
     samples: int = 1 << 33
@@ -47,7 +47,7 @@ class Limits:
         return replace(cls(), **given)
 
     def check(self, path: Path, name: str, count: int) -> None:
-        """Raise FileError if a file needs more of something than its limit."""
+        """Raise FileError if a count of a file exceeds the limit with that name."""
         limit = getattr(self, name)
         if count > limit:
             wanted = max(int(count), 2 * limit)

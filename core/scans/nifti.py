@@ -32,7 +32,7 @@ BYTE_ORDERS: tuple[ByteOrder, ...] = ("<", ">")
 
 
 def read_nifti(path: Path, limits: Limits) -> Scan:
-    """Read the scan, mapped if it is not packed."""
+    """Read the scan as a memory map, or unpacked if it is gzipped."""
     packed = path.name.lower().endswith(".gz")
     head = _head(path, packed)
     if len(head) < HEADER:
@@ -85,7 +85,7 @@ def _head(path: Path, packed: bool) -> bytes:
 
 
 def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
-    """Return the matrix of the samples by the standard's methods: affine, else quaternion, else the spacing alone."""
+    """Return the matrix of the samples (affine, else quaternion, else spacing), and whether the header states it."""
     matrix = np.eye(4)
     pixdim = struct.unpack_from(order + "8f", head, 76)
     qform, sform = struct.unpack_from(order + "2h", head, 252)

@@ -55,7 +55,7 @@ _HEADER_END = re.compile(rb"\r?\n\r?\n")
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
-    """Return the fields by lower-case names, and the offset of the samples, None if the file ends before. FileError."""
+    """Return the fields by lower-case names, and the samples' offset, None if the file ends before. FileError."""
     head, end = bytearray(), None
     with open(path, "rb") as file:
         while not end and (block := file.read(HEADER_BLOCK)):
@@ -77,12 +77,12 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
 
 
 def data_file(fields: dict[str, str]) -> str | None:
-    """Return the name of the file that has the samples, if it is another one."""
+    """Return the name of a separate file with the samples, None if they follow the header."""
     return fields.get("data file", fields.get("datafile"))
 
 
 def read_nrrd(path: Path, limits: Limits) -> Scan:
-    """Read the scan, mapped if it is raw."""
+    """Read the scan as a memory map, or unpacked if it is gzipped."""
     fields, start = read_header(path, limits)
 
     sizes = _numbers(fields, "sizes", parse_whole)
@@ -117,7 +117,7 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
 
 
 def _samples_start(path: Path, name: str | None, start: int | None, limits: Limits) -> tuple[Path, int]:
-    """Return the file that has the samples, and their offset in it. name: of a detached file."""
+    """Return the file that has the samples, and their offset in it. name: of a separate file, None for this one."""
     if name is None:
         if start is None:
             raise damaged(path, DAMAGE_CUT_SHORT, part="header")

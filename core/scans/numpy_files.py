@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, their shape and type in the file's name."""
+"""Arrays in NumPy's files, .npy and .npz, and raw samples without a header, described by the file's name."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ MAX_ARRAY_HEADER = 10_000  # bytes, like numpy.load
 
 
 def read_npy(path: Path, _limits: Limits) -> Scan:
-    """Read the array, mapped."""
+    """Read the array of an .npy file as a memory map."""
     return Scan(real_samples(map_array(path)), np.eye(4))
 
 
 def map_array(path: Path) -> NDArray:
-    """Map the array of any shape and type but objects. FileError if the file is not just that; OSError."""
+    """Return the memory map of an array of any type but objects. FileError if the file holds anything else; OSError."""
     with open(path, "rb") as file:
         start = file.read(12)
     with _damage(path, "NumPy array"):
@@ -54,14 +54,14 @@ def read_npz(path: Path, limits: Limits) -> Scan:
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
-    """Return those of the named arrays that an .npz has, of any type but objects. FileError, or OSError."""
+    """Return the arrays of an .npz file that have one of the names, of any type but objects. FileError, or OSError."""
     with _archive(path, limits) as (archive, shapes):
         return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
 
 
 @contextmanager
 def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict[str, tuple[int, ...]]]]:
-    """Open an archive and read the shapes of its arrays, by name. Any exception meanwhile becomes a FileError."""
+    """Yield an open archive, and the shapes of its arrays by name. Exceptions in the block become FileErrors."""
     with open(path, "rb") as file, _damage(path, "archive of NumPy arrays"), zipfile.ZipFile(file) as archive:
         entries = archive.infolist()
         limits.check(path, "entries", len(entries))
@@ -73,7 +73,7 @@ def _archive(path: Path, limits: Limits) -> Iterator[tuple[zipfile.ZipFile, dict
 
 @contextmanager
 def _damage(path: Path, kind: str) -> Iterator[None]:
-    """Make a FileError of whatever reading an array raises."""
+    """Turn every exception in the block but MemoryError into a FileError."""
     try:
         yield
     except (MemoryError, FileError):
@@ -84,21 +84,21 @@ def _damage(path: Path, kind: str) -> Iterator[None]:
 
 
 def _unpack(archive: zipfile.ZipFile, path: Path, name: str, limits: Limits) -> NDArray:
-    """Read an array, to the end of its entry, so that zipfile compares the checksum."""
+    """Read an array of an archive. It reaches the end of its entry, so that zipfile compares the checksum."""
     limits.check(path, "unpacked_bytes", archive.getinfo(name + ".npy").file_size)
     with archive.open(name + ".npy") as file:
         return np.lib.format.read_array(file, allow_pickle=False)
 
 
 def _check_array_header(start: bytes) -> None:
-    """Check the size of a header: NumPy reads gigabytes of it before it refuses. Raises ValueError."""
+    """Raise ValueError if an array's header is too long: NumPy would read gigabytes of it before it refuses."""
     length = start[8 : 10 if start[6:7] == b"\1" else 12]
     if int.from_bytes(length, "little") > MAX_ARRAY_HEADER:
         raise ValueError("length of header")
 
 
 def _npz_header(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> tuple[int, ...]:
-    """Return the shape of an array, which must fill its entry: beyond the array no checksum would be reached."""
+    """Return the shape of an array. ValueError if its entry is longer: then reading never reaches the checksum."""
     with cast(zipfile.ZipExtFile, archive.open(entry)) as file:  # has `peek`
         _check_array_header(file.peek(12))
         version = np.lib.format.read_magic(file)

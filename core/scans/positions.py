@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Positions of samples that are not equally far apart: a file of positions for an axis of a scan."""
+"""Positions of unevenly spaced samples: a file of positions for each such axis of a scan."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[N
     """Put samples at positions along their axes' own directions; return the new (4, 4) matrix and the positions.
 
     `matrix` puts the regular sample (i, j, k) at matrix @ (i, j, k, 1). `positions` are (n,) coordinates along each of
-    the three axes, in place of its spacing and origin, or None; their `unit` is in units of the matrix. The result is
-    about the first of them, so that none of their digits is lost: sample k stands at matrix @ (…, positions[k], 1).
+    the three axes, in place of its spacing and origin, or None; their `unit` is in units of the matrix. The returned
+    positions are relative to the first, so that they keep all digits: sample k stands at matrix @ (…, positions[k], 1).
     """
     matrix = matrix.copy()
     if not any(row is not None for row in positions):

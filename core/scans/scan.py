@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The samples of a scan in a file: mapped into memory if they are not packed, so that a scan may be larger than it.
+"""The samples of a scan in a file: a memory map if they are not packed, so that they may be larger than memory.
 
-Nothing that a header says of them is believed before it has been compared with the size of the file, and no packed
-sample before its checksum. Every fault of a file is a FileError that names the fault.
+A header is compared with the size of the file, and packed samples with their checksum, before they are used.
+Every fault of a file is a FileError that names the fault.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from .findings import (
 )
 from .limits import Limits
 
-MAX_GZIP_RATIO = 1032  # bytes that a byte of a gzip file can hold, at most
-PACKED = 1 << 16  # bytes that are unpacked at a time: what a small member leaves of them is copied
+MAX_GZIP_RATIO = 1032  # Most bytes that one byte of a gzip file can unpack to.
+PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.
 BLOCK = 1 << 18  # unpacked bytes at a time
 
 
@@ -69,7 +69,7 @@ class Scan:
 
 
 def shape_of(sizes: Sequence[int]) -> tuple[int, int, int]:
-    """Return three positive sizes; more are allowed only if they are 1."""
+    """Return three positive sizes; further sizes must be 1. FileError if they are not possible."""
     sizes = tuple(int(size) for size in sizes)
     dimensions = max((number for number, size in enumerate(sizes, 1) if number <= 3 or size != 1), default=0)
     if dimensions != 3:
@@ -95,7 +95,7 @@ def damaged(path: Path, code: str, **values: Any) -> FileError:
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:
-    """Check that a file holds just the bytes of its samples; more mean that the sizes are wrong."""
+    """Raise FileError unless a file holds just the bytes of its samples: more mean that the sizes are wrong."""
     if held != wanted:
         raise damaged(path, DAMAGE_SIZE, bytes=held, total=wanted)
 
@@ -103,7 +103,7 @@ def check_length(path: Path, held: int, wanted: int) -> None:
 def map_samples(
     path: Path, dtype: np.dtype, shape: tuple[int, int, int], offset: int, from_end: bool = False
 ) -> NDArray:
-    """Map uncompressed samples, x fastest, from byte `offset` on; the last ones of the file if `from_end`."""
+    """Return a memory map of samples, x fastest, from byte `offset` on, or at the end of the file if `from_end`."""
     size, byte_count = path.stat().st_size, dtype.itemsize * math.prod(shape)
     if from_end:
         offset = max(offset, size - byte_count)
@@ -114,7 +114,7 @@ def map_samples(
 def unpack_samples(
     path: Path, start: int, dtype: np.dtype, shape: tuple[int, int, int], skip: int, limits: Limits
 ) -> NDArray:
-    """Unpack samples packed by gzip from byte `start` on, x fastest, behind `skip` bytes; check them to the end."""
+    """Return samples, x fastest, gzipped from byte `start` on, without the first `skip` bytes; check all checksums."""
     byte_count = dtype.itemsize * math.prod(shape)
     total, room = skip + byte_count, MAX_GZIP_RATIO * path.stat().st_size
     if total > room:

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of files and sample types that scans are read from."""
+"""Suffixes of the files and names of the sample types that scans are read from."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-SUFFIXES = (".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz", ".raw")  # none of which ends with another
+SUFFIXES = (".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz", ".raw")  # No suffix ends with another one.
 SAMPLE_TYPES = (
     *("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64"),
     *("float32", "float64"),

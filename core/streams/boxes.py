@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The bounding box of coordinates that come in blocks, all of which must be finite."""
+"""The bounding box of finite coordinates that come in blocks."""
 
 from __future__ import annotations
 

@@ -19,12 +19,12 @@ from ..verdict.finding import FileError
 from .findings import FILE_WITHOUT_OBJECTS
 from .mesh_file import MeshFile
 
-MAX_REACH_RATIO = 2.0  # reach of a body relative to its first faces, at most
+MAX_REACH_RATIO = 2.0  # Largest reach of a body, relative to the box of its sampled faces.
 
 
 @dataclass(frozen=True, eq=False)
 class StreamIntegrals:
-    """Integrals of a mesh that was read in blocks, as its faces are, about the center of the bounding box.
+    """Integrals of a mesh that was read in blocks, without repair, about the center of a bounding box.
 
     closed: True if every edge is used as often one way as the other, by their hashes (`BoundarySum`); the volume of an
     open mesh depends on the center. face_count: triangles and quads that were measured.
@@ -45,9 +45,9 @@ def measure_stream(
 ) -> StreamIntegrals:
     """Measure a mesh that is larger than memory, to orders of the volume's and the area's moments.
 
-    Its moments are about the center of the bounding box: of all vertices of a .ply; of another file, of a thousand
-    faces all over it, if the mesh does not reach much farther. Then it is read twice. FileError if the file is damaged,
-    or coordinates are not finite. progress: called with the count of faces read since the last time.
+    The moments are about the center of the bounding box of all vertices of a .ply, or of a sample of the triangles of
+    an .stl; a mesh that reaches much farther than the sample is read again with the box of all. FileError if the file
+    is damaged, or not finite. progress: called with the count of faces read since the last time.
     """
     for find_box in (mesh.sampled_box, mesh.box):
         stream = _Stream(mesh, *find_box(), progress)
@@ -70,11 +70,11 @@ def measure_stream(
 
 
 class _FarPiece(Exception):
-    """A piece is much farther from the center than was thought."""
+    """The error of a piece that reaches much farther from the center than the sampled box."""
 
 
 class _Stream:
-    """The faces of a file on their way to the integral. progress: called with the faces of each piece."""
+    """The faces of a file, with their boundary and count. progress: called with the count of faces of each piece."""
 
     def __init__(self, mesh: MeshFile, low: NDArray, high: NDArray, progress: Callable[[int], None] | None) -> None:
         large = max(np.abs(low).max(), np.abs(high).max()) > np.finfo(np.float32).max
@@ -84,14 +84,14 @@ class _Stream:
         self._mesh, self._progress = mesh, progress
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield the pieces."""
+        """Yield the pieces of the mesh, and add each to boundary and count."""
         for piece in self._mesh.pieces():
             faces = len(piece.triangles) + len(piece.quads)
             if self._progress is not None:
                 self._progress(faces)
             low, high = piece.box
             reach = np.maximum(high - self.center, self.center - low).max()
-            if not reach <= MAX_REACH_RATIO * self.reach:  # nor where it is NaN: the box of all refuses that
+            if not reach <= MAX_REACH_RATIO * self.reach:  # Also if it is NaN, which the box of all faces refuses.
                 raise _FarPiece
             self.boundary.add(piece.points.reshape(-1, 3, 3) if self._mesh.is_loose else piece)
             self.face_count += faces

@@ -11,7 +11,7 @@ from ..verdict.finding import FileError
 from .ply import PlyFile
 from .stl import StlFile
 
-# A mesh that is read in blocks, as often as it is asked for.
+# A mesh whose faces can be read in blocks, any number of times.
 MeshFile = PlyFile | StlFile
 KINDS = {".stl": StlFile, ".ply": PlyFile}
 

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fields of text files that importers would misread in silence, and the refusal that names line and text.
+"""Detection of fields in text files that importers would silently misread, and refusals with line and text.
 
-Most lines are checked by a regular expression that knows only short numbers, all others word by word.
+Most lines match a regular expression that allows only short numbers; all others are checked word by word.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
 MAX_TEXT = 60  # letters of a line that are shown
 BLOCK = 1 << 18  # bytes
 MARK = b"\xef\xbb\xbf"  # byte order mark
-# Decimal numbers below 1e38, so that nobody needs to compute them, and these or NaN.
+# Decimal numbers that are so short that they are below 1e38 without being computed; the same, or NaN.
 SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
 SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
 SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
@@ -34,13 +34,13 @@ Fault = tuple[str, str]  # the text of a line, and the word for the text that sh
 
 
 def map_file(path: str | Path) -> mmap.mmap:
-    """Return the bytes of a file that is not empty."""
+    """Return the mapped bytes of a file, which must not be empty."""
     with open(path, "rb") as file:
         return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
 
 
 def find_number_fault(word: bytes, places_point: bool) -> Fault | None:
-    """Return why a word is no number, or None. Only numbers that place a point must be finite in float32."""
+    """Return the fault of a word that is no number, or None. places_point: it must be finite in float32, too."""
     try:
         value = parse_number(word.decode("utf-8", "replace"))
     except ValueError:
@@ -51,7 +51,7 @@ def find_number_fault(word: bytes, places_point: bool) -> Fault | None:
 
 
 def find_whole_fault(word: bytes) -> Fault | None:
-    """Return why a word is no whole number, or None."""
+    """Return the fault of a word that is no whole number, or None."""
     try:
         parse_whole(word.decode("utf-8", "replace"))
     except ValueError:
@@ -65,11 +65,11 @@ def count_fault(words: list[bytes]) -> Fault:
 
 
 def shorten(text: bytes) -> str:
-    """Return the beginning of a text as it is shown."""
+    """Return the beginning of a text for a message."""
     return text[: 4 * MAX_TEXT].decode("utf-8", "replace")[:MAX_TEXT]
 
 
 def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
-    """Raise the FileError about the line that holds a place."""
+    """Raise the FileError about the line that contains the offset `at`."""
     line = 1 + sum(data[start : min(start + BLOCK, at)].count(b"\n") for start in range(0, at, BLOCK))
     raise FileError(LINE_MISREAD, line=line, text=fault[0], expected=fault[1])

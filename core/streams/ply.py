@@ -21,8 +21,8 @@ from .ply_header import INDICES, MAX_HEADER, Element, Header, parse_header
 from .ply_rows import RowReader, RowsError
 from .ply_text import check_ply_text
 
-MAX_SPREAD = 4  # vertices between the first and the last of a block for each of its corners; else they are copied
-CONCAVE_RTOL = 1e-6  # relative to a polygon's normal: less against it is rounding
+MAX_SPREAD = 4  # Up to so many vertices per corner between a block's first and last, they are not copied.
+CONCAVE_RTOL = 1e-6  # Relative to a polygon's normal; triangles less against it are rounding.
 
 
 class PlyFile:
@@ -52,7 +52,7 @@ class PlyFile:
     sampled_box = box
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield the faces: triangles and quads, and polygons of more sides as fans."""
+        """Yield surfaces of the faces: triangles, quads, and polygons of more sides as fans."""
         for columns in self._blocks(self._faces):
             corners = columns[self._column]
             if corners.shape[1] < 3:
@@ -95,7 +95,7 @@ class PlyFile:
         exact = self._header.order and kinds != {"f4"}
         points = np.empty((vertices.rows, 3), np.float64 if exact else np.float32)
         done = 0
-        with np.errstate(over="ignore", invalid="ignore"):  # refused with the infinite ones
+        with np.errstate(over="ignore", invalid="ignore"):  # Such points become infinite, and are refused.
             for block in self._blocks(vertices):
                 for axis, column in enumerate(columns):
                     points[done : done + len(block[column]), axis] = block[column]
@@ -119,7 +119,7 @@ class PlyFile:
 
 
 def _faces_of(header: Header) -> tuple[Element, int]:
-    """Return the element of faces, and the index of the property that lists their vertices. Raises ValueError."""
+    """Return the element of faces, and the index of the property that lists their vertices. Raises FileError."""
     for element in header.elements:
         for number, one in enumerate(element.properties):
             if element.name == "face" and one.name in INDICES and one.counter:

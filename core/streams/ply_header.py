@@ -25,7 +25,7 @@ TYPES = {
 
 
 class Property(NamedTuple):
-    """One number of a row, or a list of them. type: as numpy writes it. counter: of a list the type of its length."""
+    """A number of a row, or a list of numbers. type: numpy's name. counter: type of a list's length, else empty."""
 
     name: str
     type: str

@@ -21,11 +21,11 @@ NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
 
 
 class RowsError(Exception):
-    """The file ends before its rows do, or one of its numbers is none."""
+    """The error of a file that ends before its rows do, or has a wrong number."""
 
 
 class RowReader:
-    """Reads element after element. order: "" for text, "<" or ">"."""
+    """A reader of one element after another. order: "" for text, "<" or ">" for binary."""
 
     def __init__(self, file: BinaryIO, order: str) -> None:
         self._file, self._order = file, order
@@ -33,7 +33,7 @@ class RowReader:
         self._text = b""
 
     def read_rows(self, element: Element) -> Iterator[list[NDArray]]:
-        """Yield the next element in blocks of equally long rows, all to be taken: (n,) numbers or (n, k) lists."""
+        """Yield the next element in blocks of columns, (n,) numbers or (n, k) lists. All blocks have to be taken."""
         left = element.rows if element.properties else 0
         while left:
             lengths = self._lengths(element.properties)
@@ -53,7 +53,7 @@ class RowReader:
             yield [table["p{}".format(number)][:count] for number in range(len(element.properties))]
 
     def _lengths(self, properties: Sequence[Property]) -> dict[int, int]:
-        """Return the lengths of the lists of the next row, all of which is in the buffer then."""
+        """Return the lengths of the lists of the next row by their property's index, and buffer the whole row."""
         at, lengths = 0, {}
         for number, one in enumerate(properties):
             if one.counter:
@@ -74,14 +74,14 @@ class RowReader:
         return np.dtype(fields)
 
     def _table(self, row: np.dtype, left: int) -> NDArray:
-        """Return as many rows as are in the buffer, after reading the next part of the file."""
+        """Read the next part of the file, and return the whole rows in the buffer, at most `left`."""
         unit = self._buffer.itemsize
         self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
         count = min(left, len(self._buffer) * unit // row.itemsize)
         return np.frombuffer(self._buffer, row, count)
 
     def _single_rows(self, element: Element, rows: int) -> Iterator[list[NDArray]]:
-        """Yield rows of any lengths, joined to blocks of one length each."""
+        """Yield so many rows, read one at a time, in blocks of equally long rows."""
         by_lengths: dict[tuple[int, ...], list[bytes]] = {}
         types: dict[tuple[int, ...], np.dtype] = {}
         for _ in range(rows):
@@ -97,14 +97,14 @@ class RowReader:
             yield [table["p{}".format(number)] for number in range(len(element.properties))]
 
     def _size(self, kind: str) -> int:
-        """Return the size of a number, in units of the buffer."""
+        """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a text."""
         return int(kind[1:]) if self._order else 1
 
     def _type(self, kind: str) -> np.dtype:
         return np.dtype(self._order + kind) if self._order else NUMBERS
 
     def _integer(self, at: int, kind: str) -> int:
-        """Return the length of a list."""
+        """Return the length of a list, stored at an index of the buffer. Raises RowsError."""
         end = at + self._size(kind)
         self._fill(end)
         value = self._buffer[at:end].view(self._type(kind))[0]
@@ -113,14 +113,14 @@ class RowReader:
         return int(value)
 
     def _fill(self, count: int) -> None:
-        """Have so many bytes or numbers in the buffer. Raises RowsError."""
+        """Fill the buffer to `count` bytes or numbers. Raises RowsError if the file has fewer."""
         if len(self._buffer) < count:
             self._read_ahead(count)
             if len(self._buffer) < count:
                 raise RowsError
 
     def _read_ahead(self, count: int) -> None:
-        """Have so many bytes or numbers in the buffer, if the file has them."""
+        """Fill the buffer to `count` bytes or numbers, or with the rest of the file."""
         while len(self._buffer) < count:
             more = np.frombuffer(self._file.read(BYTES_PER_BLOCK), np.uint8) if self._order else self._numbers()
             if not len(more):
@@ -128,7 +128,7 @@ class RowReader:
             self._buffer = np.concatenate([self._buffer, more]) if len(self._buffer) else more
 
     def _numbers(self) -> NDArray[np.float64]:
-        """Return the next numbers of a text; none at its end."""
+        """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError."""
         while True:
             chunk = self._file.read(BYTES_PER_BLOCK)
             text, self._text = self._text + chunk, b""

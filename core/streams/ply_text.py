@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rows of .ply files in text, a line each, with the fields of the header and no others.
+"""Checks of .ply files in text: each row is one line with just the fields of the header.
 
-Blender puts 0 for a number that is missing or none, and leaves out faces with a wrong index.
+Blender reads a missing or wrong number as 0, and leaves out faces with a wrong index.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from .misread import (
 from .ply_header import INDICES, Element, Header, Property
 
 LENGTHS = range(9)  # lists that are checked together; rows with longer ones are checked word by word
-FEW_ROWS, MANY_PROPERTIES = 16, 100  # fewer rows or more properties: an expression would cost more than it saves
+FEW_ROWS, MANY_PROPERTIES = 16, 100  # For fewer rows or more properties an expression does not pay.
 _BLANK = rb"[ \t]*+"
 _REST = re.compile(rb"[^\s\0\x1a]")
 
@@ -71,7 +71,7 @@ class _Rows:
         return matched.end() if matched else start
 
     def _check_indices(self, start: int, end: int) -> None:
-        """Look at rows by themselves only if some of their numbers, whatever they mean, can be no index."""
+        """Check the faces of a block row by row only if one of its numbers, of any meaning, can be no index."""
         while start < end:
             stop = self._data.find(b"\n", min(start + BLOCK, end - 1), end) + 1 or end
             values = np.fromstring(self._data[start:stop], self._type, sep=" ")
@@ -81,7 +81,7 @@ class _Rows:
             start = stop
 
     def _check_row(self, start: int, end: int) -> bytes:
-        """Return the row if all its words are right, else refuse the file."""
+        """Return the row at `start` if all its words are right, else raise FileError."""
         line = _line(self._data, start, end)
         fault = self._find_fault(line.split())
         if fault is not None:
@@ -117,7 +117,7 @@ class _Rows:
 
 
 def _is_whole(one: Property) -> bool:
-    """Return whether an importer reads a list's words as whole numbers; it reads all single words as numbers."""
+    """Return whether importers read a property as a list of whole numbers; they read single values as numbers."""
     return bool(one.counter) and (one.type[0] in "iu" or one.name in INDICES)
 
 
@@ -137,7 +137,7 @@ def _line(data: Data, start: int, end: int) -> bytes:
 
 
 def _find_end(data: Data, start: int, rows: int) -> int:
-    """Return the end of so many lines, or of the file."""
+    """Return the offset behind so many lines, or the end of the file."""
     while rows and start < len(data):
         block = np.frombuffer(data[start : start + BLOCK], np.uint8)
         ends = np.flatnonzero(block == ord("\n"))

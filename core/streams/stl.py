@@ -23,7 +23,7 @@ from .findings import STL_CUT_SHORT
 from .misread import map_file
 from .stl_text import BY_COUNT, BY_WORD, check_stl_text
 
-HEAD, RECORD = 84, 50  # bytes before the triangles, and of each
+HEAD, RECORD = 84, 50  # Bytes before the triangles, and bytes of each triangle.
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
 TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = 1 << 17, 1 << 13
 SAMPLES = 1000  # triangles that show where the body is
@@ -37,7 +37,7 @@ NUMBERS = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
 class StlFile:
-    """The triangles of an .stl file. face_count: for a text an estimate. is_loose: no two triangles share a point."""
+    """The triangles of an .stl file. face_count: estimated for a text. is_loose: True, as triangles share no points."""
 
     is_loose = True
 
@@ -55,7 +55,7 @@ class StlFile:
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
 
     def sampled_box(self) -> Box:
-        """Return a box of some of the triangles; of a text that of its first ones."""
+        """Return the box of a sample of the triangles (of a text, the first ones), of all if a sample is not finite."""
         with open(self._path, "rb") as file:
             blocks = [self._samples(file)] if self._binary else list(islice(self._text_corners(file), 1))
         is_finite = all(np.isfinite(block).all() for block in blocks)
@@ -73,7 +73,7 @@ class StlFile:
         return box_of_blocks((piece.points.reshape(-1, 3, 3) for piece in self.pieces()), "triangle")
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield the triangles, three points each."""
+        """Yield surfaces of the triangles, with three points for each."""
         rows = np.arange(3 * TRIANGLES_PER_BLOCK, dtype=np.int32).reshape(-1, 3)
         with open(self._path, "rb") as file:
             for corners in _binary_corners(file) if self._binary else self._text_corners(file):
@@ -93,7 +93,7 @@ class StlFile:
 
 
 def _parse(text: bytes) -> NDArray[np.float32]:
-    """Return the corners of whole facets, which `check_stl_text` has seen."""
+    """Return the (n, 3, 3) corners of whole facets, which `check_stl_text` has checked."""
     words = SOLID_LINE.sub(b"", text).split()
     columns = [np.array([*map(float, words[place::FACET_WORDS])]) for place in NUMBERS]
     return np.stack(columns, axis=1).astype(np.float32).reshape(-1, 3, 3)

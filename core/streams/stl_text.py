@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The grammar of .stl files in text: words, wherever lines end, but for the names of solids.
+"""The grammar of .stl files in text: words with any white space between, but each name of a solid is a line.
 
-Blender takes a fourth corner, a corner in a comment or in the name of another solid, and a number that is none, for
-corners of the next triangles.
+Blender takes a fourth corner, a corner in a comment or in the name of another solid, and a wrong number, for corners
+of the next triangles.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def check_stl_text(data: Data) -> None:
     """Raise FileError if an importer would misread a word."""
     first = _FIRST_LINE.match(data)
     at = first.end() if first else 0
-    # Blender reads no other spelling, so that all must be this one or none.
+    # Blender reads only “vertex” in lower case. If any is, all must be.
     is_lower = data.find(b"vertex", at) >= 0
     while (at := _find_end(data, at, _LOWER if is_lower else _ANY_CASE)) < len(data):
         words = list(islice(_WORD.finditer(data, at), len(_FACET_WORDS)))
@@ -58,6 +58,6 @@ def _find_fault(word: bytes, expected: str | bool, is_lower: bool) -> Fault | No
 
 
 def _find_end(data: Data, at: int, facets: re.Pattern[bytes]) -> int:
-    """Return the end of the facets and names of solids that begin at a place."""
+    """Return the end of the valid facets and names of solids from an offset on."""
     matched = facets.match(data, at)
     return matched.end() if matched else at

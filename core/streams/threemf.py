@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """3MF files: meshes, components, the build's transforms and its unit.
 
-Read as the 3MF Core Specification 1.3 and its Production Extension say (https://3mf.io/spec). Everything that the file
-may make a reader do is limited: the archive's entries and their size, the number of placed meshes. XML has no entities
-or document types here, which the specification forbids.
+Read according to the 3MF Core Specification 1.3 and its Production Extension (https://3mf.io/spec). The demands of a
+file are limited: the archive's entries and their size, the number of placed meshes. XML document types, and with them
+entities, are refused, as the specification forbids them.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_DEPTH = 100  # components within components
 MAX_TEXT = 60  # letters of a wrong field that are shown
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
-_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here, or of no effect on shape
+_KNOWN = ("core/2015/02", "material/2015/02", "production/2015/06")  # read here, or without effect on the shape
 _PACKAGE = "http://schemas.openxmlformats.org/package/2006/relationships"
 _BLOCK = 1 << 16
 _DAMAGE = (
@@ -53,7 +53,7 @@ class _Object:
 
 @dataclass(frozen=True)
 class Placed:
-    """A mesh of the build: `key` is the same for all places of one mesh. matrix: 4 by 4, column vectors."""
+    """A mesh at one of its places. key: the same at all places of a mesh. matrix: (4, 4), for column vectors."""
 
     name: str
     key: tuple[str, str]
@@ -63,7 +63,7 @@ class Placed:
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
-    """Return each mesh of a file's build at each of its places, in the file's unit, and that unit in meters.
+    """Return the meshes of a file's build, one for each place, in the file's unit; and that unit in meters.
 
     FileError if the file is damaged, beyond limits (`entries`, `unpacked_bytes`), or needs an unknown extension.
     """
@@ -78,7 +78,7 @@ def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], 
 
 
 class _Package:
-    """An open archive, and the parts of it that were read."""
+    """An open archive, and its parts that were read."""
 
     def __init__(self, path: Path, archive: zipfile.ZipFile, limits: Limits) -> None:
         self._path, self._archive, self._limits, self._unpacked = path, archive, limits, 0
@@ -228,7 +228,7 @@ class _Model:
 
 
 def _transform(text: str) -> NDArray[np.float64]:
-    """Return the (3, 4) matrix of a transform text, which has the vectors as rows. Raise ValueError if it is wrong."""
+    """Return the (3, 4) matrix of a text, which lists its columns. ValueError, with the text, if it is wrong."""
     numbers = np.array(parse_numbers(text))
     if len(numbers) != 12 or not np.isfinite(numbers).all():
         raise ValueError(text)
@@ -236,7 +236,7 @@ def _transform(text: str) -> NDArray[np.float64]:
 
 
 def _coordinate(text: str) -> float:
-    """Return a number that single precision has. Raise ValueError with a wrong text."""
+    """Return the number of a text. ValueError, with the text, if it is no number or too large for float32."""
     value = parse_number(text.strip(SPACES))
     if not abs(value) < 3.4e38:
         raise ValueError(text)

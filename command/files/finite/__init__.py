@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check for finite coordinates in a file, before Blender imports it.
 
-Blender's importers of .stl, .obj, .ply, .glb, .gltf and .fbx put 0, or the vertex before, in place of a coordinate that
-is NaN, infinite, too large for float32, or in a text no number, and say nothing: a body that nobody made would be
-measured as exact. Files are mapped and checked in blocks. Numbers that place no point (normals, colors, weights) may be
-NaN and infinite. Files with other damage are left to Blender, which reports it.
+Blender's importers of .stl, .obj, .ply, .glb, .gltf and .fbx silently replace a coordinate that is NaN, infinite, too
+large for float32, or (in a text) no number, by 0 or the vertex before: a wrong body would be measured as exact. Files
+are mapped and checked in blocks. Numbers that place no point (normals, colors, weights) may be NaN and infinite. Files
+with other damage are left to Blender, which reports it.
 """
 
 from __future__ import annotations

@@ -34,7 +34,7 @@ class FbxNode:
 
 
 def check_fbx(data: Data, _path: str) -> None:
-    """Check the vertices of meshes and of their shapes."""
+    """Raise FileError if a vertex of a mesh or of its shape keys is not finite."""
     if data[:23] != _FBX_MAGIC:
         _check_ascii_fbx(data)
         return
@@ -70,7 +70,7 @@ def _check_ascii_fbx(data: Data) -> None:
 
 
 def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Iterator[FbxNode]:
-    """Yield the children with this name."""
+    """Yield the child nodes with a name."""
     head = struct.Struct("<QQQB" if wide else "<IIIB")
     at = parent.children
     while at + head.size <= parent.end:
@@ -84,7 +84,7 @@ def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Itera
 
 
 def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:
-    """Yield the numbers of an array in blocks, each with how many were before it."""
+    """Yield the numbers of an array in blocks, each after the count of numbers before it."""
     kind = _FBX_TYPES[data[at : at + 1]]
     count, packed, size = struct.unpack_from("<3I", data, at + 1)
     at += 13

@@ -78,7 +78,7 @@ def _bad_in_accessor(buffers: Buffers, accessor: dict[str, Any]) -> tuple[int, i
 
 
 def unquote(uri: str) -> str:
-    """Replace %20 and the like in a glTF's reference by the characters that they stand for."""
+    """Return a glTF's reference with escapes such as %20 replaced by their characters."""
     data = re.sub(rb"%([0-9a-fA-F]{2})", lambda match: bytes.fromhex(match[1].decode()), uri.encode())
     return data.decode("utf-8", "surrogateescape")
 
@@ -98,7 +98,7 @@ class Buffers:
         self.document = json.loads(text[:])
 
     def table(self, view_number: int, offset: int, count: int, width: int) -> NDArray[np.float32] | None:
-        """Return rows of numbers, or None if only an extension can unpack them."""
+        """Return a (count, width) table of a buffer view, None if an extension has compressed it."""
         view = self.document["bufferViews"][view_number]
         if "EXT_meshopt_compression" in view.get("extensions", {}):
             return None
@@ -107,7 +107,7 @@ class Buffers:
         return np.ndarray((count, width), "<f4", data, start, (view.get("byteStride", 4 * width), 4))
 
     def _buffer(self, number: int) -> tuple[Data, int]:
-        """Return a buffer's bytes and its start in them. Raises FileError if it is missing or too short."""
+        """Return the bytes that contain a buffer, and its start in them. FileError if it is missing or too short."""
         if number not in self.opened:
             buffer = self.document["buffers"][number]
             self.opened[number] = self._open(buffer, buffer["byteLength"])

@@ -14,7 +14,7 @@ from ....core.streams.findings import NON_FINITE_COORDINATES
 from ....core.streams.misread import MAX_FLOAT32
 from ....core.verdict.finding import FileError, Finding
 
-BLOCK = 1 << 18  # numbers at a time, so that what is computed of them stays in the cache
+BLOCK = 1 << 18  # Numbers at a time, so that arrays computed from them stay in the cache.
 MALFORMED = (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError, struct.error, zlib.error)
 
 

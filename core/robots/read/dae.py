@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""COLLADA, which a third of published robots use and Blender 5 reads no more: the triangles that its scene shows.
+"""Reader of COLLADA, which a third of published robots use and Blender 5 no longer reads.
 
-Read are geometries of triangles, polylists and polygons, placed by the scene's nodes, in meters. Most readers of robots
+It reads geometries of triangles, polylists and polygons, placed by the scene's nodes, in meters. Most readers of robots
 (RViz, MoveIt, hpp-fcl) ignore which axis the file says is up; some obey. So the file's own axes are kept, and the
 rotation that it asks for is returned beside them.
 """
@@ -45,7 +45,7 @@ def read_dae(path: Path) -> tuple[*Arrays, NDArray[np.float64] | None]:
 
 
 def _instances(root: Node, by_id: dict[str, Node]) -> Iterator[tuple[Node, NDArray]]:
-    """Yield the geometries of the scene and their places; all of them, as they are, if there is no scene."""
+    """Yield the geometries of the scene and their (4, 4) matrices; without a scene, all geometries of the file."""
     scene = root.find("scene", "instance_visual_scene")
     visual = by_id.get(scene.get("url").removeprefix("#")) if scene else None
     if visual is None:

@@ -26,7 +26,7 @@ MAX_LINKS = 100_000
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
-    """Return the description of a robot in a file, with files that it includes from the roots. FileError if refused."""
+    """Return a file's robot description. roots: folders of files that an MJCF model includes. FileError if refused."""
     data = _bytes(path)
     if data.startswith(_USD.encode()):
         description = AUDITED[_USD].reader_module.read(data)
@@ -71,7 +71,7 @@ def _xml(data: bytes, roots: Roots) -> Description:
 
 
 def _narrow(data: bytes) -> bytes:
-    """Return XML of two bytes a character as UTF-8, so that repairs can be put among its bytes."""
+    """Return UTF-16 XML as UTF-8, so that repairs can be inserted in its bytes; other data unchanged."""
     wide = next((name for start, name in _WIDE.items() if data.startswith(start)), None)
     if wide is None:
         return data
@@ -82,7 +82,7 @@ def _narrow(data: bytes) -> bytes:
 
 
 def _include(root: Node, roots: Roots) -> None:
-    """Put the files that an MJCF model includes in place of each `include`, without a place in the model's own file."""
+    """Replace each `include` of an MJCF model by the file's elements, which have no place in the model's own file."""
     included, total = set(), 0
     waiting = [root]
     while waiting:

@@ -34,9 +34,9 @@ _DAMAGE = (
 
 
 def read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
-    """Return a file's triangles in its own coordinates and unit, of .dae in meters; and the rotation to z up.
+    """Return a file's surface in its own coordinates and unit (meters for .dae), and the rotation to z up.
 
-    The rotation is None if the file says no other axis. FileError, with the file's name, if it cannot be read.
+    The rotation is None if the file names no other axis. FileError, with the file's name, if it cannot be read.
     """
     try:
         return _read_mesh(path)
@@ -66,14 +66,14 @@ def _read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
 
 
 def read_stl(path: Path) -> Arrays:
-    """Return triangles of binary or text STL, with equal corners as one point."""
+    """Return points and triangles of binary or text STL, with equal corners as one point."""
     corners = [np.zeros((0, 3)), *(piece.points for piece in StlFile(path).pieces())]
     points, index = np.unique(np.concatenate(corners), axis=0, return_inverse=True)
     return points, index.reshape(-1, 3)
 
 
 def read_obj(path: Path) -> Arrays:
-    """Return triangles of all objects of an OBJ; faces of more corners are cut into fans."""
+    """Return points and triangles of all objects of an OBJ; larger faces are cut into fans."""
     data = path.read_bytes()
     check_obj_text(data)
     points: list[bytes] = []
@@ -93,7 +93,7 @@ def read_obj(path: Path) -> Arrays:
 
 
 def read_glb(path: Path) -> Arrays:
-    """Return triangles of a binary glTF as its scene places them, in its own axes (y up), as robots' readers do."""
+    """Return points and triangles of a binary glTF, placed by its scene, with y up as other robot readers keep it."""
     data = path.read_bytes()
     parts = dict(chunks(data)) if data[:4] == b"glTF" else {}
     document, binary = json.loads(parts.get(JSON, b"")), parts.get(BINARY, b"")

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""MJCF: the statements of its bodies.
+"""Reader of MJCF: the inertials and shapes of its bodies.
 
-Defaults by class, the compiler's angles and Euler order, and mesh folders count.
+It applies defaults by class, the compiler's angle unit and Euler order, and mesh folders.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ Rotation = tuple[NDArray[np.float64], Angles | None, tuple[float, ...] | None]
 
 
 def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
-    """Return the rotation from a quaternion, Euler angles, an axis and an angle, two axes or the z axis."""
+    """Return the (3, 3) rotation, roll, pitch and yaw if stated, and the quaternion if stated, of an element."""
     unit = radians(1.0) if model.degrees else 1.0
     if "quat" in attributes:
         values = numbers(attributes["quat"], 4, (1.0, 0.0, 0.0, 0.0))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Places of a description's meshes: never outside of the allowed folders."""
+"""Paths of the files that a description names, never outside of the allowed folders."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ...verdict.finding import FileError
 from ..findings import MESH_MISSING, MESH_ON_NETWORK
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # Schemes of one letter are drives.
-MAX_LEVELS = 4  # folders up to where a package may begin
+MAX_LEVELS = 4  # Folders, from the description's up, that are searched for a package.
 
 
 @dataclass(frozen=True)
 class Roots:
-    """The folders that may be read from. anywhere: True if any may."""
+    """Folders that files may be read from. anywhere: True if all folders are allowed."""
 
     folders: tuple[Path, ...]
     anywhere: bool = False
@@ -50,7 +50,7 @@ class Roots:
         raise FileError(MESH_MISSING, name=name)
 
     def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
-        """Yield possible paths. A package's name may name a root, a folder in it, or neither."""
+        """Yield possible paths. A package's name may be that of a root, of a folder in it, or of neither."""
         if scheme in ("package", "model"):
             package, _, inside = rest.partition("/")
             for folder in self.folders:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""SDFormat: the statements of its models' links."""
+"""Reader of SDFormat: the inertials and shapes of its models' links."""
 
 from __future__ import annotations
 

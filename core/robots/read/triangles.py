@@ -18,18 +18,18 @@ class Gathered:
         self._triangles: list[NDArray] = []
 
     def add(self, points: NDArray, triangles: NDArray, matrix: NDArray) -> None:
-        """Add (n, 3) points and (m, 3) triangles, which a mirroring matrix turns."""
+        """Add (n, 3) points and (m, 3) triangles, whose order is reversed if the matrix mirrors."""
         turned = triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0.0 else triangles
         self._triangles.append(turned + sum(map(len, self._points)))
         self._points.append(points @ matrix[:3, :3].T + matrix[:3, 3])
 
     def arrays(self) -> Arrays:
-        """Return all points and triangles. ValueError if there are none."""
+        """Return all points and triangles. ValueError if no part was added."""
         return np.concatenate(self._points), np.concatenate(self._triangles)
 
 
 def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return (m, 3) faces of given sizes, cut into fans about their first corners."""
+    """Return (m, 3) triangles: faces of given sizes, cut into fans about their first corners."""
     starts = np.cumsum(sizes) - sizes
     cut = np.maximum(sizes - 2, 0)
     face = np.repeat(np.arange(len(sizes)), cut)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""URDF: the statements of its links."""
+"""Reader of URDF: the inertials and shapes of its links."""
 
 from __future__ import annotations
 

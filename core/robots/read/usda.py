@@ -33,7 +33,7 @@ _SPECIFIERS = {"def", "over", "class"}
 
 @dataclass(eq=False)
 class Prim:
-    """One prim. values: attributes as text. start, end: of the inside of its braces, in characters."""
+    """One prim. values: attributes as text. start, end: range of the text between its braces, in characters."""
 
     kind: str
     name: str
@@ -44,13 +44,13 @@ class Prim:
     children: list[Prim] = field(default_factory=list)
 
     def numbers(self, name: str) -> NDArray[np.float64] | None:
-        """Return the numbers of an attribute, None if it has none. Raises ValueError with a text that is none."""
+        """Return the numbers of an attribute, None if it has no value. ValueError if a text is no number."""
         if self.values.get(name, "None") == "None":
             return None
         return np.array([parse_number(word) for word in _FIELD.findall(self.values[name])], np.float64)
 
     def vector(self, name: str, default: tuple[float, ...]) -> NDArray[np.float64]:
-        """Return the numbers of an attribute, as many as its default has. ValueError if the count differs."""
+        """Return the numbers of an attribute, else its default. ValueError if the counts differ."""
         values, count = self.numbers(name), len(default)
         if values is None:
             return np.array(default, np.float64)
@@ -87,7 +87,7 @@ class _Parser:
         return self.tokens[self.index - 1]
 
     def balanced(self) -> tuple[int, int]:
-        """Skip the content of one bracket; return its range."""
+        """Skip one pair of brackets with its content; return its range in the text."""
         depth, start = 0, self.tokens[self.index][1]
         while True:
             token, position = self.take()
@@ -127,7 +127,7 @@ class _Parser:
         return prim
 
     def attribute(self, prim: Prim) -> None:
-        """Read a statement: words, and after an equals sign a value."""
+        """Read a statement, and store the value after its equals sign, if it has one, in the prim."""
         words: list[str] = []
         while self.peek() not in ("=", "}", ";", "(") and self.peek() not in _SPECIFIERS:
             words.append(self.take()[0])
@@ -147,7 +147,7 @@ class _Parser:
 
 
 def read(data: bytes) -> Description:
-    """Return a description of a layer's bodies. FileError if it is no text of USD."""
+    """Return a description of a layer's bodies. FileError if the data are no USD text."""
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -160,7 +160,7 @@ def read(data: bytes) -> Description:
 
 
 def _invalid(text: str, place: int) -> FileError:
-    """Return the refusal of a text, with the beginning of the line that holds a place."""
+    """Return the error about a text at a place, with the beginning of its line."""
     line = "“{:.40}”".format(text[text.rfind("\n", 0, place) + 1 :].partition("\n")[0].strip())
     return FileError(DESCRIPTION_INVALID, format="text of USD", line=text.count("\n", 0, place) + 1, error=line)
 
@@ -199,7 +199,7 @@ def _visit(
 
 
 def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
-    """Return the (4, 4) matrix of its operations and the ones above it, for column vectors."""
+    """Return the (4, 4) matrix from a prim to the world, for column vectors. above: the matrix of its parent."""
     matrix = above
     for inverse, name in re.findall(r'"(!\w+!)?([\w:]*)"', prim.values.get("xformOpOrder", "")):
         if inverse == "!resetXformStack!":
@@ -224,7 +224,7 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
 
 
 def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], text: str) -> StatedLink:
-    """Return a body in the axes of its prim, in meters; its own scale is a part of its shapes and its center."""
+    """Return a body in the axes of its prim, in meters; the prim's scale is applied to its shapes and its center."""
     findings: list[Finding] = []
     turn = _turn(matrix)
     to_link = np.eye(4)
@@ -269,7 +269,7 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
 
 
 def _collect(prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]) -> None:
-    """Collect the geometry of a body: the prims below it, up to the next body. matrix: the prim's in the world."""
+    """Collect the geometry of a body: the prims below it, up to the next body. matrix: from the prim to the world."""
     shape = _shape(prim, to_link @ matrix, unit)
     if shape is not None:
         shapes.append(shape)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""XML from strangers: elements with their places in the file.
+"""Reader of untrusted XML: elements with their byte positions in the file.
 
 Document types, and with them entities, are refused.
 """
@@ -26,15 +26,15 @@ from ..stated import Angles, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
-NOWHERE = -1  # in place of a position, of what another file states
+NOWHERE = -1  # The position of elements from another file.
 Value = TypeVar("Value")
 Placed = tuple[Shape, Angles | None]
-_TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # attributes may hold the mark of its end
+_TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # Quoted attributes may contain ">".
 
 
 @dataclass(eq=False)
 class Node:
-    """One element. start, end: of its bytes in the file, or NOWHERE. line: in its file."""
+    """One element. start, end: range of its bytes in the file, or NOWHERE. line: its line in its file, from 1."""
 
     tag: str
     attributes: dict[str, str]
@@ -45,18 +45,18 @@ class Node:
     children: list[Node] = field(default_factory=list)
 
     def find(self, *path: str) -> Node | None:
-        """Return the first element along a path of tags."""
+        """Return the first element along a path of tags, None if there is none."""
         node: Node | None = self
         for tag in path:
             node = next((child for child in node.children if child.tag == tag), None) if node else None
         return node
 
     def all(self, tag: str) -> list[Node]:
-        """Return the children with a tag."""
+        """Return the direct children with a tag."""
         return [child for child in self.children if child.tag == tag]
 
     def walk(self) -> Iterator[Node]:
-        """Yield it and everything below."""
+        """Yield the element and all elements below it, in the order of the file."""
         waiting: list[Node] = [self]
         while waiting:
             node = waiting.pop()
@@ -64,7 +64,7 @@ class Node:
             waiting.extend(reversed(node.children))
 
     def get(self, name: str, default: str = "") -> str:
-        """Return an attribute."""
+        """Return the text of an attribute, else the default."""
         return self.attributes.get(name, default)
 
 
@@ -77,12 +77,12 @@ def check_size(depth: int, count: int) -> None:
 
 
 def _end_of_tag(data: bytes, start: int) -> int:
-    """Behind the tag that begins there, which expat has seen to end."""
+    """Return the index behind the tag that begins at `start`; expat has made sure that it ends."""
     return cast("re.Match[bytes]", _TAG.match(data, start)).end()
 
 
 def parse(data: bytes) -> Node:
-    """Return the root of a document. FileError if it is none, or is refused."""
+    """Return the root element of an XML document. FileError if it is invalid, too large, or has a doctype."""
     document = Node("", {}, 0)
     parser, waiting, counts = expat.ParserCreate(), [document], itertools.count(1)
 
@@ -116,7 +116,7 @@ def parse(data: bytes) -> Node:
 
 
 def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.float64]:
-    """Return so many numbers of a text, the defaults if it is empty. Raise ValueError with a wrong text."""
+    """Return the (count,) numbers of a text, the default if it is empty. ValueError, with the text, if it is wrong."""
     values = parse_numbers(text) or default
     if len(values) != count:
         raise ValueError(text)
@@ -124,12 +124,12 @@ def numbers(text: str, count: int, default: Sequence[float] = ()) -> NDArray[np.
 
 
 def number(text: str, default: float | None = None) -> float:
-    """Return the number of a text, the default if it is empty. Raise ValueError with a wrong text."""
+    """Return the number of a text, the default if it is empty. ValueError, with the text, if it is wrong."""
     return float(numbers(text, 1, () if default is None else (default,))[0])
 
 
 def attempt(findings: list[Finding], node: Node | None, read: Callable[..., Value], *more: object) -> Value | None:
-    """Return what a reader makes of an element; None without one, or with a finding if one of its numbers is none."""
+    """Return the result of `read` for an element; None without an element, or, with a finding, if a number is wrong."""
     if node is None:
         return None
     try:
@@ -153,9 +153,9 @@ def read_shapes(findings: list[Finding], link: Node, read: Callable[[Node], Plac
 def read_shape(
     node: Node, pose: Pose, kinds: Sequence[str], get: Callable[[Node, str], str], length: float | None = None
 ) -> Shape | None:
-    """Return the first shape of a geometry, "mesh" or of some kinds.
+    """Return the first shape of an element's `geometry` that is a mesh or one of some kinds, None if there is none.
 
-    get: returns the text of a property of an element. length: the default of a radius or a length.
+    get: returns the text of an element's property. length: default of a radius or length; without one, ValueError.
     """
     geometry = node.find("geometry")
     for element in geometry.children if geometry else ():
@@ -174,7 +174,7 @@ def read_shape(
 
 
 def _unreadable(node: Node, error: Exception) -> Finding:
-    """Return the finding about a text that is no number, and the element that holds it, else the node above."""
+    """Return the finding about a wrong number. It names the only element with that text, else the node."""
     text = str(error)
     holders = [
         one

@@ -33,7 +33,7 @@ _STYLE = (
 
 
 def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
-    """Return the report document of one file. repaired: the written copy."""
+    """Return the report document of one file. repaired: name of the repaired copy, None if there is none."""
     links = [
         {
             "name": one.link.name,
@@ -52,7 +52,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
 
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
-    """Return the numbers of links and of findings by severity: links, notes, warnings, errors."""
+    """Return the counts of "links", and of findings by severity: "notes", "warnings" and "errors"."""
     levels = [found["severity"] for link in document["links"] for found in link["findings"]]
     return {"links": len(document["links"]), **{str(level) + "s": levels.count(level) for level in Severity}}
 
@@ -99,7 +99,7 @@ def to_csv(documents: Sequence[dict[str, Any]]) -> str:
 
 
 def to_html(documents: Sequence[dict[str, Any]]) -> str:
-    """Return a page by itself, without scripts and without anything from elsewhere."""
+    """Return a self-contained HTML page, without scripts or links to other files."""
     lines = [AUDIT_PAGE, '<html lang="en">', '<meta charset="utf-8">', "<title>Audit</title>"]
     lines += ["<style>{}</style>".format(_STYLE), "<h1>Audit of robot descriptions</h1>"]
     for one in documents:
@@ -124,7 +124,7 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
 
 
 def to_text(document: dict[str, Any]) -> str:
-    """Return one file's findings, link by link, to be read by a person."""
+    """Return one file's findings as plain text, link by link."""
     lines = ["{} ({})".format(document["file"], document["format"]), ""]
     for link in document["links"]:
         lines.append(link["name"])

@@ -4,8 +4,7 @@
 
 The nodes stay as they are; nodes of bodies get the two extensions. Blender's z up is glTF's y up: (x, y, z) becomes (x,
 z, -y). Blender writes its own units as meters, whatever the scene's unit scale, so a node above all others scales them.
-A body that others are fixed to has the mass of all of them; nodes without a motion of their own move with the one
-above.
+A body has the mass of all links that are fixed to it; nodes without a motion of their own move with the node above.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ _GLB, JSON, BINARY = 0x46546C67, 0x4E4F534A, 0x004E4942  # a binary file, and ki
 
 
 def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
-    """Return the entry `motion` of both extensions, in the axes of the file.
+    """Return the entry `motion` of both extensions along the axes of the file, for an inertial along Blender's.
 
     scale: meters per unit of the node's own space along Blender's axes, for the center.
     """
@@ -52,9 +51,9 @@ def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any
 
 
 def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
-    """Give the nodes of a glTF document their motions, and the document its unit, in place; return findings.
+    """Add the motions of bodies to the nodes of a glTF document, and a node for its unit, in place; return findings.
 
-    robot: with links named like nodes. meters_per_unit: of the Blender scene.
+    robot: its links have the names of nodes. meters_per_unit: unit scale of the Blender scene.
     """
     nodes, bones = document.get("nodes", []), {joint for skin in document.get("skins", []) for joint in skin["joints"]}
     by_name: dict[str, list[dict]] = {}
@@ -87,14 +86,14 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
 
 
 def read_json(data: bytes) -> dict[str, Any]:
-    """Return the document of a .gltf or .glb file. ValueError if it has none."""
+    """Return the JSON document of the bytes of a .gltf or .glb file. ValueError if they have none."""
     if data[:4] != b"glTF":
         return json.loads(data)
     return json.loads(dict(chunks(data)).get(JSON, b""))
 
 
 def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
-    """Return the file with another document; the rest of a .glb stays to the bit."""
+    """Return the bytes of a file with another JSON document; other chunks of a .glb keep their bytes."""
     text = json.dumps(document, ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
     if data[:4] != b"glTF":
         return json.dumps(document, ensure_ascii=False, indent="\t", allow_nan=False).encode() + b"\n"
@@ -104,14 +103,14 @@ def replace_json(data: bytes, document: dict[str, Any]) -> bytes:
 
 
 def to_glb(text: str) -> bytes:
-    """Return a document as a binary file."""
+    """Return the JSON text of a document as the bytes of a .glb file."""
     body = text.encode()
     body += b" " * (-len(body) % 4)
     return struct.pack("<IIIII", _GLB, 2, 20 + len(body), len(body), JSON) + body
 
 
 def chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
-    """Yield kind and content of the chunks of a binary file."""
+    """Yield kind and content of each chunk of a .glb file."""
     start = 12
     while start + 8 <= len(data):
         length, kind = struct.unpack_from("<II", data, start)

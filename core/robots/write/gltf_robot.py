@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A robot as a glTF file of its own, as text: a node for each link, with joints of KHR_physics_rigid_bodies.
 
-Every link is a body, in meters and with y up. A joint's node stands in the parent's and its connected node in the
-child's, both in the place of the child's frame, turned so that axes of freedom are axes of theirs; fixed directions are
-limited to nothing. Meshes are embedded: glTF knows no files of other formats.
+Every link is a body, in meters and with y up. A joint has a node below the parent link's node and a connected node
+below the child's, both at the child's frame and turned so that the axes of freedom are axes of these nodes; fixed
+directions have the limits zero. Meshes are embedded: glTF knows no files of other formats.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as text of a .gltf file; parameters as of `urdf.write`."""
+    """Return a robot as the text of a .gltf file. remarks, inertial_only: as in `urdf.write`."""
     document = _Document(robot)
     for link in robot.ordered():
         document.add_link(link, inertial_only)
@@ -149,7 +149,7 @@ class _Document:
 
 
 def _implicit(shape: Shape) -> dict[str, Any]:
-    """Return a shape of KHR_implicit_shapes; its long axis y is our z."""
+    """Return a box, sphere, capsule or cylinder as an entry of KHR_implicit_shapes, in whose axes our z is y."""
     if shape.kind == "box":
         x, y, z = shape.size
         return {"type": "box", "box": {"size": [x, z, y]}}
@@ -160,7 +160,7 @@ def _implicit(shape: Shape) -> dict[str, Any]:
 
 
 def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
-    """Return the limits of a joint: fixed directions are held, limited ones have their range."""
+    """Return the limits of a joint along its node's axes: zero for fixed directions, the range of limited ones."""
     held = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
     limits: list[dict[str, Any]] = []
     for free in joint.free:

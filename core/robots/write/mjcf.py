@@ -18,7 +18,7 @@ from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
 from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_text
 
-LEAST = 1e-15  # mjMINVAL: MuJoCo refuses what moves and has less mass or inertia, kg and kg·m²
+LEAST = 1e-15  # mjMINVAL: MuJoCo refuses moving bodies of less mass or inertia, kg and kg·m².
 MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
 
 
@@ -41,7 +41,7 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as MJCF; parameters as of `urdf.write`."""
+    """Return a robot as MJCF. remarks, inertial_only: as in `urdf.write`."""
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], _name)
     root = Element("mujoco", model=xml_text(robot.name))
@@ -66,11 +66,11 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
 
 def _name(text: str) -> str:
     text = xml_text(text)
-    return text + "_" if text in ("world", "") else text  # the name of what all bodies are in
+    return text + "_" if text in ("world", "") else text  # The root that contains all bodies has this name.
 
 
 def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:
-    """Name each mesh once, however many links show it."""
+    """Add an asset for each mesh, once even if several links show it; return the names by `_mesh_key`."""
     files = {_mesh_key(shape): shape for link in robot.links for shape in link.shapes if shape.kind == "mesh"}
     if not files:
         return {}
@@ -129,7 +129,7 @@ def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
         _add_place(geom, shape.pose)
     if shape.kind == "mesh":
         geom.set("mesh", meshes[_mesh_key(shape)])
-        if shape.sheet:  # a flat one has no convex hull to collide as
+        if shape.sheet:  # A flat mesh has no convex hull to collide with.
             geom.set("contype", "0")
             geom.set("conaffinity", "0")
     elif shape.kind in ("capsule", "cylinder"):

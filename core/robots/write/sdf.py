@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """SDF 1.9, with a diagonal tensor in an inertial frame along the principal axes, as a quaternion.
 
-So the test of Gazebo for possible inertias meets numbers that rounding has not set apart.
+Rounding would change the moments of a full tensor, and Gazebo tests whether they are possible.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_text
 
-VERSION = "1.9"  # the first with quaternions; later parsers convert it, earlier ones refuse later files
+VERSION = "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 
@@ -32,7 +32,7 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as an SDF model; parameters as of `urdf.write`."""
+    """Return a robot as an SDF model. remarks, inertial_only: as in `urdf.write`."""
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], _name, names.values())
     root = Element("sdf", version=VERSION)
@@ -54,7 +54,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
 
 
 def _name(text: str) -> str:
-    """Return a valid name: pairs of colons separate models and links, and two kinds of names are the format's own."""
+    """Return a valid name: without `::`, which separates models and links, and not reserved by the format."""
     text = xml_text(text).replace("::", "_")
     return text + "_" if _RESERVED.fullmatch(text) or not text else text
 

@@ -25,13 +25,13 @@ def box_of_ellipsoid(shape: Shape) -> Shape:
 
 
 def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:
-    """Return the finding of a format without ellipsoids about a robot that has some."""
+    """Return the finding about a robot's ellipsoids for a format without them, empty if it has none."""
     names = [link.name for link in robot.links if any(shape.kind == "ellipsoid" for shape in link.shapes)]
     return [finding(ROBOT_ELLIPSOID_AS_BOX, count=len(names), links=names)] if names else []
 
 
 def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tuple[Robot, list[Finding]]:
-    """Return a robot with each link's surface by its name, in m along its axes, and a finding about links without."""
+    """Return a robot with the surface of each link (in m, along its axes), and a finding about links without one."""
     links, bare = [], []
     for link in robot.links:
         surface = surface_of(link.name) if link.shapes else None
@@ -43,7 +43,7 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
 
 
 def with_primitives(robot: Robot, kind: str) -> Robot:
-    """Return a robot with a "box", "ellipsoid", "capsule" or nothing ("none") for each link's geometry."""
+    """Return a robot with a "box", "ellipsoid", "capsule" or no shape ("none") as each link's geometry."""
     links = [
         replace(
             link,

@@ -17,13 +17,13 @@ from ..model import Robot
 from .text import unique_names
 
 MESH_FOLDER = "meshes"
-_MARKER = b"Body Moments".ljust(80, b"\0")  # the header, by which an older result is known
+_MARKER = b"Body Moments".ljust(80, b"\0")  # The header of our files, which may be overwritten.
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
 
 def to_stl(surface: Surface) -> bytes:
-    """Return a surface in m as binary STL, with zero normals, which readers find from the corners."""
+    """Return a surface in m as binary STL with zero normals, so that readers compute them from the corners."""
     triangles = surface.all_triangles()[0]
     rows = np.zeros(len(triangles), TRIANGLE)
     rows["corners"] = surface.points[triangles]
@@ -31,10 +31,10 @@ def to_stl(surface: Surface) -> bytes:
 
 
 def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bool = False) -> Robot:
-    """Write the surfaces of a robot's meshes, and return the robot that names their files.
+    """Write the surfaces of a robot's meshes to files, and return the robot with the names of these files.
 
-    output: the robot's own file, beside whose folder `meshes` they stand. read: a file that is never replaced. OSError
-    if a file cannot be written, or is no mesh of ours and not to be replaced by `force`; then none is written.
+    output: the robot's own file; the meshes go to the folder `meshes` beside it. read: a file that is never replaced.
+    OSError if a file cannot be written, or exists, is no mesh of ours, and `force` is False; then none is written.
     """
     files = mesh_files([link.name for link in robot.links], output.stem)
     surfaces = {
@@ -56,7 +56,7 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
 
 
 def mesh_files(names: Iterable[str], stem: str) -> dict[str, str]:
-    """Return each link's file, relative to the robot's own (`stem` plus suffix); names differ by more than case."""
+    """Return the mesh file of each link name, relative to the folder of the robot's file; unique even without case."""
     files = unique_names(names, _file_name)
     return {name: "{}/{}/{}.stl".format(MESH_FOLDER, _file_name(stem), file) for name, file in files.items()}
 
@@ -66,7 +66,7 @@ def _file_name(name: str) -> str:
 
 
 def _check_replaceable(path: Path, read: Path | None, force: bool) -> None:
-    """Raise FileExistsError if a mesh must not take the place of `path`."""
+    """Raise FileExistsError if a mesh must not replace the file `path`."""
     if not path.is_file():
         return
     if read is not None and read.exists() and path.samefile(read):

@@ -21,7 +21,7 @@ _SPACES = re.compile(r"[\t\n\r]")
 
 
 def number(value: float) -> str:
-    """Return the shortest text that is read as this float64; no negative zero."""
+    """Return the shortest text that is read as this float64, without a negative zero."""
     return repr(float(value) + 0.0)
 
 
@@ -31,12 +31,12 @@ def numbers(values: Iterable[float]) -> str:
 
 
 def xml_text(text: str) -> str:
-    """Return the text with an underscore for each character that no XML can hold, or that a reader would change."""
+    """Return the text with an underscore for each character that XML cannot hold or a reader would change."""
     return _SPACES.sub("_", _NOT_XML.sub("_", text))
 
 
 def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iterable[str] = ()) -> dict[str, str]:
-    """Return the new name of each name, by `rename`, numbered if another one has that already."""
+    """Return a dict from each name to its `rename`d name, with a number if that name is used or `taken`."""
     used, result = set(taken), {}
     for name in names:
         base = candidate = rename(name)
@@ -50,7 +50,7 @@ def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iter
 
 
 def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
-    """Return angles with rotation = Rz(yaw) Ry(pitch) Rx(roll), pitch within a quarter turn, right at the poles too."""
+    """Return roll, pitch and yaw with rotation = Rz(yaw) Ry(pitch) Rx(roll), -π/2 ≤ pitch ≤ π/2, also at the poles."""
     yaw = atan2(rotation[1, 0], rotation[0, 0])
     pitch = atan2(-rotation[2, 0], hypot(rotation[0, 0], rotation[1, 0]))
     roll = atan2(
@@ -60,19 +60,19 @@ def roll_pitch_yaw(rotation: NDArray) -> tuple[float, float, float]:
 
 
 def is_identity(pose: Pose) -> bool:
-    """Return whether two frames are the same."""
+    """Return whether a pose has no offset and no rotation."""
     return not pose.position.any() and bool((pose.rotation == np.eye(3)).all())
 
 
 def add_text(parent: Element, tag: str, text: str, **attributes: str) -> Element:
-    """Add an element with text."""
+    """Add an element with text and attributes, and return it."""
     element = SubElement(parent, tag, attributes)
     element.text = text
     return element
 
 
 def inertial_element(add: Callable[[Element, Inertial], None], inertial: Inertial) -> str:
-    """Return the text of the one element that a writer adds for an inertial."""
+    """Return the indented text of the element that `add` appends for an inertial."""
     parent = Element("link")
     add(parent, inertial)
     ElementTree.indent(parent[0])
@@ -80,7 +80,7 @@ def inertial_element(add: Callable[[Element, Inertial], None], inertial: Inertia
 
 
 def document(root: Element, kind: str, remarks: Iterable[str]) -> str:
-    """Return the text of an XML file: our marker and the remarks as comments, then the elements, indented."""
+    """Return the text of an XML file: our marker and the remarks as comments, then the root element, indented."""
     ElementTree.indent(root)
     lines = [MARKER.format(kind), *(xml_text(remark) for remark in remarks)]
     comments = ["<!-- {} -->\n".format(re.sub("-(?=-|$)", "- ", line)) for line in lines]

@@ -16,7 +16,7 @@ from ..model import Robot
 from .shapes import with_meshes
 from .stl import write_meshes
 
-OF_INERTIALS = {MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL}  # all else is said of geometry and joints
+OF_INERTIALS = {MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL}  # All other findings are about geometry and joints.
 
 
 def with_geometry(
@@ -27,7 +27,7 @@ def with_geometry(
     read: Path | None = None,
     force: bool = False,
 ) -> tuple[Robot, list[Finding]]:
-    """Return a robot with its meshes, as files if the format names such, and a finding about links without any."""
+    """Return a robot with meshes, written to files unless the format embeds them, and a finding about bare links."""
     robot, findings = with_meshes(robot, surface_of)
     return robot if FORMATS[format_name].holds_meshes else write_meshes(robot, output, read, force), findings
 
@@ -35,7 +35,7 @@ def with_geometry(
 def robot_text(
     robot: Robot, format_name: str, findings: Iterable[Finding] = (), *, inertial_only: bool = False
 ) -> tuple[str, list[Finding]]:
-    """Return a robot in a format, without geometry and joints if `inertial_only`, and all findings, as it has them."""
+    """Return a robot in a format, with all findings as remarks, and these findings. inertial_only: only inertials."""
     writer = FORMATS[format_name].writer_module
     said = [one for one in writer.check(robot) if one.code in OF_INERTIALS or not inertial_only]
     findings = [*findings, *said]

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """URDF, with the inertial frame and the tensor along the link's axes (rpy 0).
 
-Readers exist that ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly. ixy and so on are
-entries of the tensor, -∫xy dm.
+Some readers ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly. The products ixy, ixz and
+iyz are entries of the tensor, such as -∫xy dm.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_text
 
 BASE = "base_link"
-# A limited joint must state these, and nothing here knows them: N·m or N, and rad/s or m/s, which bind nothing.
+# A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an effect.
 EFFORT, VELOCITY = 1e6, 1e3
 
 
@@ -113,7 +113,7 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
 
 
 def _pieces(shape: Shape) -> list[Shape]:
-    """Return a shape as URDF shapes: a capsule is a cylinder and two spheres, an ellipsoid its inertia's box."""
+    """Return the URDF shapes of a shape: a cylinder and two spheres for a capsule, a box for an ellipsoid."""
     if shape.kind != "capsule":
         return [box_of_ellipsoid(shape)]
     radius, length = shape.size
@@ -124,7 +124,7 @@ def _pieces(shape: Shape) -> list[Shape]:
 def _add_joint(
     root: Element, taken: set[str], name: str, parent: str, child: str, pose: Pose, free: Sequence[FreeAxis]
 ) -> None:
-    """Add one joint for each degree of freedom, with frames without mass between them."""
+    """Add a joint for each degree of freedom, with massless links between them; a fixed joint if there is none."""
     for number_, axis in enumerate(free or (None,)):
         last = number_ + 1 >= len(free)
         frame = child if last else _free_name("{}_axis_{}".format(child, number_ + 1), taken)
@@ -151,7 +151,7 @@ def _joint_type(free: FreeAxis | None) -> str:
 
 
 def _add_limit(joint: Element, free: FreeAxis) -> None:
-    """Both limits, for URDF knows none that is open."""
+    """Add the limits of a joint; an open one becomes a far one, because URDF requires both."""
     far = 2.0 * pi if free.kind == "rotate" else 1e3
     lower, upper = max(free.lower, -far), min(free.upper, far)
     limit = {"lower": number(lower), "upper": number(upper), "effort": number(EFFORT), "velocity": number(VELOCITY)}

@@ -3,8 +3,8 @@
 """USD as plain text: PhysicsMassAPI, in single precision, and NewtonMassAPI, in double.
 
 Blender's Python has no `pxr`, so layers are written as text. The largest principal moment is rounded down until no
-moment exceeds the sum of the others in float32 too (rule RB.008 of NVIDIA's SimReady). A body that others are fixed to
-carries the mass of all of them, because the mass of a parent overrides that of its children.
+moment exceeds the sum of the others in float32 too (rule RB.008 of NVIDIA's SimReady). A body
+carries the mass of all links fixed to it, because the mass of a parent overrides that of its children.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .text import number, unique_names
 
 ROOT = "Robot"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
-LEAST = float(np.finfo(np.float32).tiny)  # Least number that float32 holds with all its digits.
+LEAST = float(np.finfo(np.float32).tiny)  # The least number that float32 holds with all its digits.
 _MASS_ATTRIBUTE = re.compile(
     r"[ \t]*(?:custom )?(?:uniform )?[\w:\[\]]+ (?:physics:(?:mass|centerOfMass|diagonalInertia|principalAxes)|"
     r"newton:inertia) = (?:\([^)]*\)|\[[^\]]*\]|[^\s(\[]+)[ \t]*;?\n?"
@@ -45,7 +45,7 @@ def check(robot: Robot) -> list[Finding]:
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
-    """Return a robot as a layer of its own, in meters, with a prim for each link; parameters as of `urdf.write`."""
+    """Return a robot as a USD layer, in meters, with a prim for each link. Parameters are those of `urdf.write`."""
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
     lines: list[str] = []
@@ -69,10 +69,10 @@ def write_over(
     meters_per_unit: float,
     remarks: Sequence[str] = (),
 ) -> str:
-    """Return a layer that gives the prims of another one their mass, and nothing else.
+    """Return a layer that adds mass to the prims of another layer, and nothing else.
 
-    paths: the prims of each root, from the top. geometry: the other layer's file, relative to this one. A body within a
-    body is none, so each root carries all that is fixed to it. meters_per_unit: of the scene, left out by its exporter.
+    paths: names of the prims from the top to each root link. geometry: the other layer's file, relative to this one.
+    meters_per_unit: of the scene, whose exporter omits it. Bodies cannot nest: each root carries all links fixed to it.
     """
     tree: dict[str, dict] = {}
     bodies = {}
@@ -119,7 +119,7 @@ def identifier(name: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """Return a string of a layer."""
+    """Return a text in quotes, escaped for a layer."""
     return '"{}"'.format(text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n"))
 
 
@@ -138,7 +138,7 @@ def mass_attributes(inertial: Inertial, meters_per_unit: float = 1.0, scale: Arr
 
 
 def inertial_text(inertial: StatedInertial, old: str, link: StatedLink, description: Description) -> str:
-    """Return the text of a prim with the attributes of a repaired inertial, before anything below."""
+    """Return a prim's inner text `old` with the attributes of a repaired inertial instead of its former ones."""
     unit, mass = description.scales["length"], description.scales["mass"]
     local = np.eye(4) if link.local is None else link.local
     principal = inertial.principal()
@@ -161,7 +161,7 @@ def round_down(moments: NDArray) -> NDArray[np.float32]:
 
 
 def single(value: float) -> str:
-    """Return the shortest text that is read as this float32; no negative zero."""
+    """Return the shortest text that is read as this float32, without a negative zero."""
     if abs(value) == inf:
         return "inf" if value > 0.0 else "-inf"
     return repr(float(str(np.float32(value) + np.float32(0.0))))
@@ -197,7 +197,7 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
 
 
 def _shape(shape: Shape, name: str) -> list[str]:
-    """Return a shape to collide as; nothing for a mesh without a surface."""
+    """Return the lines of a collision shape, none for a mesh without a surface."""
     if shape.kind == "mesh":
         return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name)
     kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
@@ -216,7 +216,7 @@ def _shape(shape: Shape, name: str) -> list[str]:
 
 
 def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """Return a mesh that collides as its convex hull. It stands in the layer: USD knows no files of other formats."""
+    """Return the lines of a mesh that collides as its convex hull, embedded: USD knows no files of other formats."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)
@@ -232,7 +232,7 @@ def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
-    """Return a joint in the child's frame; several degrees of freedom make a general joint with limits."""
+    """Return the lines of a joint in the child's frame, general with limits if it has several degrees of freedom."""
     child, parent = robot.link(joint.child), robot.link(joint.parent)
     place = parent.pose.inverse() @ child.pose
     turn = np.eye(3)
@@ -265,7 +265,7 @@ def _in_degrees(kind: str, value: float) -> float:
 
 
 def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
-    """Return the limits of each of the six directions; a locked one has a lower limit above the upper one."""
+    """Return API names and lines for limits of the six directions; a locked one has its lower limit above the upper."""
     limits = {"{}{}".format(kind, axis): (1.0, -1.0) for kind in ("trans", "rot") for axis in "XYZ"}
     for free in joint.free:
         kind = "rot" if free.kind == "rotate" else "trans"
