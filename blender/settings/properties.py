@@ -360,8 +360,8 @@ def _comparable(value):
 
 
 def apply_options(settings: PropertyGroup, options, scene: Scene) -> None:
-    """Write kind, overlap, density, mass and thickness from `MeasureOptions` into the settings, if not None."""
-    for name in ("kind", "overlap"):
+    """Write kind, overlap, wall, density, mass and thickness from `MeasureOptions` into the settings, if not None."""
+    for name in ("kind", "overlap", "wall"):
         if getattr(options, name) is not None:
             setattr(settings, name, getattr(options, name).upper())
     if options.density is not None and not is_point_mass(settings.id_data):

@@ -70,9 +70,9 @@ def test_written_results_are_current_after_opening(tmp_path):
     box = reopened(path)[files.BOX_NAME]
     assert box["body_density"] == 5.123456789 and box.body_moments.density == np.float32(5.123456789)
     assert staleness.stale_reason(box, bpy.context.scene) is None
-    measured(path, "--write", "--kind", "shell", "--thickness", "0.002", "--mass", "3")
+    measured(path, "--write", "--kind", "shell", "--thickness", "0.002", "--wall", "inward", "--mass", "3")
     box = reopened(path)[files.BOX_NAME]
-    assert box.body_moments.kind == "SHELL" and box.body_moments.mass_from == "MASS"
+    assert (box.body_moments.kind, box.body_moments.wall, box.body_moments.mass_from) == ("SHELL", "INWARD", "MASS")
     assert staleness.stale_reason(box, bpy.context.scene) is None
 
 
