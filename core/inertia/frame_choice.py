@@ -70,7 +70,6 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     If several are as near, take the one with axes that, in order, point along rather than against their preferred axes,
     so that noise cannot flip it. tilt: the angle by which noise may have turned the candidates, for all or for each.
     """
-    bodies = np.arange(len(candidates))
     if candidates.shape[1] == 1:
         return candidates[:, 0] + 0.0
     local = preferred_axes.transpose(0, 2, 1)[:, None] @ candidates
@@ -82,7 +81,7 @@ def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike
     is_along = np.take_along_axis(local, row, 2)[:, :, 0] > 0.0
     rank = np.where(near, is_along @ np.array([4, 2, 1]), -1)
     near = rank == rank.max(axis=1, keepdims=True)
-    for entry in np.moveaxis(local.reshape(*local.shape[:2], 9), 2, 0):  # several frames may still be left
+    for entry in local.reshape(*local.shape[:2], 9).transpose(2, 0, 1):  # several frames may still be left
         entry = np.where(near, entry, -np.inf)
         near = entry > entry.max(axis=1, keepdims=True) - equal
-    return candidates[bodies, near.argmax(axis=1)] + 0.0  # no negative zeros
+    return candidates[np.arange(len(candidates)), near.argmax(axis=1)] + 0.0  # no negative zeros

@@ -179,7 +179,7 @@ class MassProperties:
             self,
             center=(inverse @ arm[..., None])[..., 0],
             inertia=(inertia + inertia.swapaxes(-1, -2)) / 2.0,
-            principal=self.principal.rotate(inverse),
+            principal=replace(self.principal, axes=inverse @ self.principal.axes),
         )
 
 

@@ -18,7 +18,7 @@ whatever their faces, have one pose.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -76,10 +76,6 @@ class PrincipalFrame:
     def quaternion(self) -> NDArray[np.float64]:
         """(..., 4) w, x, y, z that turn the coordinate axes into the principal ones."""
         return quaternion(self.axes)
-
-    def rotate(self, rotation: ArrayLike) -> PrincipalFrame:
-        """Return the same frame in coordinates new = rotation @ old."""
-        return replace(self, axes=rotation_array("rotation", rotation) @ self.axes)
 
     def at(self, which: int | list[int]) -> PrincipalFrame:
         """Return one frame of a stack, or a stack of some of them."""

@@ -147,13 +147,9 @@ class Moments:
 
     def at(self, which: int | slice | list[int] | NDArray | None) -> Moments:
         """Return one body of a stack, or a stack of some of them."""
-        return replace(
-            self,
-            raw=self.raw[which],
-            about=self.about[which],
-            rounding_error=self.rounding_error[which],
-            input_error=self.input_error[which],
-        )
+        arrays = self.raw, self.about, self.rounding_error, self.input_error
+        raw, about, rounding, inputs = [array[which] for array in arrays]
+        return Moments(raw, about, self.measure, rounding, inputs)
 
     @property
     def center(self) -> NDArray[np.float64]:

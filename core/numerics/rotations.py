@@ -24,13 +24,13 @@ def rotation_array(name: str, values: ArrayLike) -> NDArray[np.float64]:
 def rotation_matrix(quaternion: ArrayLike) -> NDArray[np.float64]:
     """Convert quaternions (..., 4), w, x, y, z of any length but zero, to rotation matrices (..., 3, 3)."""
     q = float_array("quaternion", quaternion, ..., 4)  # before the norm: mathutils returns float32
-    w, x, y, z = np.moveaxis(q / np.sqrt(np.add.reduce(q * q, axis=-1))[..., None], -1, 0)
+    w, x, y, z = (q / np.sqrt(np.add.reduce(q * q, axis=-1))[..., None]).T
     rows = (
         (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
         (2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)),
         (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)),
     )
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    return np.array(rows).T.swapaxes(-1, -2)
 
 
 def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
@@ -52,7 +52,7 @@ def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
     >>> quaternion(np.eye(3)).tolist()
     [1.0, 0.0, 0.0, 0.0]
     """
-    m = np.moveaxis(float_array("rotation", rotation, ..., 3, 3), (-2, -1), (0, 1))
+    m = float_array("rotation", rotation, ..., 3, 3).swapaxes(-1, -2).T
     # Shepperd's method: 4 q qᵀ has no cancellation in the column of its largest diagonal entry.
     outer = np.array(
         [
@@ -65,7 +65,7 @@ def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
     best = outer.diagonal(axis1=0, axis2=1).argmax(axis=-1)
     column = np.take_along_axis(outer, best[None, None], axis=1)[:, 0]
     column = column / np.sqrt(np.add.reduce(column * column))
-    return np.moveaxis(np.where(column[0] >= 0.0, column, -column), 0, -1) + 0.0  # no negative zeros
+    return np.where(column[0] >= 0.0, column, -column).T + 0.0  # no negative zeros
 
 
 MAX_AXIS_COSINE = 1e-5  # the cosine of axes that float32 rotations never show

@@ -17,7 +17,7 @@ from ..numerics.arrays import batches
 from ..numerics.vectors import cross, dot
 from .any_order import area_factors
 
-TRIANGLES_PER_BLOCK = 256  # whose levels stay in the cache
+TRIANGLES_PER_BLOCK = 512  # whose levels stay in the cache
 
 
 def extend_small_moments(

@@ -64,8 +64,8 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
     part = stack.some(which)
     objects = [member.obj for member in part.members]
     about = {}
-    for obj in objects:
-        staleness.note_edits(obj)
+    for obj, member in zip(objects, part.members):
+        staleness.note_edits(obj, member.shape.digest if obj.mode == "OBJECT" else None)
         if "body_reference" in obj:
             about[obj] = reference.stored_choice(obj)
     findings = list(part.findings)

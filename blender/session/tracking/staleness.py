@@ -245,10 +245,11 @@ def set_edited(obj: Object, text: str, is_edited: bool) -> None:
         _edited[obj] = noted | {text} if is_edited else noted - {text}
 
 
-def note_edits(obj: Object) -> None:
+def note_edits(obj: Object, shape: bytes | None = None) -> None:
     """Note the effects of all updates since the last call on the stamps of an original object.
 
     Call it before its stamps are replaced: later nobody could say whether the geometry has changed since.
+    shape: the `surface_digest` of an object that was read just now.
     """
     uid, newest = obj.session_uid, updates.count()
     seen = _resolved.get(uid, 0)
@@ -259,8 +260,8 @@ def note_edits(obj: Object) -> None:
     if last.number <= seen:
         return
     carried = stamps.with_geometry(obj)
-    depsgraph = updates.depsgraph_of(last) if any([text in _shapes for text in carried]) else None
-    shape = None if depsgraph is None else read.shapes.shape_digest(obj, depsgraph)
+    if shape is None and any([text in _shapes for text in carried]) and (depsgraph := updates.depsgraph_of(last)):
+        shape = read.shapes.shape_digest(obj, depsgraph)
     for text, kind in carried.items():
         if shape is not None and text in _shapes:
             set_edited(obj, text, shape != _shapes[text])

@@ -413,7 +413,6 @@ def test_frames_other_than_rotations_are_refused(matrix):
     for turn in (
         lambda: moments.in_frame(matrix, np.zeros(3)),
         lambda: properties.in_frame(matrix, np.zeros(3)),
-        lambda: properties.principal.rotate(matrix),
         lambda: pose_matrix(np.zeros(3), matrix),
         lambda: Reference(np.zeros(3), matrix),
     ):
