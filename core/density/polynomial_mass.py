@@ -32,7 +32,7 @@ def polynomial_mass_of_images(
 ) -> Moments:
     """Return the sum of the mass moments of k images of a body, to the moments' order less the density's degree.
 
-    moments: of the volume or area; ValueError if below the degree. matrices: (k, 4, 4) the images, as for
+    moments: of the volume or area; ValueError if the order is below the degree. matrices: (k, 4, 4) the images, as for
     `sum_of_images`. fields: (k, 4, 4) from the body's own coordinates to the density's, taken exactly; by default
     `matrices`. about: (3,), by default the mean of the images of `moments.about`. The bounds of rounding and input
     hold for bodies with negative density somewhere too.

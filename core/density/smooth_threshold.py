@@ -86,7 +86,7 @@ def _cardinal(order: int, x: float) -> float:
 
 
 def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> ThresholdBody:
-    """Add a share of the difference from another body's moments; if share is None, add it to the bounds instead."""
+    """Add to the moments a share of their difference from another body's; if None, add it to their bounds."""
 
     def combined(fine: Moments, coarse: Moments) -> Moments:
         difference = fine.raw - coarse.about_point(fine.about).raw

@@ -86,7 +86,7 @@ class SplineAxis:
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
         """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt.
 
-        Error: at most `rounding_counts` roundings of ∫ B_i times the l-th power of the largest |t - center| in it.
+        Error: at most `rounding_counts` roundings of ∫ B_i times the largest |t - center|^l in the support.
         """
         return full_support_integrals(self.knots - center, self.order, degree)
 

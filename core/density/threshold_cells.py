@@ -87,7 +87,7 @@ class Columns:
 
 
 def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
-    """Return the columns along z at Gauss points, by a rule between any two lines where the surface leaves a cell.
+    """Return the columns along z at the Gauss points between the lines where the surface leaves a cell.
 
     metric: (3, 3) scales the area of a piece of surface by √(n·metric·n) for its normal n.
     """

@@ -36,7 +36,7 @@ TRIANGLES_PER_BLOCK = 1 << 13
 class AxialHarmonics:
     """Harmonics about an axis, as shares of the largest possible ones.
 
-    The largest possible ones are those of a body with this radius and height, but at least LEAST_HEIGHT high.
+    The largest possible ones are those of a body with this radius and height, at least LEAST_HEIGHT radii.
     `frame`: a rotation with the axes x, y, z as columns; z is the axis.
     `values`: (2, n + 1) ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
     """

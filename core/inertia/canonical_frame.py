@@ -149,7 +149,7 @@ def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
-    """Turn the bases about their axis of this number so that the first clear harmonic becomes real.
+    """Turn the bases about their axis number `axis` so that the first clear harmonic becomes real.
 
     Return the frames, (degree, m, k) of the harmonic or None, and the angle by which noise may have turned them.
     fourfold: the sign of a harmonic with m = 4; others become positive. E[cos 4φ] is negative for a square with sides

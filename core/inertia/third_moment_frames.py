@@ -28,9 +28,9 @@ OWN_AXIS = np.arange(3)[:, None]
 HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
 
 SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
-# by symmetry, the axes whose moments are equal
+# For each symmetry, the axes with equal moments.
 EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
-FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the axis of the other moment
+FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the axis with the moment that differs
 IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for name in SYMMETRIES])
 
 

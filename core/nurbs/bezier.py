@@ -127,7 +127,7 @@ def _cells_of_group(
         some = group[first : first + step]
         nets = np.array([patch.points for patch in some])
         anchor = nets[:, 0, 0].copy()
-        nets -= anchor[:, None, None]  # before `about`: far from it the differences would be rounded
+        nets -= anchor[:, None, None]  # first: far from `about` the differences would be rounded
         anchor -= about
         control_points = nets + anchor[:, None, None]
         reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", control_points, control_points), axis=None))

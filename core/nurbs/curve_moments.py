@@ -8,7 +8,7 @@ A region's moments follow from the flux through its boundary, by Green's theorem
 
 with an integrand of degree (n + 2) d - 1 for a polynomial curve of degree d: exact by Gauss's rule. For rational
 curves, and for the square root in lengths, rules are compared as in `patch_moments`, and the difference is reported as
-an estimate. A length has a kink if its curve turns back; two rules may miss it alike. The tangents of a Bézier curve
+an estimate. Lengths have kinks where curves turn back; two rules may miss them alike. The tangents of a Bézier curve
 lie in the cone of its control polygon's edges (Floater 1992), so that such places are found and halved until they are
 too short to matter.
 """
@@ -30,8 +30,8 @@ from .patch_moments import ROUNDING, VOLUME_RTOL
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.
-MAX_DEPTH = 60  # times that a piece is halved
-MAX_WEIGHT_RATIO = 1e8  # Of a piece, largest by smallest: beyond it two rules may miss the same part.
+MAX_DEPTH = 60  # Limit of successive halvings of a piece.
+MAX_WEIGHT_RATIO = 1e8  # Largest by smallest weight of a piece: beyond it two rules may miss the same.
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:

@@ -37,7 +37,7 @@ VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoi
 AREA_RTOL = 1e-11
 # Factor on the difference of two rules that do not agree yet when all points are spent.
 UNCONVERGED_FACTOR = 8.0
-# Of a cell, largest by smallest: beyond these, rules may differ by less than their error, or miss the same part.
+# Largest by smallest weight of a cell: beyond these, rules may differ by less than their error, or miss the same part.
 MAX_WEIGHT_RATIOS = 1e2, 1e6
 # Factor on the difference of two rules: if a patch folds back, its area has kinks, and both rules may err alike.
 FOLD_FACTOR = 8.0
@@ -45,7 +45,7 @@ MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbor by less 
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
 COARSE_RULES = (8, 12, 18)  # Used for tolerances from `AREA_RTOL` upward.
 MIN_DIVISOR = 1e-300  # Divisors are at least this.
-MAX_DEPTH = 14  # times that a cell is cut
+MAX_DEPTH = 14  # Limit of successive cuts of a cell.
 MAX_POINTS = 6_000_000  # Limit of evaluated points.
 POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
@@ -213,7 +213,7 @@ def _slope_of_tile(
 def sheet_moments(
     patches: Sequence[Patch], inner: float, outer: float, order: int = 3, about: NDArray | None = None
 ) -> tuple[Moments, bool]:
-    """Return the volume moments of the sheet {S + h n : inner ≤ h ≤ outer}, n the unit normal; and if they converged.
+    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, n the unit normal, and whether they converged.
 
     Across the sheet the integrand has degree order + 2 in h, so a rule of ceil((order + 3) / 2) points is exact.
     MeasureError if the sheet is thicker than its surface's radius of curvature, so that it runs through itself.

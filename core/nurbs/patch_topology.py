@@ -38,7 +38,7 @@ PAIRS_PER_BATCH = 1 << 20  # Candidate pairs of sides at a time.
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
 MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itself.
 MAX_SIDE_PAIRS = 100_000  # Limit of closed sides compared point by point.
-SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
+SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
 
 
 @dataclass(frozen=True, eq=False)

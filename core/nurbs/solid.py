@@ -179,7 +179,7 @@ def assess(
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
     is_open = bool(topology.unclosable.any() or not verdict.solid.any())
-    whole_sign = -1.0 if volume.total < 0.0 else 1.0  # Negative if open, or if cavities overlap each other.
+    whole_sign = -1.0 if volume.total < 0.0 else 1.0  # May be negative if open, or if cavities overlap.
     volume = replace(volume, raw=whole_sign * volume.raw)
     reach = size + 4.0 * stored
     # Caps move with their boundaries: their area counts too.

@@ -24,7 +24,7 @@ def counts() -> tuple[int, int]:
 
 @lru_cache
 def _turning(order: int) -> list[Key]:
-    """Return (p, q) of the complex moments that change by a turn, from second order on: the first are zero."""
+    """Return (p, q) of the complex moments that change by a turn, from second order on, as the first are zero."""
     return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
 
 

@@ -77,7 +77,7 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
     Raises
     ------
     FileError
-        If a line of the file is no such record, or is too long.
+        If a line of the file is not such JSON, or too long.
 
     Examples
     --------

@@ -62,7 +62,7 @@ class Signature:
     `size`: the radius of gyration, in the body's unit.
     `invariants`, `zernike`, `fourier`, `chirality`: see the module; `fourier` is empty for moments of a surface.
     `error`: an estimate of the rounding of the descriptors.
-    `dimension`: 3, or 2 for a flat shape (`flat_signature`), which no body is like.
+    `dimension`: 3, or 2 for a flat shape (`flat_signature`), which is unlike every body.
     """
 
     size: float
@@ -274,7 +274,7 @@ def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> lis
 
 
 def _multiplets(order: int) -> list[Key]:
-    """Return (n, l) of the harmonic moments that change by a turn, l > 0, from second order on: the first are zero."""
+    """Return (n, l) of the harmonic moments that change by a turn, l > 0, from second order on: first ones are zero."""
     return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 

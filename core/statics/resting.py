@@ -131,7 +131,7 @@ def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
 
 
 def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """Find the faces of a hull, given its points relative to the center and a planar distance."""
+    """Find the faces of a hull, given its points from the center; least: distances below it count as none."""
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
     face, count = _coplanar(points, triangles, neighbors, double, least)

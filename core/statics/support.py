@@ -53,7 +53,7 @@ class Support:
 
 
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
-    """Return a (3, 3) rotation with columns along the ground, along the ground, and up; down: direction of gravity."""
+    """Return a (3, 3) rotation with two columns along the ground and the third up; down: direction of gravity."""
     up = -float_array("down", down, 3)
     return frame_about(up / float(np.linalg.norm(up)))
 
