@@ -203,5 +203,5 @@ SYSTEM_UNITS = {"METRIC": "KG_M3", "IMPERIAL": "LB_FT3", "NONE": "KG_M3"}  # The
 
 
 def density_unit(chosen: str, system: str) -> str:
-    """Return one of `DENSITY_UNITS`: the chosen one, or for "AUTO" that of a unit system (`SYSTEM_UNITS`)."""
+    """Return a key of `DENSITY_UNITS`: `chosen`, or for "AUTO" the key for a unit system (`SYSTEM_UNITS`)."""
     return SYSTEM_UNITS[system] if chosen == "AUTO" else chosen

@@ -3,7 +3,7 @@
 """One density for each closed part of a body, from the densities of its faces.
 
 A part is filled with the material of its faces. If they differ it takes their mean, weighted by area. A cavity has no
-material: its volume is taken away from the part that it is cut from, whatever its own faces are painted with.
+material: its volume is taken away from the part that it is cut from, whatever material its own faces have.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from ..solid.orientation import ClosedParts
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """Densities of parts, (number,) each, from their faces.
+    """Densities of parts from those of their faces, in arrays (number,).
 
-    has_several_materials: its own faces differ; has_foreign_cavity_material: a cavity with faces of other densities
-    than the part it is cut from. first_face: a part's first mesh face, -1 for none. range_by_area, most_by_area: how
-    far its faces' densities are apart, and the largest of them, times its area.
+    has_several_materials: the part's faces differ in density. has_foreign_cavity_material: the part is a cavity with a
+    face of another density than the part that it is cut from. first_face: a part's first mesh face, -1 if it has none.
+    range_by_area, most_by_area: the range of its faces' densities, and the largest density, times the part's area.
     """
 
     density: NDArray[np.float64]
@@ -34,7 +34,7 @@ class PartDensities:
 
 
 def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
-    """Return one density for each part, from (f,) the density of every mesh face; areas count under the linear map."""
+    """Return one density for each part, from (f,) those of mesh faces, weighted by their areas under the linear map."""
     of_mesh = parts.face >= 0
     part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]
     first = np.full(parts.number, np.iinfo(np.int64).max)

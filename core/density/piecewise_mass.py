@@ -62,10 +62,10 @@ def _block_size(order: int) -> int:
 
 
 def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each of one density; the result maps as a volume.
+    """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each of one density, with measure VOLUME.
 
-    points: (n, 3). triangles: (t, 3). density: (t,) that of the part which the triangle bounds, not negative. like: the
-    same parts' volume moments; their order, point and coordinate error are taken.
+    points: (n, 3). triangles: (t, 3). density: (t,) density of the part that each triangle bounds, not negative. like:
+    the parts' volume moments, for the order, the reference point and the input error.
     """
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
@@ -89,8 +89,8 @@ def sheet_mass_moments(
 ) -> Moments:
     """Return ∫ ρ x^p y^q z^r dA, with densities (t,) of triangles, or (t, 3) of their corners, linear between them.
 
-    No density may be negative. like: the area moments, to the order that is wanted; the result maps as they do. stored:
-    the densities were float32, which goes into `input_error`.
+    No density may be negative. like: the sheet's area moments, for the order, the reference point and the input error;
+    the result has measure AREA as well. stored: True if the densities were float32, which adds to `input_error`.
     """
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=False)
     reach = _reach(points, triangles, like.about)
@@ -106,7 +106,7 @@ def sheet_mass_moments(
 def _accumulate(
     points: NDArray, triangles: NDArray, density: NDArray, like: Moments, solid: bool
 ) -> tuple[NDArray[np.float64], float, NDArray[np.float64]]:
-    """Return (K,) Σ weight h; Σ |weight| ρ; and (3,) Σ ρ τ; weights are ρ det or, for sheets, ρ times doubled areas."""
+    """Return (K,) Σ ρ h weight, Σ ρ |weight| and (3,) Σ ρ τ; weights are determinants or, for sheets, doubled areas."""
     order, step = like.order, _block_size(like.order)
     series = _complete_homogeneous if density.ndim == 1 else _with_linear_density
     block_sums, sizes, tau = [np.zeros(monomial_count(order))], 0.0, np.zeros(3)
@@ -144,7 +144,7 @@ def _with_linear_density(corners: NDArray, density: NDArray, order: int) -> NDAr
     for corner in range(3):
         _multiply_by_geometric_series(table, corners[:, corner], order)
         linear += table * density[corner]
-        # 1/(1 - v·t - ρ s): the part linear in s is that of before plus ρ times the whole, then divided by (1 - v·t).
+        # 1/(1 - v·t - ρ s): the part linear in s is the former one plus ρ times the whole, then divided by (1 - v·t).
         _multiply_by_geometric_series(linear, corners[:, corner], order)
     return linear
 
@@ -158,7 +158,7 @@ def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -
 
 
 def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.float64]:
-    """Return (3,) how far any corner is from the reference point, along each axis."""
+    """Return (3,) the largest distance of a corner from the reference point along each axis."""
     reach = np.zeros(3)
     for start in range(0, len(triangles), CORNERS_PER_BLOCK):
         for axis in range(3):
@@ -178,5 +178,5 @@ def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
 
 
 def to_mass_moments(moments: Moments, factor: float = 1.0) -> Moments:
-    """Return weighted moments, mapped to their place, as mass moments; factor: a sheet's thickness."""
+    """Return density-weighted moments, already transformed, as mass moments; factor: a sheet's thickness."""
     return replace(moments, measure=Measure.MASS) * factor

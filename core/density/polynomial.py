@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Polynomials in x, y, z that a person types as a density: read safely, kept exactly, bounded on a box.
 
-Coefficients are rational numbers, so that a polynomial can be developed about any point without rounding: one
-coefficient at a time is rounded when it is used. An expression is parsed by `ast`, and only syntax named in
+Coefficients are rational numbers, so that a polynomial can be expanded about any point without rounding: each
+coefficient is rounded once, when it is used. An expression is parsed by `ast`, and only syntax named in
 `parse_polynomial` is accepted; nothing is evaluated.
 
 On a box a polynomial lies between the least and the largest of its Bernstein coefficients (G. T. Cargo and O. Shisha,
@@ -41,9 +41,9 @@ from .findings import (
 
 MAX_DEGREE = 17  # mass moments to order 3 then need those of the body to order 20
 MAX_LENGTH = 4096  # bits of a number, and characters of a text
-MAX_EXPONENT = 664  # powers of two to which numbers may be large, or small: 1e200
+MAX_EXPONENT = 664  # largest power of two by which numbers may be large or small: 1e200
 POINTS_PER_BLOCK = 1 << 15  # points that are evaluated together
-MAX_BOXES = 600  # boxes that are looked at for a bound
+MAX_BOXES = 600  # boxes that are halved for a bound
 Exponents = tuple[int, int, int]
 VARIABLES: dict[str, Exponents] = {"x": (1, 0, 0), "y": (0, 1, 0), "z": (0, 0, 1)}
 CORNERS = tuple(product((0, -1), repeat=3))
@@ -103,7 +103,7 @@ class Polynomial:
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
         """Return a lower bound of the polynomial on a box, less rounding: some 1e-13 of the sum of the terms' sizes.
 
-        The box is halved as long as that may still prove it not negative, at most `MAX_BOXES` times.
+        The box is halved as long as that may still prove the polynomial not negative, at most `MAX_BOXES` times.
         """
         low, high = np.asarray(low, float), np.asarray(high, float)
         local = self.translate(low).coefficients()
@@ -125,7 +125,7 @@ class Polynomial:
 
 
 def parse_polynomial(text: str) -> Polynomial:
-    """Parse a polynomial that a person typed: an expression such as ``1000 + 20*z``, or coefficients as of `from_list`.
+    """Parse a polynomial that was typed: an expression such as ``1000 + 20*z``, or coefficients as for `from_list`.
 
     MeasureError if the text is no polynomial; the finding names the offending part.
     """

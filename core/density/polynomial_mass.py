@@ -4,7 +4,7 @@
 
 With F[α] = ∫ x^α and a density p(y), y = D u + e in the coordinates u about the moments' own point, the mass has the
 functional G[α] = Σ_β p_β (y^β F)[α]; multiplying by a linear form costs one order, as in `moments`. So mass moments to
-order 3 come exactly from moments to order 3 + degree. The polynomial is developed exactly about the place of the body,
+order 3 come exactly from moments to order 3 + degree. The polynomial is expanded exactly about the place of the body,
 so that neither a body far away nor a density given far away loses digits.
 """
 
@@ -30,12 +30,12 @@ def polynomial_mass_of_images(
     fields: NDArray | None = None,
     about: ArrayLike | None = None,
 ) -> Moments:
-    """Return the mass moments of k images of one body with a polynomial density, as one body, of the remaining order.
+    """Return the sum of the mass moments of k images of a body, to the moments' order less the density's degree.
 
-    moments: of the volume or area, to order n + the degree, else ValueError. matrices: (k, 4, 4) the images, as for
+    moments: of the volume or area; ValueError if the order is below the degree. matrices: (k, 4, 4) the images, as for
     `sum_of_images`. fields: (k, 4, 4) from the body's own coordinates to the density's, taken exactly; by default
-    `matrices`. about: (3,), by default the mean of the images of `moments.about`. The bounds of rounding and input, the
-    images of the moments' own, hold for bodies with negative density somewhere too.
+    `matrices`. about: (3,), by default the mean of the images of `moments.about`. The bounds of rounding and input
+    hold for bodies with negative density somewhere too.
     """
     order = moments.order - density.degree
     if order < 0:
@@ -72,7 +72,7 @@ def polynomial_mass_of_images(
         moved = transform_by_horner(weighed_input, order, *reach)
         error += rounding.sum(axis=1)
         inputs += (weight * moved).sum(axis=1)
-        if anisotropy.any():  # a face at a time, some more and some less
+        if anisotropy.any():  # areas scale differently from face to face
             largest = transform_by_horner(largest, order, reach[0], reach[1] + tolerance)
             inputs += (weight * anisotropy * largest).sum(axis=1)
     return Moments(raw, center, Measure.MASS, error, inputs)
@@ -81,7 +81,7 @@ def polynomial_mass_of_images(
 def _mass_functional(
     moments: Moments, order: int, terms: Terms, forms: tuple[NDArray, NDArray], misplacement: NDArray
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Return (K, k) each: G, its rounding bound, the image of `moments.input_error`, bounds of magnitudes.
+    """Return four (K, k) arrays: G, its rounding bound, its bound by `moments.input_error`, bounds of magnitudes.
 
     forms: (3, 3, k) and (3, k), the density's coordinates; misplacement: (3, k) the error bounds of their constants.
     """
@@ -131,7 +131,7 @@ def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[ND
 
 
 def local_coordinates(matrices: NDArray) -> NDArray[np.float64]:
-    """Return (k, 4, 4) maps from coordinates of a body at (k, 4, 4) places to lengths along its own axes."""
+    """Return (k, 4, 4) maps from a body's coordinates to lengths along its own axes, under (k, 4, 4) transforms."""
     axes, _ = polar_rotation(matrices)
     fields = np.zeros((len(matrices), 4, 4))
     fields[:, :3, :3] = axes.transpose(0, 2, 1) @ np.asarray(matrices, np.float64)[:, :3, :3]

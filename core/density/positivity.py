@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests for negative values of a polynomial density in a body.
 
-It has none if its bound on the box around the body says so, or if it is linear and has none at the vertices. Else
-points of the body are tried: vertices, middles of faces, and grid points inside.
+A density has none if its lower bound on the body's box is not negative, or if it is linear and not negative at the
+vertices. Else points of the body are tried: vertices, middles of faces, and grid points inside.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ MAX_LOCATED_POINTS = 24  # points that are located in the body
 def find_negative_point(
     density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
 ) -> tuple[tuple[float, NDArray] | None, bool]:
-    """Return a negative value and its place, (3,), or None; and True if an unfound one may exist.
+    """Return a negative value and its point (3,), or None; and True if there may be an undetected negative value.
 
     points: (n, 3) in the density's coordinates. triangles: (m, 3). solid: the inside counts too.
     """
@@ -43,7 +43,7 @@ def find_negative_point(
 
     largest = float(np.abs(values).max())
     least = int(np.argmin(values))
-    if values[least] < 0.0:  # at the surface, where the density of all of it may be next to nothing
+    if values[least] < 0.0:  # the density may be close to zero all over the surface
         most = next(filter(inside, np.argsort(-inner, kind="stable")[:MAX_LOCATED_POINTS].tolist()), None)
         largest = largest if most is None else max(largest, inner[most])
     if values[least] < -NEGLIGIBLE_RTOL * largest:

@@ -3,8 +3,8 @@
 """The constant set of a smooth trivariate: a B-spline of higher order, to a stated tolerance.
 
 The spline is evaluated on finer grids; their trilinear interpolants converge to it with the square of the spacing. So a
-third of the difference of two of them is added to the finer one (Richardson); the change of the sum from one grid to
-the next is the estimate of its error.
+third of the difference of two of them is added to the finer one (Richardson); the change of the result from one grid
+to the next is the estimate of its error.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ def smooth_threshold_body(
     """Return the moments of the set on which a uniform spline of (nx, ny, nz) coefficients is at least a threshold.
 
     The spline order is 3 or more; 4 is cubic. The other parameters are as for `threshold_body`. Without a background
-    the outermost coefficients go on beyond the grid, which ends at them all the same. The bounds include the difference
-    of the last two grids.
+    below the threshold, the outermost coefficients are repeated beyond the grid, but the body is cut off at its edge.
+    The bounds include the difference of the last two extrapolations.
     """
     samples = np.asarray(samples, np.float64)
     matrix = np.eye(4) if matrix is None else np.asarray(matrix, np.float64)
@@ -79,14 +79,14 @@ def spline_values(coefficients: NDArray, order: int, parts: int) -> NDArray[np.f
 
 
 def _cardinal(order: int, x: float) -> float:
-    """Return the B-spline of this order over integer knots, centered."""
+    """Return the value at x of the centered B-spline of this order, with knots at unit distance."""
     return sum(
         (-1.0) ** j * math.comb(order, j) * max(x + order / 2.0 - j, 0.0) ** (order - 1) for j in range(order + 1)
     ) / math.factorial(order - 1)
 
 
 def _combine(body: ThresholdBody, other: ThresholdBody, share: float | None) -> ThresholdBody:
-    """Add a share of the difference to another body to the moments, or with share None to their bounds."""
+    """Add to the moments a share of their difference from another body's; if None, add it to their bounds."""
 
     def combined(fine: Moments, coarse: Moments) -> Moments:
         difference = fine.raw - coarse.about_point(fine.about).raw

@@ -10,8 +10,8 @@ so three small tables (`spline_tables`) are all there is to precompute, and the 
 along the axis that is contiguous in memory, in blocks that stay in the cache, the others on the small result. A grid
 may therefore be larger than memory.
 
-The knots are centered first; if the mass stands far from their middle for its size, once more about the knot
-nearest to its center, as the paper advises (section 5).
+The moments are taken about the middle of the knots; if the mass is far from there, relative to its size, once more
+about the knot nearest to its center, as the paper advises (section 5).
 
 Rounding is bounded without another pass. In the support of B_i a power |t|^l is at most (|t| + w)^l, w the widest
 support, and an odd power at most the even one below it times the largest |t|. So for coefficients that are not negative
@@ -34,7 +34,7 @@ from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_tables import SplineAxis
 
 COEFFICIENTS_PER_BLOCK = 1 << 17  # coefficients at a time: 1 MB of float64
-# |offset|² over variance from which the moments are taken anew, about a point nearer to the mass
+# |offset|² over variance above which the moments are taken anew, about a point nearer to the mass
 MAX_OFFSET_RATIO = 64.0
 
 Blocks = Callable[[], Iterable[tuple[tuple[int, int, int], NDArray]]]
@@ -48,11 +48,11 @@ def density_moments(
 ) -> Moments:
     """Return the mass moments of a density that is a trivariate B-spline, in the coordinates of three axes' knots.
 
-    They are about the middle of the knots; if the mass is far from it, about the knot nearest to its center (Soldea,
-    Elber and Rivlin, sections 4 and 5).
+    Their reference point is the middle of the knots; if the mass is far from it, the knot nearest to its center
+    (Soldea, Elber and Rivlin, sections 4 and 5).
 
     coefficients: (nx, ny, nz) of any real type, a memory map if larger than memory. Or a function that yields blocks,
-    (offset, array) each, none twice, all else zero: the grid need not be dense. value: converts a block's numbers to
+    (offset, array) each, without overlap; all other coefficients are zero. value: converts a block's numbers to
     coefficients. ValueError if the shapes differ, MeasureError if a coefficient is not finite.
     """
     axes = tuple(axes)
@@ -81,13 +81,13 @@ def grid_moments(
 ) -> Moments:
     """Return the mass moments of a grid of density samples.
 
-    They are about the image of the middle of the grid; if the mass is far from it, of the knot nearest to its
+    The moments are about the image of the middle of the grid; if the mass is far from it, of the knot nearest to its
     center. The samples are the coefficients of a spline with full supports, uniform along each axis without positions.
 
     Parameters
     ----------
     samples : (nx, ny, nz) array, or callable
-        Of any real type, a memory map if larger than memory; or a function that yields blocks, (offset, array) each.
+        Numbers of any real type, a memory map if larger than memory; or a function that yields (offset, array) blocks.
     shape : sequence of three int
         Shape of the grid, also if `samples` yields blocks.
     matrix : (4, 4) array_like
@@ -95,7 +95,7 @@ def grid_moments(
     spline_order : int
         1 for voxels, 2 for trilinear, 4 for cubic.
     order : int
-        Of the moments.
+        Order of the moments.
     value : callable, optional
         Converts a block's numbers to densities.
     positions : sequence of three array_like or None
@@ -104,7 +104,7 @@ def grid_moments(
     Returns
     -------
     Moments
-        Of mass, in the coordinates that the matrix leads to.
+        Mass moments, in the coordinates that the matrix leads to.
 
     Raises
     ------
@@ -138,7 +138,7 @@ def _moments_about(
 ) -> Moments:
     """Return the moments about a point, with their bounds."""
     axis_order = np.arange(3)
-    if not callable(coefficients):  # the first contraction runs along what is contiguous
+    if not callable(coefficients):  # the first contraction runs along the contiguous axis
         axis_order = np.argsort([-abs(stride) for stride in coefficients.strides], kind="stable")
         coefficients = coefficients.transpose(axis_order)
     tables = [axes[i].table(order, about[i]) for i in axis_order]
@@ -164,7 +164,7 @@ def _moments_about(
 
 
 def _pieces(coefficients: NDArray | Blocks) -> Iterator[tuple[tuple[int, int, int], NDArray]]:
-    """Yield blocks of at most about COEFFICIENTS_PER_BLOCK, and their first indices."""
+    """Yield the first indices and the coefficients of blocks, with about COEFFICIENTS_PER_BLOCK at most."""
     if callable(coefficients):
         for (x, y, z), array in coefficients():
             for (i, j, k), piece in _pieces(array):

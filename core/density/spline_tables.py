@@ -3,7 +3,7 @@
 """One-dimensional tables ∫ t^l B_i(t) dt, all that the moments of a trivariate B-spline need.
 
 Soldea, Elber and Rivlin integrate t^l B_{i,k} by l nested sums (Theorem 4.2, kept in `core.papers` as the reference).
-Over a full support the same integral has a closed form, positive wherever the knots are:
+Over a full support the same integral has a closed form, positive if the knots are:
 
     ∫ t^l B_{i,k} = (t_{i+k} - t_i) / k · h_l(t_i, ..., t_{i+k}) / binomial(k + l, l),
 
@@ -47,12 +47,12 @@ class SplineAxis:
 
     @classmethod
     def uniform(cls, count: int, order: int = 1, spacing: float = 1.0, origin: float = 0.0) -> SplineAxis:
-        """Return `count` functions, the i-th centered at origin + i spacing: samples as coefficients, full supports."""
+        """Return an axis of `count` functions with full supports, the i-th centered at origin + i spacing."""
         return cls(origin + spacing * (np.arange(count + order, dtype=np.float64) - order / 2.0), order)
 
     @classmethod
     def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:
-        """Return one function for each sample, with knots around it: samples as coefficients, full supports.
+        """Return an axis with one function of full support for each sample, with knots around its position.
 
         With an even order the knots are the positions, with an odd one the middles between them; beyond the ends they
         go on with the last distance. ValueError if positions do not ascend, or there are fewer than two.
@@ -86,7 +86,7 @@ class SplineAxis:
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
         """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt.
 
-        Off by at most `rounding_counts` units of ∫ B_i times the l-th power of the largest |t - center| in the support.
+        Error: at most `rounding_counts` roundings of ∫ B_i times the largest |t - center|^l in the support.
         """
         return full_support_integrals(self.knots - center, self.order, degree)
 

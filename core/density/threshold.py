@@ -5,12 +5,12 @@
 Soldea, Elber and Rivlin define a body as {f ≥ t} of a trivariate B-spline f. Here f is linear along each axis between
 the samples, and the integrals are over the set itself: nothing is triangulated.
 
-A cell with all eight corners on one side lies there whole, as f is a mean of them. In any other one, an axis is chosen
+A cell with all eight corners on one side lies on that side, as f is a mean of them. In other cells, an axis is chosen
 along which f is monotone: f = a(x, y) + b(x, y) z with b of one sign. The body's columns then end at z = -a/b, and the
 integrand along z is a polynomial. The remaining integral over x and y is smooth except along the lines by which the
-surface leaves the cell through its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two happens once at
-most, in the root of a linear function; their course in turn changes along x at the zeros of four linear functions.
-Between these places Gauss's rule converges geometrically. Two rules are compared in each cell; if they differ by too
+surface leaves the cell through its floor (a = 0) or its ceiling (a + b = 0). Along y each of the two lines is met
+once at most, at the root of a linear function; along x, these roots enter or leave the cell at the zeros of four more.
+Between all these Gauss's rule converges geometrically. Two rules are compared in each cell; if they differ by too
 much, or no axis serves, it is cut in eight. The sum of their differences is the estimate of the error.
 """
 
@@ -31,13 +31,13 @@ from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract
 from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
 
-RULES = ((3, 5), (8, 12))  # points of the two rules that are compared, along x and along y; then the same with more
+RULES = ((3, 5), (8, 12))  # points along x and y of two rules to compare; then of two finer rules
 TOLERANCE = 1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
 AREA_TOLERANCE = 1e-9  # Relative to a cell's face: allowed difference in one cell.
-MAX_PARTS, MIN_PARTS = 64, 1 << 13  # parts of a cut cell on average, and of all: what is left then is in the bounds
+MAX_PARTS, MIN_PARTS = 64, 1 << 13  # limit of parts: first per cut cell, plus second; the rest is in the bounds
 MAX_CUT_CELLS = 1 << 21  # Limit of cells kept for measuring.
 CELLS_PER_BATCH = 1 << 9  # cut cells whose points are in memory at a time
-CELLS_PER_SLAB = 1 << 21  # cells of the grid that are looked at at a time
+CELLS_PER_SLAB = 1 << 21  # cells of the grid at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +45,8 @@ class ThresholdBody:
     """The body in which a density is at least a threshold.
 
     `volume`: its `rounding_error` includes the estimated error of the rules.
-    `area`: of the surface on which the density is the threshold.
-    `mass`: with the density itself inside; None if not requested.
+    `area`: moments of the surface on which the density is the threshold.
+    `mass`: moments of mass, with the density itself inside; None if not requested.
     `cut_cells`: number of cells that the surface passes through.
     `clipped`: True if the body reaches the edge of the grid and is cut off there without a surface.
     """
@@ -71,7 +71,7 @@ def threshold_body(
 ) -> ThresholdBody:
     """Return the moments of the set where the trilinear interpolant of samples is at least a threshold.
 
-    They are about the place of the sample in the middle of the grid.
+    The moments are about the position of the sample in the middle of the grid.
 
     Parameters
     ----------
@@ -79,16 +79,16 @@ def threshold_body(
         Densities, a memory map if larger than memory.
     threshold : float
     order : int
-        Of the moments.
+        Order of the moments.
     matrix : (4, 4) array_like, optional
         Affine: the sample (i, j, k) stands at matrix @ (i, j, k, 1); by default at (i, j, k).
     background : float, optional
-        The density beyond the grid: a layer of it is added on every side. Without it, or if it is inside, nothing is
-        beyond.
+        The density beyond the grid: a layer of it is added on every side. Without it, or if it is at
+        least the threshold, the body is cut off at the edge of the grid.
     with_density : bool
-        Also the moments of mass, of the density itself inside.
+        Also return the moments of mass, with the density itself inside.
     preview : bool
-        By the first rule alone, which nothing checks: for a slider. The bounds hold no estimate then.
+        Use the first rule alone, without a check: for a slider. The bounds then hold no estimate.
     value : callable, optional
         Converts a block of samples to densities.
 
@@ -126,7 +126,7 @@ def threshold_body(
     linear = matrix[:3, :3]
     if not np.isfinite(matrix).all() or not np.linalg.det(linear):
         raise MeasureError(GRID_TRANSFORM_SINGULAR)
-    cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # take the normals of pieces of surface along
+    cofactors = np.linalg.det(linear) * np.linalg.inv(linear)  # they map the normals of the surface
     about = (shape - 1) // 2 - margin
     sums = _Sums(order, with_density, preview, cofactors @ cofactors.T)
     clipped, count, cut = False, 0, []
@@ -160,7 +160,7 @@ def threshold_body(
 def _slabs(
     samples: NDArray, background: float | None, value: Callable[[NDArray], NDArray] | None
 ) -> Iterator[tuple[int, NDArray[np.float64]]]:
-    """Yield each slab's first index, and its planes of samples with the next one's first, padded by a background."""
+    """Yield slabs: the first index, and the planes up to the first of the next slab, padded by the background."""
     margin = 0 if background is None else 1
     planes = len(samples) + 2 * margin
     step = max(1, CELLS_PER_SLAB // max(samples.shape[1] * samples.shape[2], 1))
@@ -193,7 +193,7 @@ class _Sums:
 
     def __init__(self, order: int, with_density: bool, preview: bool, metric: NDArray) -> None:
         self.order, self.with_density, self.preview, self.metric = order, with_density, preview, metric
-        self.face = np.sqrt(np.trace(metric) / 3.0)  # the area of a cell's face, about
+        self.face = np.sqrt(np.trace(metric) / 3.0)  # roughly the area of a cell's face
         self.powers = monomials(order)
         self.volume, self.area, self.mass, self.volume_size, self.area_size, self.mass_size = np.zeros(
             (6, len(self.powers))
@@ -207,7 +207,7 @@ class _Sums:
         return getattr(self, measure + "_estimate") + units * getattr(self, measure + "_size")
 
     def add_whole_cells(self, values: NDArray, whole: NDArray[np.bool_], origin: NDArray) -> None:
-        """Add cells of the grid that lie inside altogether."""
+        """Add cells of the grid that lie entirely inside."""
         if not whole.any():
             return
         mask = whole.astype(np.float64)
@@ -256,7 +256,7 @@ class _Sums:
             cells = cells[~inside & signs.any(axis=(1, 2, 3))]
 
     def _add_batch(self, cells: Cells, threshold: float, allowed: float) -> Cells:
-        """Add the cells that can be integrated; return the rest."""
+        """Add the cells that can be integrated to the tolerance; return the other cells."""
         axes = cells.column_axes()
         rest = [cells[axes < 0]]
         for axis, turn in enumerate(TURNS):
@@ -325,7 +325,7 @@ class _Sums:
             size[number] += np.abs(term).sum()
 
     def _add_boxes(self, cells: Cells, threshold: float) -> None:
-        """Add parts of cells that lie inside altogether."""
+        """Add parts of cells that lie entirely inside."""
         if not len(cells.size):
             return
         nodes, weights = gauss_legendre((self.order + 1) // 2 + 1)
@@ -339,7 +339,7 @@ class _Sums:
         self.terms += len(cells.size)
 
     def _give_up(self, cells: Cells, threshold: float) -> None:
-        """Count half of the remaining cells, and all of them as the estimate of the error."""
+        """Add half of the remaining cells to the moments, and all of them to the error estimate."""
         center = cells.origin + cells.size[:, None] / 2.0
         tables = [power_table(values, self.order) for values in center.T]
         for number, (p, q, r) in enumerate(self.powers.tolist()):
@@ -361,7 +361,7 @@ class _Sums:
 
 
 def _interval_moments(first: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (order + 1, n) ∫ t^l from each of the points to one further, by a rule that is exact."""
+    """Return (order + 1, n) ∫ t^l over the unit intervals that start at n points, by an exact rule."""
     nodes, weights = gauss_legendre(order // 2 + 1)
     points = first[:, None] + nodes
     return np.stack([(points**power) @ weights for power in range(order + 1)])

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from ..numerics.quadrature import gauss_legendre
 
-# The axes in the order in which x, y and the columns of a cell run, by the axis of the columns.
+# By the axis of a cell's columns: the axes along which x, y and the columns run.
 TURNS = ((1, 2, 0), (2, 0, 1), (0, 1, 2))
 
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """Cubes: density above the threshold in corners (n, 2, 2, 2), first corners (n, 3) about the grid, edges (n,)."""
+    """Cubes: (n, 2, 2, 2) density minus threshold at corners, (n, 3) first corners from the middle, (n,) edges."""
 
     corners: NDArray[np.float64]
     origin: NDArray[np.float64]
@@ -40,7 +40,7 @@ class Cells:
         return Cells(self.corners[chosen], self.origin[chosen], self.size[chosen])
 
     def cut_in_eight(self) -> Cells:
-        """Cut each at the middle of its edges; a density that is linear along the axes stays so in every part."""
+        """Cut each cube into eight; a density that is linear along the axes stays so in every part."""
         finer = self.corners
         for axis in (1, 2, 3):
             low, high = np.split(finer, 2, axis=axis)
@@ -57,7 +57,7 @@ class Cells:
         return Cells.join(parts)
 
     def column_axes(self) -> NDArray[np.intp]:
-        """Return (n,) the axis along which the density changes most clearly one way; -1 if there is none."""
+        """Return (n,) the axis along which the density is most clearly monotone; -1 if there is none."""
         steps = np.stack([np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1)
         one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
         steps = np.abs(steps)
@@ -67,11 +67,11 @@ class Cells:
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Points over the floors of cells, each with the share of its column that is inside; one cell's in a row.
+    """Points on the floors of cells, each with the inside part of its column; those of a cell are consecutive.
 
-    cell: (m,) index of the cell. x, y: in it. weight: of floor. low, high: ends of the column inside. level: z of the
-    surface. slope: the surface's area above one unit of floor, 0 if it does not pass. density, growth: above the
-    threshold at z = 0, and along z.
+    cell: (m,) index of the cell. x, y: position in it. weight: area of floor. low, high: ends of the inside part.
+    level: z of the surface. slope: the surface's area per unit of floor, 0 if the column does not cross it. density:
+    density minus threshold at z = 0. growth: its slope along z.
     """
 
     cell: NDArray[np.intp]
@@ -87,7 +87,7 @@ class Columns:
 
 
 def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
-    """Return the columns along z of Gauss's rule between all places at which the surface enters or leaves a cell.
+    """Return the columns along z at the Gauss points between the lines where the surface leaves a cell.
 
     metric: (3, 3) scales the area of a piece of surface by √(n·metric·n) for its normal n.
     """
@@ -97,7 +97,7 @@ def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
     near, step = corners[:, 0], corners[:, 1] - corners[:, 0]  # by y and z: at x = 0, and along x
     cell, start, length = _smooth_intervals(near.reshape(-1, 4), corners[:, 1].reshape(-1, 4))
     middle = near[cell] + (start + length / 2.0)[:, None, None] * step[cell]
-    some = (middle > 0.0).any(axis=(1, 2))  # else nothing is inside, between the places where that changes
+    some = (middle > 0.0).any(axis=(1, 2))  # else the whole interval is outside
     cell, start, length = cell[some], start[some], length[some]
     x = (start[:, None] + length[:, None] * nodes).ravel()
     width = (length[:, None] * weights).ravel()
@@ -134,7 +134,7 @@ def _square(metric: NDArray, x: NDArray, y: NDArray, z: NDArray) -> NDArray[np.f
 
 
 def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], NDArray, NDArray]:
-    """Cut [0, 1] at the roots of linear functions with end values (n, k): row, start and length of each interval."""
+    """Cut [0, 1] at roots of linear functions with end values (n, k); return row, start and length of each interval."""
     with np.errstate(divide="ignore"):
         roots = np.where((low < 0.0) != (high < 0.0), low / (low - high), 0.0)
     edges = np.sort(np.pad(np.clip(roots, 0.0, 1.0), ((0, 0), (1, 0))), axis=1)

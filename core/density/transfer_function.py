@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Transfer tables from values of a grid to densities.
 
-Text of pairs "value density", separated by commas, semicolons or new lines; between its values the density runs
-straight, beyond them it is constant.
+Text of pairs "value density", separated by commas, semicolons or new lines; between its values the density is
+interpolated linearly, beyond them it is constant.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ By the divergence theorem along z, with F_r the antiderivative of ρ z^r that is
     ∫ ρ x^p y^q z^r dV = ∮ x^p y^q F_r(x, y, z) n_z dA.
 
 The triangles are cut along the planes between the voxels. On each piece F_r is then a polynomial, a sum over the voxels
-below plus the filled part of its own, and Gauss's rule integrates it exactly.
+below plus the filled part of the piece's voxel, and Gauss's rule integrates it exactly.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -> tuple[Moments, float]:
     """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of the body in the grid.
 
-    They are about the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n, 3, 3)
+    They refer to the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n, 3, 3)
     corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is the cube
     from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), nothing outside. `rounding_error` estimates the rounding
     from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
@@ -84,7 +84,7 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
 
 
 def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[np.float64]]:
-    """Return for each power r the integral of ρ (z - center)^r over all voxels below, in the column of each."""
+    """Return for each power r the (nx, ny, nz) integrals of ρ (z - center)^r over the voxels below each voxel."""
     z = np.arange(densities.shape[2] + 1) - center
     sums = []
     for r in range(order + 1):

@@ -4,7 +4,7 @@
 
 Area moments of any order are integrals over a boundary of 1-simplices (Sheynin and Tuzikov in two dimensions; see
 `n_dimensions`): over an edge a, b the triangle with the origin gives (a x b)·S_pq·p! q! / (p+q+2)!. Outer outlines run
-counter- clockwise, holes clockwise, separate regions simply add. Ambiguous regions, with outlines that cross or lie on
+counter-clockwise, holes clockwise; separate regions simply add. Ambiguous regions, with outlines that cross or lie on
 one another, are found by `find_defects`: no sum over edges would show them.
 """
 
@@ -23,8 +23,8 @@ from ..polyhedron.n_dimensions import SimplexMoments, enclosed_moments
 from ..verdict.finding import MeasureError
 from .findings import OUTLINE_OPEN, OUTLINES_COINCIDE
 
-SAMPLES_PER_OUTLINE = 16  # midpoints of an outline's edges that are asked what it lies in
-# Limits of compared edges, and of rays and the edges they may meet; more rays are thinned out.
+SAMPLES_PER_OUTLINE = 16  # Edge midpoints of an outline that are tested for lying in other outlines.
+# Limit of compared pairs of edges, and of pairs of a ray and an edge; rays beyond it are thinned out.
 MAX_EDGE_PAIRS = 10_000_000
 PAIRS_PER_BLOCK = 1 << 18  # Pairs at a time.
 RAYS_PER_BLOCK = 64  # neighboring rays at a time, which meet much the same edges
@@ -53,8 +53,7 @@ class OutlineDefects:
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
     """Return ∫ x^p y^q dA of the region left of (m, 2) directed edges for all p + q ≤ order, with error bounds.
 
-    They are about the middle of the bounding box of the used points, unless `about` says otherwise. MeasureError if the
-    edges do not close.
+    By default they are about the middle of the bounding box of the used points. MeasureError if the edges do not close.
     """
     points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
@@ -163,14 +162,14 @@ def find_defects(points: ArrayLike, edges: ArrayLike, error: float = 0.0) -> Out
 
 
 def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> NDArray[np.float64]:
-    """Return (k,) how often the edges go round each place; on an edge, the mean of both sides."""
+    """Return (k,) winding numbers of the edges about query points; on an edge, the mean of both sides."""
     turns = [np.zeros(0)]
     block = max(1, PAIRS_PER_BLOCK // max(1, len(edges)))
     for start in range(0, len(query_points), block):
         spans = points[edges] - query_points[start : start + block, None, None]  # (k, m, 2 ends, 2)
         a, b = spans[:, :, 0], spans[:, :, 1]
         cross, along = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0], (a * b).sum(axis=2)
-        # A place on an edge sees its ends in opposite directions, with a sign that is rounding.
+        # A point on an edge sees its ends in opposite directions, with a sign that is rounding.
         on = (np.abs(cross) <= 1e-12 * np.abs(along)) & (along <= 0.0)
         turns.append(np.where(on, 0.0, np.arctan2(cross, along)).sum(axis=1) / (2.0 * np.pi))
     return np.concatenate(turns)
@@ -234,7 +233,7 @@ def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int,
     """Count pairs of edges that cross by more than `touch`, and sum the length of edges that run against each other.
 
     Each edge is entered into the cells of a grid that its box meets, and compared with edges that share a cell. The
-    last value is True if that was given up.
+    last value is True if there were too many pairs to compare all.
     """
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Area moments of a plane region to any order, as `Moments` with third coordinate zero.
 
-So they shift, turn, add and are normalized like any body's. Beside the rounding of the integration, which
+So they shift, turn, add and are normalized like those of bodies. Beside the rounding of the integration, which
 `n_dimensions` bounds, a region's points may be off: an edge that moves sweeps over at most its length times the
 distance it moves, and there x^p y^q is at most its value at the farther end.
 """
@@ -44,13 +44,13 @@ def region_moments(
 ) -> Moments:
     """Return ∫ x^p y^q dA of the region to the left of directed edges, for all p + q ≤ order, with error bounds.
 
-    They are about the centroid, as far as floats go, unless `about` says otherwise.
+    The moments are about the centroid, up to rounding, unless `about` is given.
 
     Parameters
     ----------
     points : (n, 2) array_like
     edges : (m, 2) array_like of int
-        Closed: as often as one starts at a point, one ends there.
+        Closed: at every point as many edges end as start.
     order : int
     about : (2,) array_like, optional
         The reference point.
@@ -62,7 +62,7 @@ def region_moments(
     Returns
     -------
     Moments
-        Of area, about (x, y, 0): moments with a power of z are zero.
+        Area moments about (x, y, 0); those with a power of z are zero.
 
     Raises
     ------

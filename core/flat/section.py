@@ -31,8 +31,8 @@ from .regions import plane_positions, region_moments
 # Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
 PLANAR_RTOL = 1e-5
 EQUAL_MOMENTS_RTOL = 1e-6  # principal moments closer than this, relatively, are equal
-MAX_NOISE_SHARE = 1e-3  # Relative to the larger one: larger values are not noise.
-EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this where both ends move by 1 along each axis
+MAX_NOISE_SHARE = 1e-3  # Relative to the larger principal moment: noise is limited to this.
+EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this if both ends move by 1 along each axis
 MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
 
 
@@ -71,8 +71,8 @@ class Section:
         The distance of the outermost corner from the axes x, y, 1, 2 through the centroid.
     outlines, holes : int
     rounding_error, input_error : dict of str to float
-        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of storing coordinates as float32; of
-        the centroid its length, of the second moments each of them.
+        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of storing coordinates as float32; for
+        the centroid the length of its shift, for the second moments each of them.
 
     Examples
     --------
@@ -112,12 +112,12 @@ class Section:
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) the centroid in the coordinates of the plane's origin."""
+        """(3,) the centroid in space, in the same coordinates as the plane's origin."""
         return self.plane.origin + self.plane.axes[:, :2] @ self.centroid
 
     @property
     def principal(self) -> tuple[float, float]:
-        """I_1 ≥ I_2."""
+        """Principal second moments I_1 ≥ I_2."""
         first, second, mixed = self.second.tolist()
         larger = (first + second) / 2.0 + np.hypot((first - second) / 2.0, mixed)
         return float(larger), max(0.0, (first * second - mixed * mixed) / larger)  # no difference of near equals
@@ -130,7 +130,7 @@ class Section:
 
     @property
     def angle(self) -> float:
-        """Radians from x towards y to axis 1; 0 if every axis is one."""
+        """Angle from x towards y to principal axis 1, in radians; 0 if every axis is principal."""
         return 0.0 if self.axes_undetermined else principal_angle(self.second, self._noise)
 
     @property
@@ -140,7 +140,7 @@ class Section:
 
     @property
     def polar(self) -> float:
-        """J_p = I_x + I_y."""
+        """Polar second moment J_p = I_x + I_y."""
         return float(self.second[0] + self.second[1])
 
     @property
@@ -241,7 +241,7 @@ def region(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m, 2) directed edges of the region covered by triangles near the plane, and the number of turned faces.
 
-    Points at one place are merged. Faces, (k,) of each triangle, that look against the plane are turned as a whole.
+    Points at one place are merged. faces: (k,) face of each triangle; faces that look against the plane are turned.
     """
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = (plane.project(points)[triangles[:, i]] for i in range(3))
@@ -264,7 +264,7 @@ def measure_section(
 ) -> Section:
     """Measure the region to the left of directed edges.
 
-    `find_defects` checks that this is one region, and reports the length that edges share.
+    Check beforehand with `find_defects` that it is one region; it also reports the length that edges share.
 
     Parameters
     ----------

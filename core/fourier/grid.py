@@ -9,7 +9,7 @@ at most; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n
 positive weights errs by no more than twice that. This bound is met by one triangle in the worst direction; the errors
 of many cancel as the waves do. So fewer points are taken if they prove enough: the joint error of the triangles is
 found at frequencies of all sizes, by the closed form. Only if a wave fits into a triangle, into its height over the
-shortest side, is the bound kept: there regular meshes have frequencies at which all of them would err alike. Triangles
+shortest side, is the bound kept: there regular meshes have frequencies at which all triangles err alike. Triangles
 that would need too many points keep their closed form.
 
 The width of the spreading kernel follows from a bound of its aliasing. The reported error is found by comparison with
@@ -40,7 +40,7 @@ POINTS_PER_CHUNK = 1 << 14  # points that are spread between two steps
 MAX_POINTS_PER_SIDE = 24  # Gauss points along a side at most
 DIRECT_COST = 6.0  # Cost of a frequency in closed form, in cells spread.
 SAMPLE_FREQUENCIES = 24  # frequencies that are compared with the closed form
-ERROR_SAFETY_FACTOR = 3.0  # the error that is reported or allowed, by the largest difference found
+ERROR_SAFETY_FACTOR = 3.0  # ratio of the reported or allowed error to the largest difference found
 # Rough shares of the time: of `_assign_triangles`, and of the comparison.
 SHARING_TIME, CHECKING_TIME = 0.3, 0.1
 TRIAL_RADII = (1.0, 0.6, 0.35, 0.2, 0.1, 0.05)  # Relative to the largest frequency along an axis.
@@ -51,9 +51,9 @@ ERROR_CREDITS = (1e6, 1e5, 1e4, 1e3, 1e2, 10.0)
 class GridTransform(Transform):
     """A transform on a regular grid, to a tolerance: `steps` does the work, `result` returns the spectrum.
 
-    The result is "approximate", or exact if that costs less: the non-uniform fast transform of Barnett, Magland and af
-    Klinteberg (2019); see the module. `of` is volume or area, `tolerance` absolute, in the unit of the values.
-    ValueError if double precision does not reach it; otherwise errors are as for `solid_transform`.
+    The result is "approximate", by the non-uniform fast transform of Barnett, Magland and af Klinteberg (2019), or
+    exact if that costs less; see the module. `of` is volume or area, `tolerance` absolute, in the unit of the values.
+    ValueError if double precision cannot reach it; otherwise errors are as for `solid_transform`.
     """
 
     spreading: Spreading  # Set if any triangle takes points.
@@ -74,7 +74,7 @@ class GridTransform(Transform):
         self.fine: list[tuple[int, NDArray[np.intp]]] = []
 
     def _assign_triangles(self) -> Iterator[float]:
-        """Decide which triangles take how many points, `fine`, and which keep their closed form, `direct`."""
+        """Set `fine`, the triangles by number of points, and `direct`, the triangles that keep their closed form."""
         counts = yield from self._counts()
         most = min(MAX_POINTS_PER_SIDE, int(np.sqrt(DIRECT_COST * len(self.sums) / self.width**3)))
         self.direct = self.faces.select(np.flatnonzero(counts > most))
@@ -122,7 +122,7 @@ class GridTransform(Transform):
     def _points_over(
         self, triangle_rows: NDArray[np.intp], n: int, q: NDArray
     ) -> Generator[float, None, NDArray[np.complex128]]:
-        """Sum over the triangles by points in each."""
+        """Return the sums of `_sum_over`, by the points of a rule with n points along a side of each triangle."""
         total, size = np.zeros(len(q), np.complex128), max(1, PAIRS_PER_BLOCK // (len(q) * n * n))
         for start in range(0, len(triangle_rows), size):
             points, vectors, weights = self._nodes(self.faces.triangles[triangle_rows[start : start + size]], n)
@@ -196,7 +196,7 @@ class GridTransform(Transform):
             yield
 
     def result(self) -> Spectrum:
-        """Return the spectrum, when all steps are done, and how far it is from the closed form at some frequencies."""
+        """Return the spectrum, when all steps are done; its error includes the difference from closed-form samples."""
         spectrum = super().result()
         if not self.fine:
             return spectrum
@@ -207,7 +207,7 @@ class GridTransform(Transform):
 
 
 def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
-    """Return the least width of the kernel for an error of tolerance Σ |c|, or for its quotient by |k|."""
+    """Return the least width of the kernel for an error of tolerance Σ |c|, after division by |k| if `divided`."""
     k = np.arange(1, half + 1) if divided else np.ones(half)
     for width in WIDTHS:
         if (3.0 * np.maximum.accumulate(aliasing(half, width))[1:] / k).max() <= tolerance:
@@ -216,7 +216,7 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """Return (m,) the points along a side that keep each D within tolerance, for |q| times the diameters."""
+    """Return (m,) the numbers of points along a side that keep each D within tolerance; spans: |q| times diameters."""
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)

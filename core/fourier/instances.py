@@ -27,16 +27,16 @@ from .spectrum import Spectrum
 from .transform import Transform
 from .wave_vectors import FrequencyGrid, wave_vectors
 
-# pairs of triangles and frequencies, about 20 s: a grid of more is transformed to the tolerance
+# pairs of triangles and frequencies, about 20 s: larger grids are transformed to FOURIER_RTOL
 MAX_CLOSED_FORM_PAIRS = 2e8
-FOURIER_RTOL = 1e-7  # Tolerance of that transform, relative to the volume or the area.
+FOURIER_RTOL = 1e-7  # Tolerance of transforms of large grids, relative to the volume or the area.
 
 
 class BodyTransform:
     """The transform of surfaces, each at one or many places: `steps` does the work, `result` has the spectrum.
 
-    parts: each surface with its (k, 4, 4) maps. q: wave vectors (M, 3) or a grid. `of` is volume or area, `total` the
-    body's, to which `FOURIER_RTOL` refers. MeasureError if there are no faces, or as `solid_transform`.
+    parts: each surface with its (k, 4, 4) maps. q: wave vectors (M, 3) or a grid. `of` is volume or area, `total`
+    the body's volume or area, to which FOURIER_RTOL refers. MeasureError without faces, or as for `solid_transform`.
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class BodyTransform:
             self.spectrum = part_spectrum if self.spectrum is None else self.spectrum + part_spectrum
 
     def result(self) -> Spectrum:
-        """Return the spectrum of everything together, when all steps are done."""
+        """Return the spectrum of all surfaces together, when all steps are done."""
         return cast("Spectrum", self.spectrum)  # there are parts, and each has added to it
 
 

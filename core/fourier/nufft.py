@@ -34,9 +34,9 @@ def aliasing(half: int, width: int) -> NDArray[np.float64]:
 
 
 class Spreading:
-    """Sums of several strengths for k from -half to half along each axis.
+    """Sums Σ c exp(-i k·θ) for k from -half to half along each axis, with several strengths c of each point.
 
-    half: of the grid. width: of the kernel, in cells. count: the strengths of each point.
+    half: largest k along an axis. width: of the kernel, in cells. count: the number of strengths of each point.
     """
 
     def __init__(self, half: int, width: int, count: int):

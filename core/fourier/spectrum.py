@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A Fourier transform at some wave vectors.
 
-Like moments, spectra of bodies add, and copies are factors.
+Spectra of several bodies add up, as moments do; copies of a body multiply its spectrum by phase factors.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Spectrum:
 
     `values`: (M,), unit³ of a body, unit² of a surface or a polygon.
     `error`: (M,) of the values: for an "exact" spectrum a bound of the rounding, for an "approximate" one an estimate.
-    `input_error`: a bound of the change that storing coordinates as float32 may have made, whatever q.
+    `input_error`: a bound of the change that storing coordinates as float32 may have made, for any q.
     `method`: "exact" or "approximate".
     """
 

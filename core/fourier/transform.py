@@ -66,7 +66,7 @@ def solid_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: int
 
     Notes
     -----
-    The body that Zhang and Chen (2001) sum over tetrahedra, here by the divergence theorem; see the module.
+    Zhang and Chen (2001) sum over tetrahedra; here the divergence theorem is used, see the module.
 
     Examples
     --------
@@ -97,7 +97,7 @@ def surface_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: i
     Raises
     ------
     MeasureError, ValueError
-        As `solid_transform`, but for open surfaces.
+        As for `solid_transform`, except that surfaces may be open.
 
     Examples
     --------
@@ -111,7 +111,7 @@ def surface_transform(surface: Surface, q: ArrayLike | FrequencyGrid, threads: i
 
 
 def run_to_completion(transform: Transform) -> Spectrum:
-    """Return the outcome of a transform, once all its steps are done here."""
+    """Run all steps of a transform, and return its spectrum."""
     for _ in transform.steps():
         pass
     return transform.result()
@@ -171,12 +171,12 @@ class Transform:
                     future.cancel()
 
     def _add(self, part: slice, values: NDArray[np.complex128]) -> None:
-        """Add a share's results, without the rounding that thousands of sums would pile up."""
+        """Add a task's results by compensated summation: the rounding of thousands of sums would pile up."""
         self.sums[part], rest = two_sum(self.sums[part], values)
         self.rest[part] += rest
 
     def _tasks(self) -> list[tuple[slice, slice]]:
-        """Return runs of triangles and runs of rows of wave vectors: every pair of them once."""
+        """Return the tasks: every pair of a slice of triangles and a slice of rows of wave vectors."""
         runs = self.direct.blocks()
         size = max(
             1, PAIRS_PER_TASK // (min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1)) * self.waves.columns)
@@ -185,7 +185,7 @@ class Transform:
         return [(run, slice(i, min(i + size, row_count))) for run in runs for i in range(0, row_count, size)]
 
     def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
-        """Return the slice of a share's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
+        """Return the slice of a task's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
         run, part = share
         block, columns = self.direct.block(run), self.waves.columns
         means = PhaseMeans(block, self.waves, part)
@@ -223,7 +223,7 @@ class Transform:
         return Spectrum(q, values * turn, error + 8.0 * U * np.abs(values), float(moments.input_error[0]))
 
     def _to_transform(self, sums: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """Return F in units of the scale: i/q² times the sums, and the moments if q is zero."""
+        """Return F in units of the scale: i/q² times the sums, or by the moments if q is zero."""
         q = self.waves.vectors(slice(0, self.waves.rows))
         square = (q * q).sum(axis=0)
         nothing = square <= ZERO_WAVE_NUMBER**2

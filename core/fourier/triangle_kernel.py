@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The means of exp(-i q·x) over triangles, for any triangle and any frequency, a block at a time.
+"""Integrals of exp(-i q·x) over triangles, for any triangle and any frequency, a block at a time.
 
 With s = q·x at the corners, D = ∫ exp(-i s) over the triangle (0,0), (1,0), (0,1) is a divided difference of exp(-i s).
 With the mean s0 of the three phases, their deviations d from it (so that Σ d = 0) and e2, e3 the symmetric polynomials
@@ -35,8 +35,8 @@ from .wave_vectors import GridWaves, ListWaves
 TRIANGLES_PER_BLOCK = 128  # triangles
 PAIRS_PER_BLOCK = 16384  # Pairs of triangles and frequencies at a time: their arrays stay in the cache.
 TRIANGLES_PER_BATCH = 1 << 16  # triangles that are prepared at a time
-MAX_SERIES_DIAMETER = 3.0  # the largest |q| diameter for which all of a block is left to the series
-MAX_SERIES_SQUARE = 1.0  # Σ d² below which a pair is
+MAX_SERIES_DIAMETER = 3.0  # largest |q| times diameter up to which a whole block takes the series
+MAX_SERIES_SQUARE = 1.0  # Σ d² below which a single pair takes the series
 MORTON_CELLS = 1023  # along an axis, to sort triangles in space
 TINY = 1e-300
 
@@ -45,7 +45,7 @@ class SortedTriangles:
     """The triangles of a surface about its center and at unit size, sorted so that blocks of them are alike.
 
     scale: a power of two; points: (n, 3), (x - center) / scale, of length 1 at most. area: of all triangles (m, 3);
-    diameters: (m,), their longest sides; heights: (m,), over the shortest sides; in units of the scale.
+    diameters: (m,) their longest sides; heights: (m,) over the shortest sides. Lengths are in units of the scale.
     """
 
     def __init__(self, surface: Surface):
@@ -94,7 +94,7 @@ class SortedTriangles:
         self.diameters, self.heights = np.concatenate(diameters)[order], np.concatenate(heights)[order]
 
     def blocks(self, size: int = TRIANGLES_PER_BLOCK) -> list[slice]:
-        """Return runs of triangles."""
+        """Return slices of at most `size` consecutive triangles."""
         return [slice(i, min(i + size, len(self.triangles))) for i in range(0, len(self.triangles), size)]
 
     def select(self, selection: NDArray[np.intp]) -> SortedTriangles:
@@ -118,11 +118,11 @@ def _morton_code(cells: NDArray) -> NDArray[np.int64]:
 
 
 class TriangleBlock:
-    """A block of triangles and its scratch arrays.
+    """A block of triangles, with their normals, centers and edges.
 
-    diameter: the largest. normals, centers: (3, k), (b-a) x (c-a) and the means of the corners; from_center: twice (3,
-    k), a and b less the centers. edges: (3, k), the columns of `middles` and `halves`, (3, e), of the edges opposite to
-    a, b and c; halves: half of the differences of their ends.
+    diameter: the largest. normals, centers: (3, k), (b-a) x (c-a) and the means of the corners. from_center: a and b
+    less the centers, (3, k) each. edges: (3, k) columns in `middles` and `halves` of the edges opposite to a, b and c.
+    middles, halves: (3, e) the middles of edges, and half of the differences of their ends.
     """
 
     def __init__(self, points: NDArray, triangles: NDArray, diameter: float):
@@ -138,7 +138,7 @@ class TriangleBlock:
 
 
 class PhaseMeans:
-    """D - 1/2 of a block's triangles for a part of the wave vectors."""
+    """The values D - 1/2 of a block's triangles for a part of the wave vectors."""
 
     def __init__(self, block: TriangleBlock, waves: ListWaves | GridWaves, part: slice):
         self.block, self.waves = block, waves
@@ -150,7 +150,7 @@ class PhaseMeans:
             self.middle, self.along = waves.phase_factors(part, block.middles), waves.dot(part, block.halves)
 
     def __call__(self, wave_rows: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return (m, k) real and imaginary parts for a block of rows of the part."""
+        """Return (m, k) real and imaginary parts of D - 1/2 for some rows of the part."""
         vectors = self.waves.vectors(wave_rows)
         a, b, c, spare = (np.empty((vectors.shape[1], len(self.block.lengths))) for _ in range(4))
         self.first(wave_rows, a, spare)
@@ -209,7 +209,7 @@ class PhaseMeans:
     def _series_of_pairs(
         self, pairs: NDArray, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
-        """Return the series for the pairs that need it in a block of the other kind."""
+        """Return D - 1/2 by the series, for the pairs that need it in a block that is evaluated by edges."""
         row, column = np.divmod(pairs, len(self.block.lengths))
         a, b, c = (d.reshape(-1)[pairs] for d in (a, b, c))
         real, imaginary = _series(a * a + a * b + b * b, a * b * c, SPLIT_SERIES_TERMS)
@@ -220,12 +220,12 @@ class PhaseMeans:
 def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
     """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g.
 
-    It is v / 2 + (1 + v) g with v = exp(-i s0) - 1, which is small if s0 is. All arguments are overwritten.
+    The result is v / 2 + (1 + v) g with v = exp(-i s0) - 1, which is small if s0 is. All arguments are overwritten.
     """
     np.multiply(cosine, sine, out=cosine)
     np.multiply(cosine, -2.0, out=cosine)  # The imaginary part of v.
     np.multiply(sine, sine, out=sine)
-    np.multiply(sine, -2.0, out=sine)  # and the real part
+    np.multiply(sine, -2.0, out=sine)  # The real part of v.
     whole = real + 0.5
     scratch = cosine * imaginary
     np.subtract(real, scratch, out=real)
@@ -241,7 +241,7 @@ def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArr
 def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArray]:
     """Return the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, its real and its imaginary part, from -e2 and e3.
 
-    (-i)^n h_n is real for even n and imaginary for odd n: even and odd hold three of them that follow each other.
+    (-i)^n h_n is real for even n and imaginary for odd n; `before`, `even` and `odd` hold three consecutive terms.
     """
     even, odd, before = -square, cube.copy(), np.zeros_like(square)  # n = 2, 3 and 1
     real, imaginary = even / 24.0, odd / 120.0
@@ -275,4 +275,4 @@ def _series_terms(radius: float) -> int:
     return n
 
 
-SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))  # For Σ d² below SPLIT.
+SPLIT_SERIES_TERMS = _series_terms(np.sqrt(MAX_SERIES_SQUARE * 2.0 / 3.0))  # For Σ d² below MAX_SERIES_SQUARE.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Wave vectors, as a list or as a regular grid, with q·v and exp(-i q·x) for sums over faces.
 
-On a list every phase costs a sine and a cosine. On a grid exp(-i q·x) is a product of three numbers out of tables, one
+On a list every phase costs a sine and a cosine. On a grid exp(-i q·x) is a product of three numbers from tables, one
 for each axis; their entries are sines and cosines themselves, no recurrence, so that no error grows along an axis.
 """
 
@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..verdict.finding import MeasureError
 from .findings import FREQUENCY_COUNT, FREQUENCY_RANGE, WAVE_VECTORS_RANGE, WAVE_VECTORS_SHAPE
 
-MAX_FREQUENCY = 1e100  # frequency, whose square is still a number whatever the body's size
+MAX_FREQUENCY = 1e100  # its square is still a number, for any size of the body
 
 # Both fill arrays of shape (wave vectors of some rows, k); the last argument is overwritten.
 DotFiller = Callable[[slice, NDArray, NDArray], None]  # with q·v
@@ -41,7 +41,7 @@ class FrequencyGrid:
     Raises
     ------
     MeasureError
-        If there is no such grid.
+        If `count` is below 2, or `largest` is not positive or above 1e100.
 
     Examples
     --------
@@ -81,7 +81,7 @@ class FrequencyGrid:
         return np.stack(axes, axis=-1).reshape(-1, self.dimension)
 
     def expand(self, values: NDArray[np.complex128]) -> NDArray[np.complex128]:
-        """Return all (count³,) or (count²,) values from those with the last coordinate from 0 on, ends included."""
+        """Return all (count³,) or (count²,) values from those with last coordinate ≥ 0, both ends included."""
         n, h, others = self.count, self.half, (slice(None, self.count),) * (self.dimension - 1)
         values = np.asarray(values).reshape(*[2 * h + 1] * (self.dimension - 1), h + 1)
         full = np.empty((n,) * self.dimension, np.complex128)
@@ -91,7 +91,7 @@ class FrequencyGrid:
 
 
 def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
-    """Return (M, dimension) wave vectors from a user; MeasureError if they are none."""
+    """Return a user's (M, dimension) wave vectors as float64; MeasureError if shape, type or range is wrong."""
     q = np.asarray(q)
     if q.dtype.kind not in "fiu" or q.ndim != 2 or q.shape[1] != dimension:
         raise MeasureError(WAVE_VECTORS_SHAPE, dimension=dimension, shape=list(q.shape), type=str(q.dtype))
@@ -102,7 +102,7 @@ def wave_vectors(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
 
 
 class ListWaves:
-    """A list of wave vectors (M, 3), by size, so that a block can be treated alike; rows are single ones."""
+    """A list of wave vectors (M, 3), sorted by size so that a block has similar ones; a row is one wave vector."""
 
     columns = 1
 
@@ -116,7 +116,7 @@ class ListWaves:
         return self.q[:, wave_rows]
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """Return q·v for the rows of a part and vectors (3, k)."""
+        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3, k)."""
 
         def fill(wave_rows: slice, out: NDArray, spare: NDArray) -> None:
             q = self.q[:, wave_rows]
@@ -128,7 +128,7 @@ class ListWaves:
         return fill
 
     def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """Return exp(-i q·x) for the rows of a part and points (3, k)."""
+        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part and points (3, k)."""
         dot = self.dot(part, points)
 
         def fill(wave_rows: slice, cosine: NDArray, sine: NDArray, spare: NDArray) -> None:
@@ -142,7 +142,7 @@ class ListWaves:
 class GridWaves:
     """The half of a grid with z ≥ 0, times `scale`; the rest follows from F(-q) = conj F(q).
 
-    Along x and y both ends are taken, so that every vector of the grid is there or its opposite is. A row is all of z.
+    Along x and y both ends are included, so that every vector of the grid, or its opposite, is here. A row is all of z.
     """
 
     def __init__(self, grid: FrequencyGrid, scale: float):
@@ -157,7 +157,7 @@ class GridWaves:
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
-        """Return q·v for the rows of a part and vectors (3, k)."""
+        """Return a function that fills arrays with q·v, for the rows of a part and vectors (3, k)."""
         first, x, y = self._tables(part, vectors)
         z = self.depth[:, None] * vectors[2]
 
@@ -168,7 +168,7 @@ class GridWaves:
         return fill
 
     def phase_factors(self, part: slice, points: NDArray) -> PhaseFiller:
-        """Return exp(-i q·x) for the rows of a part and points (3, k)."""
+        """Return a function that fills arrays with cos(q·x) and sin(q·x), for the rows of a part and points (3, k)."""
         first, x, y = self._tables(part, points)
         z = self.depth[:, None] * points[2]
         x, y, z = ((np.cos(phase), np.sin(phase)) for phase in (x, y, z))
@@ -188,7 +188,7 @@ class GridWaves:
         return fill
 
     def _tables(self, part: slice, vectors: NDArray) -> tuple[int, NDArray, NDArray]:
-        """Return the first place along x that a part needs, and the products of x from there on and of y."""
+        """Return the first index along x that a part needs, the products with x from there on, and those with y."""
         n = len(self.side)
         first = part.start // n
         return first, self.side[first : (part.stop - 1) // n + 1, None] * vectors[0], self.side[:, None] * vectors[1]

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Harmonics that turn a body about its axis.
+"""Harmonics that fix the turn of a body about its axis.
 
-They are needed if its moments to sixth order are those of a body of revolution: a prism of seven sides and more.
+They are needed if its moments to sixth order are those of a body of revolution, as for a prism of seven sides or more.
 
 The harmonics ∫ (x+iy)^m and ∫ (x+iy)^m z about the axis are moments of order m and m + 1; no others are needed. They
-are powers of linear forms. The mean of one over a triangle is a complete homogeneous polynomial of the corners' values,
+are powers of linear forms. The mean of w^m over a triangle is a complete homogeneous polynomial of w at the corners,
 
     E[w^m] = 2 m! / (m+2)! h_m(w_a, w_b, w_c),
 
@@ -36,7 +36,7 @@ TRIANGLES_PER_BLOCK = 1 << 13
 class AxialHarmonics:
     """Harmonics about an axis, as shares of the largest possible ones.
 
-    The largest is that of a body of that radius and height, or of one that is not as flat.
+    The largest possible ones are those of a body with this radius and height, at least LEAST_HEIGHT radii.
     `frame`: a rotation with the axes x, y, z as columns; z is the axis.
     `values`: (2, n + 1) ∫ (x+iy)^m z^k for k = 0 and 1 and m from 0 to n.
     """
@@ -50,7 +50,7 @@ class AxialHarmonics:
         return self.values.shape[1] - 1
 
     def in_frame(self, frame: NDArray[np.float64]) -> AxialHarmonics:
-        """Return the same about the same axis, or about the opposite one, from another frame."""
+        """Return the harmonics in another frame with the same or the opposite axis."""
         values, base = self.values, self.frame
         if frame[:, 2] @ base[:, 2] < 0.0:  # half a turn about x
             base = base * (1.0, -1.0, -1.0)
@@ -116,7 +116,7 @@ def axis_last(alike: EquivalentFrames) -> NDArray[np.float64]:
 def turn_by_harmonics(
     alike: EquivalentFrames, harmonics: AxialHarmonics, noise: float = NOISE_LEVEL
 ) -> EquivalentFrames:
-    """Turn the frames of a body with one apparent axis of revolution to suit its harmonics about that axis.
+    """Turn the frames of a body with one apparent axis of revolution so that its first clear harmonic is positive.
 
     Return frames in which the body is the same, to the harmonics' order; `alike` if no harmonic is more than noise, or
     the axis itself is not known well.

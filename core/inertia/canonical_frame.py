@@ -28,19 +28,19 @@ from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_posit
 from ..verdict.finding import MeasureError
 from .findings import MOMENTS_OVERFLOW
 
-MAX_ORDER = 6  # by which the axes of every prism to a hexagon's, of a cube and of an icosahedron are found
-NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times what float32 coordinates make
+MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
+NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times the noise of float32 coordinates
 # Growth of the noise with the degree: as the moments of a normal distribution grow.
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
 FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: along an axis of less, a body is a lamina and has no skewness
 MAX_EQUAL_SHARE = 0.25  # share of the range over directions: at most that much counts as equal
-START_DIRECTIONS = 240  # directions from which extreme ones are looked for
-MAX_START_GAP = 0.18  # from any direction to the nearest of them
-ASCENT_STEPS = 16  # from there to a maximum, most of them for those that are hardly curved
+START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
+MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
+ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them
 STEPS_BEFORE_MERGE = 3
 MERGED_DIRECTIONS = 1e-4  # after these steps, directions closer than this, which go to one maximum, are merged
-ARRIVED = 1e-15  # a step that is none
+ARRIVED = 1e-15  # shorter steps end the search
 DISTINCT_DIRECTIONS = 1e-2  # extreme directions closer than this are one
 
 
@@ -66,9 +66,9 @@ class SecondMomentAxes:
 class FrameRule:
     """Rule that fixes frames beside second moments.
 
-    extreme: the degree of the moments that are extreme along their third axis; 0 if second moments fix an axis. axis,
-    harmonic: the axis about which the harmonic of this degree, m and k is real; None if none is clear. sign: the
-    harmonic's.
+    extreme: the degree of the moment that is extreme along the frames' third axis; 0 if second moments fix an axis.
+    axis, harmonic: the axis about which the harmonic (degree, m, k) is real; None if no harmonic is clear. sign: of the
+    harmonic.
     """
 
     extreme: int
@@ -84,7 +84,7 @@ class EquivalentFrames:
     frames: (k, 3, 3) rotations with the axes as columns. values, noise: (n,) the normalized central moments of third to
     the highest order in each of them, and their noise. revolution_axes: the directions that no moment fixes: none (),
     all around one axis of the frames (that axis,), or all (0, 1, 2). tilt: an estimate of the angle by which noise may
-    have turned them. rule: fixes them; None if second moments alone do, or if they are the poles of a circle of extreme
+    have turned them. rule: fixes the frames; None if second moments do, or if they are the poles of a circle of extreme
     directions.
     """
 
@@ -119,7 +119,7 @@ def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray
 def _candidates(
     central: Moments, spread: SecondMomentAxes, starts: NDArray
 ) -> tuple[NDArray, tuple[int, ...], float, FrameRule | None]:
-    """Return the frames, and `revolution_axes`, `tilt` and `rule` of them."""
+    """Return candidate frames, and `revolution_axes`, `tilt` and `rule` as in `EquivalentFrames`."""
     if not spread.undetermined_axes:
         return starts, (), spread.tilt, None
     if len(spread.undetermined_axes) == 2:
@@ -142,18 +142,18 @@ def _candidates(
 
 
 def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
-    """Return the sign that a harmonic gets."""
+    """Return the sign that a harmonic (degree, m, k) gets: `fourfold` if m = 4, else 1."""
     return fourfold if harmonic and harmonic[1] == 4 else 1.0
 
 
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
-    """Turn the bases about that axis of theirs as the first clear harmonic asks.
+    """Turn the bases about their axis number `axis` so that the first clear harmonic becomes real.
 
-    Return them, its degree, m and k if there is one, and the angle by which noise may have turned it. fourfold: the
-    sign of a harmonic with m = 4; others get a positive one. E[cos 4φ] is negative for a square with sides along the
-    axes.
+    Return the frames, (degree, m, k) of the harmonic or None, and the angle by which noise may have turned them.
+    fourfold: the sign of a harmonic with m = 4; others become positive. E[cos 4φ] is negative for a square with sides
+    along the axes.
     """
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
@@ -175,9 +175,9 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
-    """Return the first harmonic about that axis of the bases that is above noise, or above CLEAR_HARMONIC if one is.
+    """Return the first harmonic about an axis of the bases that is above CLEAR_HARMONIC, else the first above noise.
 
-    It is its degree, m and k, (n,) its value in each basis, and its noise.
+    Return its degree, m and k, (n,) its values in the bases, and its noise; None if no harmonic is above noise.
     """
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size, weaker = [first, second, axis], extents_of(spread.size), None
@@ -213,8 +213,9 @@ def _extreme_directions(
 ) -> tuple[NDArray, float, float, bool]:
     """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
 
-    Return also 1 or -1 for the two; the angle by which noise may have turned them; and whether they are isolated: of a
-    circle of them the poles are returned. None (0, 3) if the moment is the same in all directions.
+    Return also 1 for the largest or -1 for the least; the angle by which noise may have turned the directions; and
+    whether they are isolated: for a circle of directions its poles are returned. There are none, (0, 3), if the moment
+    is the same in all directions.
     """
     tensor = central.raw[tensor_index(degree)] / spread.size.max() ** degree
     noise = 2.0 * _normalization(central, spread, degree)[1].max()
@@ -233,7 +234,7 @@ def _extreme_directions(
         extremes.append((distinct_arrays(top, DISTINCT_DIRECTIONS), sign))
     directions, sign = min(extremes, key=lambda pair: len(pair[0]))
     tilt = noise / span
-    # About the axis of a circle of them the moment is the same everywhere: nowhere its slope leads around it.
+    # If extreme directions form a circle, the moment is the same all around its axis: no slope leads around it.
     around = np.cross(_sphere_directions(), _contract(tensor, degree - 1, _sphere_directions()))
     pole = np.linalg.eigh(around.T @ around)[1][:, 0]
     is_round = np.abs(around @ pole).max() <= min(noise, MAX_EQUAL_SHARE * span)
@@ -311,7 +312,7 @@ def _normalization(central: Moments, spread: SecondMomentAxes, degree: int) -> t
     unit = np.prod(size**powers, axis=1)
     thin = np.min(np.where(powers > 0, size, np.inf), axis=1)
     error = np.abs(_rotate_tensor(central.rounding_error[tensor_index(degree)], np.abs(spread.axes)[None]))
-    if len(spread.undetermined_axes) == 3:  # the frames are none of the spread's axes
+    if len(spread.undetermined_axes) == 3:  # the frames do not lie along the spread's axes
         error = np.full_like(error, 3.0 ** (degree / 2.0) * error.max())
     noise = spread.noise + 4.0 * spread.step / thin + degree * spread.tilt
     return unit, NOISE_GROWTH[degree] * noise + error.ravel()[_tensor_positions(degree)] / unit
@@ -323,7 +324,7 @@ def extents_of(size: NDArray) -> NDArray[np.float64]:
 
 
 def _lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return the frames with the largest values, one entry after the other; values that differ by noise are equal."""
+    """Return the frames with the largest values, compared entry by entry up to noise; these values; and the noise."""
     best = np.arange(len(frames))
     for column, least in zip(values.T, noise):
         best = best[column[best] >= column[best].max() - least]

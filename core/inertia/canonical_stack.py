@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The choice of `canonical_frames` for many bodies at once.
 
-It applies if only signs of axes are left, and to bodies that no moment fixes about an axis.
+It applies to bodies with only the signs of axes left to choose, and to bodies that no moment fixes about an axis.
 
 A frame turned by half a turn about one of its axes has the same normalized moments, but for the signs of the moments
-that are odd in both other axes. So among frames that differ by half turns the ones with the largest moments are found
-from the first moments, of each kind of odd ones, that are more than noise.
+that are odd in both other axes. So the frames with the largest moments, among those that differ by half turns, follow
+from the first moment above noise of each odd kind.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .findings import MOMENTS_OVERFLOW
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # index of the first moment of third order
-# By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the one that differs from the others.
+# By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the exponent of other parity.
 ODD_KIND = np.array([[[0, 3], [2, 1]], [[1, 2], [3, 0]]])
 # Signs that moments of each such kind get by no half turn, and by half turns about axes 1, 2 and 3.
 HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.0, -1.0, -1.0, 1.0]])
@@ -40,10 +40,10 @@ def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArra
 def choose_about_axis(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Choose the half turns that `canonical_frames` chooses for bodies with two axes of equal moments.
+    """Choose the half turns as `canonical_frames` does, for bodies with two axes of equal moments.
 
     Return an (n,) mask of the bodies whose moments do not fix the directions of these axes, and the (n, 4) half turns:
-    one for one direction of the axis, or for both. They hold for the masked bodies; look at the others one by one.
+    one for one direction of the axis, or for both. They hold for the masked bodies only; search the others one by one.
     """
     values, least, raw = _along_axes(moments, fixed, bodies)
     is_round, allowed = np.ones(len(bodies), bool), fixed.allowed[bodies]
@@ -107,8 +107,8 @@ def _along_axes(
 def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
     """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0.
 
-    z is along this axis, x and y along the next. They are (h,) the number of moments' noise that each holds, (h,) the
-    column, from third order on, of the moment of its size, and (h, columns) the moments that make it up.
+    z is along this axis, x and y along the next. Return (h,) the multiple of a moment's noise that each has, (h,)
+    the column, from third order on, of that moment, and (h, columns) the harmonic's coefficients.
     """
     weights, columns, forms = [], [], []
     for degree in range(3, order + 1):

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .third_moment_frames import IS_FIXED, ThirdMomentFrames
 
-# traces closer than the one are equal whatever the noise, than the other never
+# Traces closer than the first always count as equal; farther apart than the second, never.
 EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
 MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments, and a copy's
 
@@ -67,8 +67,8 @@ def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
 def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike) -> NDArray[np.float64]:
     """Return (m, 3, 3) the frame of each (m, k, 3, 3) with the smallest turn from the preferred ones, (m, 3, 3).
 
-    If several are as near, take the one with axes that, in order, point along rather than against their preferred axes,
-    so that noise cannot flip it. tilt: the angle by which noise may have turned the candidates, for all or for each.
+    If several are equally near, take the one with axes that, in order, point along rather than against the preferred
+    ones, so that noise cannot flip it. tilt: the angle by which noise may have turned the candidates, one or (m,).
     """
     if candidates.shape[1] == 1:
         return candidates[:, 0] + 0.0

@@ -31,7 +31,7 @@ IDENTITY_3 = np.eye(3)
 class MassProperties:
     """Mass, center and inertia of one body, or of several as one, all in one frame and unit.
 
-    Of a stack of bodies all have a leading axis.
+    For a stack of bodies all attributes have a leading axis.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class MassProperties:
         refine: Callable[[], Moments] | None = None,
         higher: Callable[[], Moments | OwnMoments] | None = None,
     ) -> MassProperties:
-        """Derive mass properties from moments to order 3 at least of a body with constant density, not negative.
+        """Derive the mass properties of a body with constant density ≥ 0 from its moments to order 3 or more.
 
         The other arguments are as for `principal_frame`. MeasureError if the body has no certain volume.
         """
@@ -245,7 +245,7 @@ def affine_image(
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return (n,) whether centers are in these boxes, (n, 3) and (n, 3), and second central moments of a positive mass.
+    """Return (n,) whether centers are in boxes (n, 3) to (n, 3), and second central moments can be those of a mass.
 
     A surface that intersects itself may violate both.
     """
@@ -261,7 +261,7 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDA
 
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
-    """Return bounds of the changes by rounding and by `input_error`; infinite if nothing bounds a quotient.
+    """Return bounds of mass, center, inertia by rounding and by `input_error`; infinite if nothing bounds a quotient.
 
     They hold for the worst signs of all errors, with the divisor at its smallest.
     """
@@ -289,6 +289,6 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
 
 
 def _lengths(vectors: NDArray) -> NDArray[np.float64]:
-    """Return the lengths (...,) of (..., k) vectors with squares that may vanish."""
+    """Return the lengths (...,) of (..., k) vectors with squares that may underflow."""
     lengths = [hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
     return np.array(lengths).reshape(vectors.shape[:-1])

@@ -46,7 +46,7 @@ from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdM
 NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed
 
-# The choice if the body leaves one: the object's own directions, or the nearest of the body's own.
+# Findings if the body leaves a choice: of directions, by the preferred axes, or of several equivalent frames.
 FREE, FREE_BY_SHAPE = (
     {name: finding(code, axes=[axis + 1 for axis in axes]) for name, axes in EQUAL_AXES.items() if axes}
     | {"asymmetric": finding(AXES_AMBIGUOUS)}
@@ -56,7 +56,7 @@ FREE, FREE_BY_SHAPE = (
 
 @dataclass(frozen=True, eq=False)
 class PrincipalFrame:
-    """Principal moments and axes of one body; of a stack of bodies all have a leading axis.
+    """Principal moments and axes of one body; for a stack of bodies all attributes have a leading axis.
 
     `moments`: (3,) principal moments of inertia, ascending.
     `axes`: (3, 3) columns, determinant 1; axis 1 is the long one.
@@ -214,7 +214,7 @@ def principal_frames(
 
 
 def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: OwnMoments) -> list[EquivalentFrames]:
-    """Return for each of the shapes the frames in which it is the same, in its own coordinates."""
+    """Return for each shape the frames in which it is the same, in the shape's coordinates."""
     which = left
     if known.rotation is not None:
         fixed, which = third_moment_frames(known.moments), np.arange(len(known.moments.raw))

@@ -21,12 +21,12 @@ from .findings import AXIS_POINTS_COINCIDE
 from .mass_properties import MassProperties
 
 IDENTITY_3 = np.eye(3)
-MIN_AXIS_RATIO = 1e-6  # relative to the points' coordinates: nearer to each other, float32 points give no direction
+MIN_AXIS_RATIO = 1e-6  # relative to the coordinates: float32 points nearer to each other give no direction
 
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """A frame that inertia is referred to: an origin, and axes as columns of a rotation, or the coordinate axes."""
+    """A frame that inertia is referred to: an origin, and axes as columns of a rotation, by default the identity."""
 
     origin: NDArray[np.float64]
     axes: NDArray[np.float64] = field(default_factory=IDENTITY_3.copy)
@@ -99,7 +99,7 @@ class ReferredInertia:
 
     @property
     def about_z(self) -> float:
-        """The moment of inertia about the reference's Z axis, which is the axis through two points."""
+        """The moment of inertia about the reference's Z axis, the axis of `Reference.through_points`."""
         return float(self.inertia[2, 2])
 
     @property

@@ -37,9 +37,9 @@ from .third_moment_frames import EQUAL_AXES, FIXED_AXIS, HALF_TURN_SIGNS, SYMMET
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
 LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
 MAX_KNOWN = 1024  # problems that are remembered
-MAX_TAIL = 4.0  # times NOISE_GROWTH: in larger moments, as of spikes, rounding turns axes by more than noise
-MAX_CORRECTION = 1e-4  # frames that a refinement turns by more are looked for by themselves
-REFINEMENTS = 2  # each squares what is left: the grid's 1e-6 at first
+MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
+MAX_CORRECTION = 1e-4  # bodies with frames that a refinement turns by more are searched one by one
+REFINEMENTS = 2  # each squares the error, at first the grid's 1e-6
 NO_VALUES = np.empty(0)
 THIRD = monomial_count(2)  # index of the first moment of third order
 POWERS = monomials(MAX_ORDER)
@@ -72,7 +72,7 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
 def _frames_alike(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], name: str
 ) -> list[EquivalentFrames | None]:
-    """Return the frames of bodies of one symmetry; None for bodies that have to be looked at by themselves."""
+    """Return the frames of bodies of one symmetry; None for bodies that have to be searched one by one."""
     axis = FIXED_AXIS.get(name)
     basis = _bases(fixed.axes[bodies, :, axis], axis) if axis is not None else np.tile(np.eye(3), (len(bodies), 1, 1))
     raw, bound, extent = _whitened(moments, fixed, bodies, basis, name)
@@ -106,7 +106,7 @@ def _frames_alike(
 def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
-    """Return the frames of a body with these rounded moments. Its fixed axis points ahead (1), back (2) or both (3)."""
+    """Return the frames of a body with these rounded moments; ways: its fixed axis points ahead (1), back (2), both."""
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -130,7 +130,7 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
-    """Return (n,) the ways that the fixed axis of bodies may point, as `_search` takes them."""
+    """Return (n,) the ways that the fixed axes of bodies may point, in the code of `_search`."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
@@ -138,7 +138,7 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) central moments by the total along (n, 3, 3) axes, by the extents (n, 3); and bounds by degree."""
+    """Return (n, K) central moments along (n, 3, 3) axes, by total and extents; bounds by degree; (n, 3) extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -186,7 +186,7 @@ def _refined(
 
 
 def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
-    """Return (n, k, 3) the directions near to these in which the moments of a degree are extreme, by Newton's steps."""
+    """Return (n, k, 3) directions near the points in which the moments of a degree are extreme, by Newton's method."""
     for _ in range(REFINEMENTS):
         twice = _contracted(raw, [points] * (degree - 2), degree)
         once = np.einsum("nkij,nkj->nki", twice, points)
@@ -198,7 +198,7 @@ def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
 
 
 def _contracted(raw: NDArray, forms: list[NDArray], degree: int | None = None) -> NDArray:
-    """Return (n, k, ...) moments of a degree as tensors, with forms (n, k, 3) put in, by default as many."""
+    """Return (n, k, ...) moment tensors contracted with forms (n, k, 3); degree: by default the number of forms."""
     out = np.einsum("n...i,nki->nk...", raw[:, tensor_index(degree or len(forms))], forms[0])
     for form in forms[1:]:
         out = np.einsum("nk...i,nki->nk...", out, form)

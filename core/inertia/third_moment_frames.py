@@ -24,13 +24,13 @@ EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally cle
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
 PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
 OWN_AXIS = np.arange(3)[:, None]
-# keep the frame's hand
+# Signs of the axes that keep a frame right-handed.
 HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
 
 SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
-# by symmetry, the axes whose moments are equal
+# For each symmetry, the axes with equal moments.
 EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
-FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the other one
+FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the axis with the moment that differs
 IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for name in SYMMETRIES])
 
 
@@ -45,7 +45,7 @@ class ThirdMomentFrames:
     `symmetry`: (n,) members of `SYMMETRIES`.
     `step`, `tilt`, `noise`: as in `SecondMomentAxes`.
     `allowed`: (n, 4) mask of the HALF_TURN_SIGNS that third moments allow on the axes.
-    `skewness`, `skewness_error`: (n, 3) along the axes, and its noise.
+    `skewness`, `skewness_error`: (n, 3) the skewness along the axes, and its noise.
     """
 
     is_body: NDArray[np.bool_]
@@ -109,7 +109,7 @@ def third_moment_frames(
     )
     real = size * np.sqrt(scale)[:, None]
     skewness, skewness_error = _third_scores(moments, shift, real, axes, symmetry)
-    # Two axes that noise may have turned about the third one mix what the body has along them.
+    # Two axes that noise may have turned about the third one mix the third moments along them.
     tilt_between = np.zeros((len(total), 3, 3))
     tilt_between[:, 0, 1] = tilt_between[:, 1, 0] = tilts[:, 0]
     tilt_between[:, 1, 2] = tilt_between[:, 2, 1] = tilts[:, 1]
@@ -128,7 +128,7 @@ def third_moment_frames(
                 refine(undecided), shift[undecided], real[undecided], axes[undecided], symmetry[undecided]
             )
     is_clear = np.abs(third) > noise + error
-    first = is_clear.argmax(axis=2)[:, :, None]  # zero where none of them is more than noise
+    first = is_clear.argmax(axis=2)[:, :, None]  # zero if none is more than noise
     is_scored = fixed & is_clear.any(axis=2)
     scores = np.where(is_scored, np.take_along_axis(third, first, 2)[:, :, 0], 0.0)
     inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]

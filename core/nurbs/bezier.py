@@ -23,10 +23,10 @@ from .patch import Patch
 
 Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
-# cells of a patch: none of them is so small that rounding by the size of the patch would matter to it
+# Up to this many cells of a patch keep a common anchor: none is so small that rounding by the patch's size matters.
 SMALL_CELL_COUNT = 32
-MAX_CELLS = 8192  # made at a time
-# by the highest one, how often along s and along t
+MAX_CELLS = 8192  # Cells built at a time.
+# For each highest derivative, all derivatives: how often by s and by t.
 DERIVATIVES = {1: ((0, 0), (1, 0), (0, 1)), 2: ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))}
 
 
@@ -34,10 +34,10 @@ DERIVATIVES = {1: ((0, 0), (1, 0), (0, 1)), 2: ((0, 0), (1, 0), (0, 1), (2, 0), 
 class BezierCells:
     """Bézier patches of the same orders k and k', polynomial or rational.
 
-    net: (3, k, c, k') their control points, or (4, k, c, k') those times their weights, and the weights. anchor: (3, c)
-    or (3, 1) the origin of the control points, near them, itself relative to the common reference point.
-    constant_weights: True for weights constant along s, and along t. reach: the largest distance of any point from the
-    reference point.
+    net: (3, k, c, k') control points of c patches, or (4, k, c, k') control points times weights, and the weights.
+    anchor: (3, c) or (3, 1) origins of the control points, near them, relative to the common reference point.
+    constant_weights: whether the weights are constant along s, and along t. reach: bound of the distance of any point
+    from the reference point.
     """
 
     net: NDArray[np.float64]
@@ -47,7 +47,7 @@ class BezierCells:
 
     @property
     def orders(self) -> tuple[int, int]:
-        """K and k'."""
+        """Orders k and k' along s and t."""
         return self.net.shape[1], self.net.shape[3]
 
     def __len__(self) -> int:
@@ -71,7 +71,7 @@ class BezierCells:
         ).about_anchor()
 
     def about_anchor(self) -> BezierCells:
-        """Return the cells about their own first control points, so that summed numbers are as small as the cell."""
+        """Return the cells anchored at their first control points, so that coordinates are as small as the cell."""
         net, first = np.empty_like(self.net), self.net[:3, 0, :, 0]
         if len(net) == 4:
             net[3] = self.net[3]
@@ -82,10 +82,10 @@ class BezierCells:
         return BezierCells(net, self.anchor + first, self.constant_weights, self.reach)
 
     def evaluate(self, rule: Rule, most: int = 1, ends: bool = False) -> tuple[list[NDArray[np.float64]], Weights]:
-        """Return the patches and their derivatives at the points of Gauss rules, and the points' weights.
+        """Evaluate the patches and their derivatives at the points of Gauss rules; return them and the points' weights.
 
-        most: the highest derivative, 1 or 2. ends: the sides too, without weight. Returns S, S_s, S_t and with most = 2
-        S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and (n, 1 or 2), for each rule a column.
+        most: the highest derivative, 1 or 2. ends: add the sides, with weight zero. Returns S, S_s, S_t and if most = 2
+        S_ss, S_st, S_tt, each (3, m, c, n), and the weights (m, 1 or 2) and (n, 1 or 2), a column for each rule.
         """
         d, k, c, kk = self.net.shape
         s_basis, s_weights = bernstein(k, rule[0], most, ends)
@@ -102,7 +102,7 @@ class BezierCells:
 
 
 def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[BezierCells]:
-    """Yield the Bézier patches of patches, grouped by orders, in blocks, about a point (3,)."""
+    """Yield blocks of the Bézier cells of patches, grouped by orders and kind of weights, relative to a point (3,)."""
     groups: dict[tuple, list[Patch]] = {}
     for patch in patches:
         groups.setdefault((patch.spaces, patch.weights is None, patch.constant_weights), []).append(patch)
@@ -120,14 +120,14 @@ def cells_of(patches: Sequence[Patch], about: NDArray) -> Iterator[BezierCells]:
 def _cells_of_group(
     spaces: tuple[SplineSpace, SplineSpace], group: Sequence[Patch], about: NDArray
 ) -> Iterator[BezierCells]:
-    """Yield the Bézier patches of patches in the same function spaces."""
+    """Yield blocks of the Bézier cells of patches in the same function spaces, relative to a point (3,)."""
     u, v = len(spaces[0].spans), len(spaces[1].spans)
     step, spans_per_step = max(1, MAX_CELLS // (u * v)), max(1, MAX_CELLS // v)
     for first in range(0, len(group), step):
         some = group[first : first + step]
         nets = np.array([patch.points for patch in some])
         anchor = nets[:, 0, 0].copy()
-        nets -= anchor[:, None, None]  # not after `about`, far from which they would be rounded
+        nets -= anchor[:, None, None]  # first: far from `about` the differences would be rounded
         anchor -= about
         control_points = nets + anchor[:, None, None]
         reach = math.sqrt(np.maximum.reduce(np.einsum("gijd,gijd->gij", control_points, control_points), axis=None))
@@ -139,7 +139,7 @@ def _cells_of_group(
 
 
 def homogeneous(points: NDArray, weights: NDArray) -> NDArray[np.float64]:
-    """Return (..., 4) points times their weights, and the weights."""
+    """Return (..., 4) homogeneous coordinates: points times their weights, and the weights."""
     net = np.empty((*weights.shape, 4))
     net[..., 3] = weights
     np.multiply(points, weights[..., None], out=net[..., :3])
@@ -154,7 +154,7 @@ def cells_of_nets(
     constant_weights: tuple[bool, bool],
     reach: float,
 ) -> BezierCells:
-    """Return Bézier patches of nets (g, count_s, count_t, 3 or 4) about anchors (g, 3), by net and spans of s and t."""
+    """Return the Bézier cells of nets (g, count_s, count_t, 3 or 4) about anchors (g, 3), in spans of s and t."""
     s, active_rows = spaces[0].bezier_extraction[spans[0]], spaces[0].active_controls[spans[0]]
     t, columns = spaces[1].bezier_extraction[spans[1]], spaces[1].active_controls[spans[1]]
     (u, k), (v, kk), (g, _, count, d) = active_rows.shape, columns.shape, nets.shape
@@ -181,7 +181,7 @@ def _join(parts: Sequence[BezierCells]) -> BezierCells:
 def bernstein(
     order: int, rule: tuple[int, ...], most: int = 1, ends: bool = False
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return Bernstein polynomials' derivatives (most + 1, n, order) at Gauss points, and weights (n, rules)."""
+    """Return the derivatives (most + 1, n, order) of Bernstein polynomials at Gauss points, and weights (n, rules)."""
     parts = [gauss_legendre_with_ends(points) if ends else gauss_legendre(points) for points in rule]
     nodes = np.concatenate([nodes for nodes, _ in parts])
     weights, start = np.zeros((len(nodes), len(parts))), 0
@@ -194,7 +194,7 @@ def bernstein(
 
 @lru_cache
 def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the matrices from the control points of a Bézier curve to its halves': de Casteljau's scheme."""
+    """Return the two matrices from the control points of a Bézier curve to those of its halves (de Casteljau)."""
     first = np.eye(order)
     for row in range(1, order):
         first[row, 0] = first[row - 1, 0] / 2.0
@@ -203,7 +203,7 @@ def halves(order: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 
 
 def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64]]:
-    """Return derivatives of the quotient, from the numerator's and, in the last row, the denominator's; in place."""
+    """Return derivatives of a quotient in place, from those of numerator (rows 0 to 2) and denominator (row 3)."""
     inverse = 1.0 / derivatives[0][3]
     result, bottom = [row[:3] for row in derivatives], [row[3] for row in derivatives]
     result[0] *= inverse

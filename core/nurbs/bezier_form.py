@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""B-spline patches with any knots as patches with Blender's.
+"""Conversion of B-spline patches with any knots into patches with Blender's knots.
 
-Blender's splines have no knots of their own. If every knot is inserted until it is repeated as often as the degree
-says, a patch is Bézier patches side by side, and the distances of their knots change its parameters but not its points.
+Blender's splines have no knots of their own. If every knot is inserted until its multiplicity is the degree, a patch
+consists of Bézier patches side by side, and the distances of their knots change its parameters but not its points.
 So Blender's flags *Bézier* and *Endpoint* describe the same surface.
 """
 
@@ -21,17 +21,17 @@ from .bezier import homogeneous
 from .blender_knots import blender_space
 from .patch import Patch
 
-SAME_KNOT_RTOL = 1e-12  # Relative to the domain: allowed distance of a part's ends from a knot.
+SAME_KNOT_RTOL = 1e-12  # Relative to the domain: ends of a part that are nearer to a knot are moved to it.
 
 
 def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None]) -> list[Patch]:
-    """Return the patches with Blender's flags *Bézier* and *Endpoint* that are the surface of a patch with any knots.
+    """Convert a patch with any knots into patches of the same surface with Blender's flags *Bézier* and *Endpoint*.
 
-    They are several if the patch may jump, at knots repeated as often as the order says. domain: (low, high) of s and
-    of t, the part that is meant; None for all of it. ValueError if the part is not in the domain, or an order is 1.
+    There are several if the surface may jump, at knots with the multiplicity of the order. domain: (low, high) of s and
+    of t, the part to convert; None for all of it. ValueError if the part is not in the domain, or an order is 1.
 
-    By Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones if the
-    knots are inserted one at a time or at once.
+    By Boehm's knot insertion, as blossoms: each new control point is the same affine combination of old ones, whether
+    the knots are inserted one at a time or at once.
     """
     pieces = [list(_pieces(space, part)) for space, part in zip(patch.spaces, domain)]
     old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)
@@ -49,7 +49,7 @@ def _bezier_space(count: int, order: int) -> SplineSpace:
 
 
 def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[NDArray[np.float64]]:
-    """Yield (n, count) the weights of the old control points in the new ones, for each piece without a jump in it."""
+    """Yield, for each piece without a jump, (n, count) the weights of the old control points in the new ones."""
     low, high = space.domain if part is None else _snapped(space, part)
     edges = np.clip(space.intervals, low, high)
     inside = edges[:, 0] < edges[:, 1]
@@ -71,7 +71,7 @@ def _pieces(space: SplineSpace, part: tuple[float, float] | None) -> Iterator[ND
 
 
 def _snapped(space: SplineSpace, part: tuple[float, float]) -> tuple[float, float]:
-    """Return the ends of a part of the domain, at the knots that they mean."""
+    """Return the ends of a part of the domain, moved to a knot if they differ from it by rounding alone."""
     low, high = space.domain
     knots = np.concatenate([space.intervals[:, 0], [high]])
     tolerance = SAME_KNOT_RTOL * (high - low)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's NURBS: settings that make a surface, its knots, and the samples of its display mesh.
+"""Blender's NURBS: valid settings, the knots that follow from them, and the samples of the display mesh.
 
 Blender's files and its Python interface have no knots: they follow from the number of points, the order and three
 flags (blender/source/blender/blenkernel/intern/curve.cc: calcknots, makeknots, nurb_check_valid; the same in 4.2 to
@@ -18,7 +18,7 @@ from ..numerics.bspline import SplineSpace
 
 
 def is_valid(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> bool:
-    """Return whether Blender makes anything of a direction with these settings."""
+    """Return whether Blender evaluates a spline direction with these settings; it shows nothing otherwise."""
     return count >= max(2, order) and (
         not bezier or (count % (order - 1) == 0 if cyclic else endpoint or count > order)
     )
@@ -38,12 +38,12 @@ def blender_knots(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
         left -= 1
         if left == 0:
             current, left = current + 1, repeat
-    for i in range(tail):  # one after the other: a tail longer than the rest repeats itself
+    for i in range(tail):  # One by one: a tail longer than the rest copies its own first knots.
         knots[length - tail + i] = current + knots[i] - knots[0]
     return knots
 
 
-@lru_cache(maxsize=256)  # so that what is known of a space stays known from frame to frame
+@lru_cache(maxsize=256)  # keeps the cached tables of a space from frame to frame
 def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: bool) -> SplineSpace | None:
     """Return the function space of one direction of a Blender spline, or None if Blender shows nothing for it."""
     if not is_valid(count, order, cyclic, bezier, endpoint):
@@ -55,7 +55,7 @@ def blender_space(count: int, order: int, cyclic: bool, bezier: bool, endpoint: 
 
 
 def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float64]:
-    """Return (count * resolution,) the parameters of Blender's display mesh, in its own float32 steps, which drift."""
+    """Return (count * resolution,) parameters of Blender's display mesh, with the drift of its float32 sums."""
     cyclic = space.function_count > space.count
     total = space.count * resolution
     low, high = np.float32(space.domain[0]), np.float32(space.domain[1])
@@ -65,10 +65,10 @@ def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float6
 
 
 def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64]:
-    """Return (n, count) the weight of each control point in Blender's display mesh at these parameters.
+    """Return (n, count) weights of the control points in Blender's display mesh at n parameters.
 
-    The last of them may drift past the domain's end, into a span without its next basis function: there the
-    weights add up to less than one, and so does the surface that is displayed.
+    The last parameters may drift past the domain's end, into a span without its next basis function: there the
+    weights add up to less than one, in Blender's displayed surface too.
     """
     table = space.collocation_matrix(np.minimum(parameters, space.domain[1]))
     past = (parameters > space.domain[1]) & (space.knots[-1] > space.domain[1])

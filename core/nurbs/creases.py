@@ -60,7 +60,7 @@ def _inner_crease_angle(patch: Patch) -> float:
 
 
 def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArray[np.float64]:
-    """Return (m, n, 3) unit normals at parameters, perhaps in given spans; zero if undefined."""
+    """Return (m, n, 3) unit normals at parameters (values, spans or None) of s and of t; zero if undefined."""
     (s, by_s), (t, by_t) = (
         [space.collocation_matrix(at, k, spans) for k in (0, 1)] for space, (at, spans) in zip(patch.spaces, parameters)
     )
@@ -75,7 +75,7 @@ def _normals(patch: Patch, *parameters: tuple[NDArray, NDArray | None]) -> NDArr
 
 
 def _largest_angle(first: NDArray, second: NDArray) -> float:
-    """Return the largest angle between two rows of unit vectors, ignoring pairs with a zero vector."""
+    """Return the largest angle between corresponding unit vectors, ignoring pairs with a zero vector."""
     known = first.any(axis=-1) & second.any(axis=-1)
     chord = np.linalg.norm(first[known] - second[known], axis=-1).max(initial=0.0)
     return float(2.0 * np.arcsin(min(chord / 2.0, 1.0)))

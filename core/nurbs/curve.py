@@ -46,7 +46,7 @@ class Curve:
     Parameters
     ----------
     space : SplineSpace
-        Of its parameter.
+        Function space of the parameter.
     points : (count, 3) array
         Control points.
     weights : (count,) array, optional
@@ -108,7 +108,7 @@ class Curve:
 
     def reverse(self) -> Curve:
         """Return the same curve, run backward."""
-        # then the first point of the reversed one is that of function 0
+        # In this order the first point of the reversed curve is that of function 0.
         if self.space.function_count > self.space.count:
             order = (self.space.function_count - 1 - np.arange(self.space.count)) % self.space.count
         else:

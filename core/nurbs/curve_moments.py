@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments of B-spline curves: of their length, as wires, and of the plane regions that closed ones bound.
+"""Length moments of B-spline curves (wires), and area moments of the plane regions that closed curves bound.
 
 A region's moments follow from the flux through its boundary, by Green's theorem about a point of its plane,
 
     ∫ x^p y^q z^r dA = 1 / (p+q+r+2) · ∮ x^p y^q z^r n · (C x C') dt,
 
-with an integrand of degree (n + 2) d - 1 for a polynomial curve of degree d: exact by Gauss's rule. If it is rational,
-and for the length's square root, rules are compared as in `patch_moments`, and the difference is reported as an
-estimate. A length has a kink if its curve turns back, which two rules may miss alike. The tangents of a Bézier curve
+with an integrand of degree (n + 2) d - 1 for a polynomial curve of degree d: exact by Gauss's rule. For rational
+curves, and for the square root in lengths, rules are compared as in `patch_moments`, and the difference is reported as
+an estimate. Lengths have kinks where curves turn back; two rules may miss them alike. The tangents of a Bézier curve
 lie in the cone of its control polygon's edges (Floater 1992), so that such places are found and halved until they are
 too short to matter.
 """
@@ -29,9 +29,9 @@ from .curve import Curve
 from .patch_moments import ROUNDING, VOLUME_RTOL
 
 LENGTH_TOLERANCE = 1e-13
-RULES = (8, 12, 18, 27)  # points; each is compared with the one before
-MAX_DEPTH = 60  # times that a piece is halved
-MAX_WEIGHT_RATIO = 1e8  # the largest weight of a piece by its smallest: beyond it two rules may miss the same
+RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.
+MAX_DEPTH = 60  # Limit of successive halvings of a piece.
+MAX_WEIGHT_RATIO = 1e8  # Largest by smallest weight of a piece: beyond it two rules may miss the same.
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
@@ -55,7 +55,7 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
     Returns
     -------
     Moments
-        Of length; `rounding_error` is an estimate, by comparing Gauss rules.
+        Length moments; `rounding_error` is an estimate, by comparing Gauss rules.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, abou
     """Return the area moments of the plane region between closed curves that run counter-clockwise about the normal.
 
     A curve that runs clockwise bounds a hole. normal: (3,) unit. about: (3,) a point of the plane, by default the mean
-    of the control points. Of polynomial curves the moments are exact and `rounding_error` is rounding.
+    of the control points. For polynomial curves the moments are exact and `rounding_error` is rounding.
     """
     center: NDArray[np.float64] = (
         np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
@@ -122,10 +122,10 @@ def _integrate(
     tolerance: float,
     kinks: bool = False,
 ) -> tuple[NDArray, float, float]:
-    """Return ∫ density times monomials, its truncation by unit of reach to the degree, and the curves' length.
+    """Return ∫ density times monomials, the truncation in units of reach^degree, and the total length of the curves.
 
-    largest: the bound of the density, for each unit of length. kinks: True if it has kinks at turns back. A piece is
-    done when two rules agree to the tolerance of its own length, or of its share of the curve's.
+    largest: bound of the density per unit of length. kinks: True if the density has kinks where a curve turns back. A
+    piece is done when two rules agree within the tolerance, relative to its length or to the mean length of pieces.
     """
     degree = monomials(order).sum(axis=1)
     unit = reach ** degree.astype(np.float64)
@@ -156,7 +156,7 @@ def _integrate(
 
 
 def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return control points (c, order, 3 or 4) of Bézier curves about anchors (c, 3), these about `about`."""
+    """Return control points (c, order, 3 or 4) of Bézier pieces from anchors (c, 3), and the anchors, from `about`."""
     space, origin = curve.space, curve.points[0]
     net = curve.points - origin
     if curve.weights is not None:
@@ -166,7 +166,7 @@ def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], N
 
 
 def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the Bézier curves about their own first control points."""
+    """Return the control points and anchors of Bézier curves, anchored anew at their first control points."""
     rational = net.shape[2] == 4
     first = net[:, :1, :3] / net[:, :1, 3:] if rational else net[:, :1]
     points = net[..., :3] - (first * net[..., 3:] if rational else first)
@@ -174,14 +174,14 @@ def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.floa
 
 
 def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
-    """Return (c,) upper bounds of the lengths of pieces that may turn back, 0 for others."""
+    """Return (c,) upper bounds of the lengths of pieces that may turn back; 0 for other pieces."""
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
     ahead = np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0
     return np.where(ahead, 0.0, np.sqrt((edges**2).sum(axis=2)).sum(axis=1))
 
 
 def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
-    """Return (c,) bounds of the lengths of pieces that heavy weights draw to a point but for their ends; else 0."""
+    """Return (c,) length bounds of pieces with weights so unequal that rules may miss a part; 0 for other pieces."""
     if net.shape[2] == 3:
         return np.zeros(len(net))
     weights, points = net[..., 3], net[..., :3] / net[..., 3:]

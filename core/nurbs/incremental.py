@@ -6,7 +6,7 @@ Soldea, Elber and Rivlin (section 3) precompute Φ, integrals of products of six
 them with the control points. Every entry of Φ is a difference of products of two integrals over one parameter each, so
 that only the matrices from control points to Bézier ones (`bezier`) are precomputed: 4 kB instead of 0.4 to 140 MB for
 an 8 x 8 bicubic patch, and fewer operations (`phi` is their scheme, to compare with). A control point acts on k x k'
-spans only; the others' contributions are kept.
+spans only; the contributions of other spans are kept.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ RATIONAL_GAUSS_POINTS = 16  # Gauss points in a span of a rational patch
 class IncrementalPatchMoments:
     """Moments of a patch in a fixed function space and with fixed weights, its control points free to move.
 
-    Gauss rules are exact for polynomial patches; for rational ones they come without an estimate. `area` is the area of
+    Gauss rules are exact for polynomial patches; for rational ones there is no error estimate. `area` is the area of
     the patch as last evaluated, by the same points: an approximation.
     """
 
@@ -45,7 +45,7 @@ class IncrementalPatchMoments:
         self.area = 0.0
 
     def moments(self, points: NDArray) -> Moments:
-        """Return the flux through the patch, evaluated anew only on spans on which moved control points act."""
+        """Return the patch's flux as moments; only spans on which moved control points act are evaluated anew."""
         moved = (points != self._points).any(axis=2)
         self._points = points.copy()
         if moved.all():

@@ -3,7 +3,7 @@
 """Tensor-product B-spline patches, polynomial or rational.
 
 The normal of a patch is ∂S/∂s x ∂S/∂t, s being the direction of the first axis of its control points. Blender's faces
-run the other way round their two directions: with v as s and u as t both agree.
+look the other way: with Blender's v as s and u as t, both normals agree.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Patch:
     Parameters
     ----------
     spaces : (SplineSpace, SplineSpace)
-        Of s, the first axis of the control points, and of t.
+        Function spaces of s, along the first axis of the control points, and of t.
     points : (count_s, count_t, 3) array
         Control points.
     weights : (count_s, count_t) array, optional
@@ -65,7 +65,7 @@ class Patch:
 
     @cached_property
     def constant_weights(self) -> tuple[bool, bool]:
-        """True if the weights are the same along s, and along t."""
+        """Two flags: whether the weights are constant along s, and along t."""
         if self.weights is None:
             return True, True
         return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
@@ -84,11 +84,11 @@ class Patch:
         )
 
     def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
-        """Return its (len(s), len(t), 3) points."""
+        """Return the (len(s), len(t), 3) points at all pairs of parameters from s and t."""
         return self.apply_weights(*(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t))))
 
     def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
-        """Return (m, n, 3) points by two tables, (m, count_s) and (n, count_t), of the control points' weights."""
+        """Return the (m, n, 3) points given by tables (m, count_s) and (n, count_t) of basis function values."""
         points, bottom = self.points, None
         if self.weights is not None:
             points = points * self.weights[..., None]
@@ -107,18 +107,18 @@ class Patch:
         return Curve(self.spaces[1 - axis], top / bottom[:, None], bottom)
 
     def samples(self, each: int) -> NDArray[np.float64]:
-        """Return a grid of points, `each` + 1 for every span and direction, ends included."""
+        """Return a grid of points at `each` equal steps in every span of both directions, ends included."""
         return self.apply_weights(*(_sample_table(space, each) for space in self.spaces))
 
 
 @lru_cache(maxsize=64)
 def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
-    """Return the weights of control points at equal steps in every span; not to be written to."""
+    """Return (n, count) weights of control points at `each` equal steps in every span; cached: do not modify."""
     return space.collocation_matrix(space.uniform_parameters(each))
 
 
 def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (3,) and (3,) the least and the largest coordinates of all control points."""
+    """Return the least (3,) and the largest (3,) coordinates of all control points."""
     for patch in patches:
         check_type("patches", patch, Patch)
     return (

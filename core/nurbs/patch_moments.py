@@ -6,7 +6,7 @@ Soldea, Elber and Rivlin, sections 2 and 3, with the radial flux in place of the
 
     ∫ x^p y^q z^r dV = 1 / (p+q+r+3) · ∫∫ x^p y^q z^r S · (S_s x S_t) ds dt.
 
-Of a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
+For a polynomial patch of degree d the integrand has degree (n + 3) d - 2 in each parameter for moments of order n (the
 top coefficient of S · (S_s x S_t) cancels), so a Gauss rule of ceil(((n + 3) d - 1) / 2) points in every span is exact.
 A rational integrand, an area's square root and the jacobian of a sheet have no finite degree: there the rules grow by
 halves until two of them agree, and if the finest rule does not suffice, cells are cut in four. The sum of the remaining
@@ -35,28 +35,28 @@ from .patch import Patch, patches_center, patches_size
 
 VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
 AREA_RTOL = 1e-11
-# times what two rules differ by that have not begun to agree, when no more points are to be spent
+# Factor on the difference of two rules that do not agree yet when all points are spent.
 UNCONVERGED_FACTOR = 8.0
-# a cell's largest weight by its smallest, beyond which rules may differ by less than both miss, or miss the same
+# Largest by smallest weight of a cell: beyond these, rules may differ by less than their error, or miss the same part.
 MAX_WEIGHT_RATIOS = 1e2, 1e6
-# times what two rules differ by: where a patch folds back, its area has kinks, and both may be off alike
+# Factor on the difference of two rules: if a patch folds back, its area has kinks, and both rules may err alike.
 FOLD_FACTOR = 8.0
 MIN_REVERSED_NORMAL = 1e-9  # a normal that points against its neighbor by less than this is rounding
 RULES = (16, 24, 36)  # points along each direction; each rule is compared with the one before
-COARSE_RULES = (8, 12, 18)  # For lower demands.
+COARSE_RULES = (8, 12, 18)  # Used for tolerances from `AREA_RTOL` upward.
 MIN_DIVISOR = 1e-300  # Divisors are at least this.
-MAX_DEPTH = 14  # times that a cell is cut
-MAX_POINTS = 6_000_000  # evaluated at most
+MAX_DEPTH = 14  # Limit of successive cuts of a cell.
+MAX_POINTS = 6_000_000  # Limit of evaluated points.
 POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
-ROUNDING = 64.0  # units roundoff, of the sum of absolute values, for each order of a basis: an estimate
+ROUNDING = 64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
 
 Integrand = Callable[[BezierCells, Rule], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
 class Integral:
-    """Values (K,) of an integral over cells; estimate of their truncation, and the cells' size, by their units."""
+    """An integral over cells: (K,) values, their truncation estimate divided by `unit`, and the cells' total size."""
 
     values: NDArray[np.float64]
     estimate: float
@@ -69,7 +69,7 @@ def volume_moments(
 ) -> tuple[Moments, bool]:
     """Return the volume moments of the body that closed, outward patches bound, and whether they converged.
 
-    about: (3,), by default the middle of their box. Patches that do not close are closed by the cone from there.
+    about: (3,), by default the middle of the control points' box. Patches that do not close are closed by a cone to it.
     `rounding_error` holds an estimate of truncation (zero for polynomial patches) and rounding.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
@@ -95,7 +95,7 @@ def volume_moments(
 
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
-    """Return (rules, K + 1, c) the flux of monomials times the place; and the area, or its bound ∫ |S_s| |S_t|."""
+    """Return (rules, K + 1, c) fluxes of monomials times position; the last row: area or its bound ∫ |S_s| |S_t|."""
     (s, along, across), weights = cells.evaluate(rule)
     normal = cross(along, across)
     terms = weighted_monomials(s, dot(s, normal), order, 1)
@@ -104,9 +104,9 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
 
 
 def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """Return the area moments of patches by quadrature, otherwise as `volume_moments`.
+    """Return the area moments of patches by quadrature, and whether they converged; about: as for `volume_moments`.
 
-    If a patch turns over between two neighboring points, or a cell's side and its first point, the area between them
+    If a patch turns over between two neighboring points, or a cell's side and the next point, the area between them
     counts as error, so that such a cell is cut.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
@@ -129,7 +129,7 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
-    """Return (c,) areas between points with normals (3, m, c, n) where patches turn over: rules may miss such kinks."""
+    """Return (c,) areas between neighboring points with opposed normals (3, m, c, n): rules may miss such kinks."""
     total = np.zeros(normal.shape[2])
     for (points,), other_weights in zip(rule, weights[::-1]):
         nodes, _ = gauss_legendre_with_ends(points)
@@ -143,7 +143,7 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
 
 
 def area_slope(patches: Sequence[Patch]) -> float:
-    """Estimate, by a fixed rule, the largest change of the area for each unit that every control point moves."""
+    """Estimate, by a fixed rule, the largest change of the area per unit of displacement of all control points."""
     total = 0.0
     for patch in patches:
         net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
@@ -163,7 +163,7 @@ def area_slope(patches: Sequence[Patch]) -> float:
 
 @lru_cache(maxsize=64)
 def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, NDArray], ...]:
-    """Return values and slopes (m, k) of acting control points (k,), and the steps (m,), a few spans at a time."""
+    """Return tiles of a few spans: basis values and slopes (m, k), Gauss weights (m,), active control indices (k,)."""
     nodes, weights = gauss_legendre(SLOPE_POINTS)
     tiles = []
     for start in range(0, len(space.spans), SLOPE_SPANS):
@@ -185,7 +185,7 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> NDArray[np.float64]:
-    """Return (3, k, k') the area's gradient by control points; if rational, by the product of weight and place."""
+    """Return (3, k, k') the area's gradient by control points; if rational, by control points times their weights."""
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
@@ -213,9 +213,9 @@ def _slope_of_tile(
 def sheet_moments(
     patches: Sequence[Patch], inner: float, outer: float, order: int = 3, about: NDArray | None = None
 ) -> tuple[Moments, bool]:
-    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, a sheet with real thickness; n is the unit normal.
+    """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, n the unit normal, and whether they converged.
 
-    Across the sheet the integrand is a polynomial of degree n + 2, so a rule of ceil((n + 3) / 2) points is exact.
+    Across the sheet the integrand has degree order + 2 in h, so a rule of ceil((order + 3) / 2) points is exact.
     MeasureError if the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
     """
     about = patches_center(patches) if about is None else np.asarray(about, np.float64)
@@ -264,7 +264,7 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
 
 
 def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
-    """Return moments with the bounds of a change that sweeps a volume `swept`, no farther away than `reach`.
+    """Return moments with the input error of a change that sweeps the volume `swept` within `reach` of their origin.
 
     A skin that moves sweeps a volume, and so do gaps along seams; a monomial of degree d is at most reach^d in it.
     """
@@ -272,7 +272,7 @@ def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
 
 
 def with_area_error(area: Moments, slope: float, stored: float, reach: float) -> Moments:
-    """Return area moments with bounds of moving each control point by at most `stored`; slope: from `area_slope`."""
+    """Return area moments with the input error of moving control points by at most `stored`; slope: of `area_slope`."""
     if reach == 0.0:
         return area  # The patches are one point, without any digits in their stored coordinates.
     return with_swept_error(area, stored * (slope + area.total / reach), reach)
@@ -281,7 +281,7 @@ def with_area_error(area: Moments, slope: float, stored: float, reach: float) ->
 def stored_area_moments(
     patches: Sequence[Patch], order: int, about: NDArray | None = None, *, stored: float
 ) -> Moments:
-    """Return the area moments of patches, by default about their box's center, with bounds of storing the points."""
+    """Return the area moments of patches, by default about their box's center, with errors of stored points."""
     area = area_moments(patches, order, about)[0]
     return with_area_error(area, area_slope(patches), stored, patches_size(patches) + 4.0 * stored)
 
@@ -301,10 +301,10 @@ def integrate_adaptively(
 ) -> Integral:
     """Integrate over patches, cell by cell, by the first rule that agrees with the one before.
 
-    integrand: gives for each rule (K + 1, c) contributions and sizes of cells, and perhaps a row more of shares that
-    count as error. unit: (K,) factors from a cell's size to bounds of its moments. degree: of a moment's integrand, if
-    a polynomial, along a direction of constant weights, so that fewer points are exact there; else None. thickness: the
-    factor of an area. Rules agree to the tolerance of the cell's own size, or of its share of the whole one.
+    integrand: returns for each rule (K + 1, c) contributions and sizes of cells, and optionally a row of areas that
+    count as error. unit: (K,) factors from a cell's size to bounds of its moments. degree: of the moments, if fewer
+    points are exact along directions of constant weights; else None. thickness: the factor from areas to sizes. Rules
+    agree if they differ by at most the tolerance, relative to the cell's size or to the mean size of all cells.
     """
     k = len(unit)
     values, estimate, lost, most = np.zeros(k), 0.0, 0.0, np.maximum(unit, MIN_DIVISOR)[:, None]
@@ -343,7 +343,7 @@ def integrate_adaptively(
             values += np.add.reduce(fine[:k, good], axis=1)
             estimate += float(np.add.reduce(differ[good]))
             onward = ~good if level + 2 < len(points) else np.zeros_like(good)
-            onward &= kinks + steep == 0.0  # no rule sees through a kink
+            onward &= kinks + steep == 0.0  # More points do not resolve a kink: such cells are cut.
             cut = ~(good | onward)
             if onward.any():
                 waiting.append((part[onward], fine[:, onward], level + 1))
@@ -355,9 +355,9 @@ def integrate_adaptively(
 
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """Return (c,) the areas that all rules may miss, as weights beyond a factor draw a cell to a point.
+    """Return (c,) areas that all rules may miss, of cells with weights that differ by a factor above `steep`; else 0.
 
-    An area is the squared diagonal of the box around the cell's control points.
+    Each area is the squared diagonal of the box around the cell's control points.
     """
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
@@ -373,7 +373,7 @@ def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]
 def _rules(
     orders: tuple[int, int], steady: tuple[bool, bool], points: tuple[int, int], degree: int | None
 ) -> tuple[Rule, ...]:
-    """Return two rules to compare, of so many points or fewer if exact; joined if they differ one way only."""
+    """Return two rules to compare, of `points` or fewer if exact; joined into one if equal along s or along t."""
     coarse, fine = (
         tuple(
             min(number, exact_points(order, degree)) if same and degree is not None else number
@@ -389,7 +389,7 @@ def _rules(
 
 
 def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
-    """Return (rules, K, c) an integrand of many cells, some at a time."""
+    """Return (rules, K, c) values of an integrand for cells, evaluated in blocks."""
     step = max(1, POINTS_PER_BLOCK // (sum(rule[0]) * sum(rule[1])))
     if len(cells) <= step:
         return integrand(cells, rule)
@@ -417,7 +417,7 @@ def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int =
 
 
 def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """Return (rules, K, c) sums of (K, m, c, n) over the points, by weights (m, 1 or rules) and (n, 1 or rules)."""
+    """Return (rules, K, c) sums of terms (K, m, c, n) over points, with weights (m, 1 or rules) and (n, 1 or rules)."""
     count, m, c, n = terms.shape
     s_weights, t_weights = weights
     half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)

@@ -7,9 +7,9 @@ pole) or coincides with another side: of the same patch (a cyclic direction, a s
 way. Sides coincide if they agree parameter by parameter, or else point by point. A vector area of zero proves nothing:
 an open cylinder's is zero too.
 
-Open sides are joined to loops, and a loop is closed by the cone to its centroid, which of a flat loop is the exact flat
-cap, as a signed sum whatever the loop's shape. A cone over a B-spline curve is a B-spline patch of degree one by the
-curve's, so that caps are patches as all others.
+Open sides are joined to loops, and a loop is closed by the cone to its centroid. For a flat loop of any shape the cone
+is the exact flat cap, as a signed sum. A cone over a B-spline curve is a B-spline patch with degree one in the other
+direction, so that caps are patches like all others.
 """
 
 from __future__ import annotations
@@ -32,21 +32,21 @@ from .patch import Patch
 from .patch_moments import vector_area
 from .planar_regions import self_intersects
 
-SAMPLES_PER_SIDE = 33  # points at least by which sides are compared
+SAMPLES_PER_SIDE = 33  # Least number of points at which sides are compared.
 PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time
-PAIRS_PER_BATCH = 1 << 20  # pairs of sides looked at together
+PAIRS_PER_BATCH = 1 << 20  # Candidate pairs of sides at a time.
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
 MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itself.
 MAX_SIDE_PAIRS = 100_000  # Limit of closed sides compared point by point.
-SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (axis held, end, run forward), counter-clockwise
+SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
 
 
 @dataclass(frozen=True, eq=False)
 class BoundaryLoop:
     """Open sides that run round a hole.
 
-    caps: the patches that close it and face as theirs do. component: that of the sides. zero_area: closed already.
-    area: of the cap, an estimate. self_intersecting: flat, and crossing itself.
+    caps: patches that close the hole and face as the sides' patches do. component: index of the sides' component.
+    zero_area: the hole is closed already. area: of the cap, an estimate. self_intersecting: flat, and crosses itself.
     """
 
     caps: tuple[Patch, ...]
@@ -61,12 +61,12 @@ class BoundaryLoop:
 class PatchTopology:
     """Components, orientations, joined sides and holes of patches.
 
-    component: (n,) of each patch; number: of them. flipped: (n,) mask of patches that face against most of their
-    component, or the first if as many face each way. loops: the holes. open_sides, non_manifold_sides,
-    misoriented_sides: the numbers of sides that lie open, coincide with more than one other, or run the same way as the
-    side that they coincide with, before anything was turned. seam_gap: the largest distance, times the length, of sides
-    that coincide. seams: (k, 2) joined sides, four to a patch in the order of `SIDES`. unclosable: (number,) components
-    with sides that cannot be joined to loops, or with one side only.
+    component: (n,) component index of each patch; number: of components. flipped: (n,) mask of patches that face
+    against most of their component, or against its first if as many face each way. loops: the holes. open_sides,
+    non_manifold_sides: the numbers of sides that are open, or coincide with several other sides. misoriented_sides: the
+    number of joined pairs that run the same way before any patch is turned. seam_gap: the sum over joined sides of
+    largest distance times length. seams: (k, 2) joined sides, four to a patch in the order of `SIDES`. unclosable:
+    (number,) mask of components with open sides that form no loop, or with a one-sided surface.
     """
 
     component: NDArray[np.intp]
@@ -82,7 +82,7 @@ class PatchTopology:
 
 
 def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
-    """Find the seams, orientation and holes of patches; MeasureError if knots may tear one unseen by its sides."""
+    """Find the seams, orientation and holes of patches; MeasureError if a patch may be torn at a knot."""
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
     curves = [patch.side(axis, end) for patch in patches for axis, end, _ in SIDES]
@@ -96,7 +96,7 @@ def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
         _coincident_sides(curves, points, np.flatnonzero(wide), tolerance), points, owner, forward
     )
 
-    # Two sides fit where one runs against the other; else one of their patches must turn.
+    # Two sides fit if one runs against the other; else one of their patches must turn.
     misoriented = same == (forward[left] == forward[right])
     component, number = connected_components(len(patches), owner[left], owner[right])
     flipped, conflict = _orient_patches(len(patches), owner[left], owner[right], misoriented)
@@ -130,7 +130,7 @@ def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
 
 @lru_cache(maxsize=64)
 def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
-    """Return the weights of control points at equal steps of the domain; not to be written to."""
+    """Return (count, k) weights of k control points at equal steps of the domain; cached: do not modify."""
     low, high = space.domain
     return space.collocation_matrix(low + (high - low) * np.linspace(0.0, 1.0, count))
 
@@ -138,7 +138,7 @@ def _uniform_table(space: SplineSpace, count: int) -> NDArray[np.float64]:
 def _coincident_sides(
     curves: Sequence[Curve], points: NDArray, wide: NDArray[np.intp], tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Return coinciding sides, the nearest first: distance, two indices, and whether their curves run alike."""
+    """Return pairs of coinciding sides, nearest first: distance, two indices, whether their curves run the same way."""
     middle = points.shape[1] // 2
     side_points = points[wide]
     first, last = side_points[:, 0], side_points[:, -1]
@@ -165,11 +165,11 @@ def _pair_sides(
     owner: NDArray[np.intp],
     forward: NDArray[np.bool_],
 ) -> tuple[NDArray, NDArray, NDArray, NDArray, int]:
-    """Return joined sides (k,) and (k,), whether their curves run alike, distances; and non-manifold sides' number.
+    """Return joined sides (k,) and (k,), whether their curves run the same way, distances; and the non-manifold count.
 
-    If more than two meet, as for touching bodies, sides of patches already joined by other sides come first, then a
-    patch by itself to one that it fits as it faces, then any that fit as they face: so no patch is turned needlessly.
-    Of equal ones the sharpest angle comes first, patches that lie on each other after all others.
+    If more than two sides meet, as for touching bodies, pairs of patches already joined by other sides come first, then
+    single patches that fit without turning, then other patches that fit: so no patch is turned needlessly. Among equal
+    pairs the sharpest angle comes first; patches that lie on each other come last.
     """
     times = np.bincount(np.array([side for _, i, j, _ in coincident for side in (i, j)], np.intp))
     part, odd, size = list(range(len(owner))), [False] * len(owner), [1] * len(owner)
@@ -231,7 +231,7 @@ def _pair_sides(
 
 
 def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return pairs of rows i < j of (n, d) that differ by no more than a limit: neighbors along a slanted line."""
+    """Return pairs i < j of rows of (n, d) keys with no coordinate that differs by more than a limit."""
     keys = keys - keys[:1]
     slope = 1.0 / np.sqrt(np.arange(2.0, 2.0 + keys.shape[1]))
     line = (keys * slope).sum(axis=1)
@@ -249,7 +249,7 @@ def _close_pairs(keys: NDArray, limit: float) -> tuple[NDArray[np.intp], NDArray
 def _distance_between(
     points: NDArray, left: NDArray, right: NDArray, tolerance: float
 ) -> Iterator[tuple[float, int, int, bool]]:
-    """Yield pairs of sides that agree by parameter: distance, the two indices, True if they run the same way."""
+    """Yield pairs of sides that coincide parameter by parameter: distance, indices, True if they run the same way."""
     for start in range(0, len(left), PAIRS_PER_BLOCK):
         i, j = left[start : start + PAIRS_PER_BLOCK], right[start : start + PAIRS_PER_BLOCK]
         reversed_distance, forward_distance = (
@@ -266,7 +266,7 @@ def _distance_between(
 def _overlapping_sides(
     first: Curve, second: Curve, first_points: NDArray, second_points: NDArray, i: int, j: int, tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
-    """Return the pair if two curves coincide by any parameters: every point of each is on the other one."""
+    """Return [(distance, i, j, True if same direction)] if all points of each curve are on the other curve, else []."""
     gaps, ways = [], []
     for curve, samples, points in ((second, second_points, first_points), (first, first_points, second_points)):
         gap, way = _nearest(curve, samples, points, tolerance)
@@ -278,7 +278,7 @@ def _overlapping_sides(
 
 
 def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> tuple[float, float]:
-    """Return the largest distance of points from a curve, and their direction along (+) or against (-) it."""
+    """Return the largest distance of points from a curve, and a number > 0 if they run along it, < 0 if against it."""
     low, high = curve.space.domain
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
     closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
@@ -296,7 +296,7 @@ def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) 
 def _orient_patches(
     count: int, left: NDArray, right: NDArray, misoriented: NDArray
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-    """Return a mask of patches that must turn to face as the first of their component, and patches that cannot."""
+    """Return a mask of patches to turn, to face as the first of their component, and indices of patches in conflict."""
     neighbors: list[list[tuple[int, bool]]] = [[] for _ in range(count)]
     for i, j, flip in zip(left.tolist(), right.tolist(), misoriented.tolist()):
         neighbors[i].append((j, flip))
@@ -318,7 +318,7 @@ def _orient_patches(
 def _find_loops(
     points: NDArray, free: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
 ) -> list[tuple[list[int], bool]]:
-    """Return chains of open sides, each with True if it is closed."""
+    """Join open sides to chains; return the side indices of each chain, and True if it is closed."""
     ahead = forward[free]
     begin, end = (points[free, np.where(ahead, source, target)] for source, target in ((0, -1), (-1, 0)))
     limit = 2.0 * tolerance
@@ -347,7 +347,7 @@ def _find_loops(
 def _cap_loop(
     curves: Sequence[Curve], component: int, points: NDArray, forward: NDArray[np.bool_], tolerance: float
 ) -> BoundaryLoop:
-    """Return the cone from a loop's centroid."""
+    """Close a loop by the cone to its centroid, and return the loop with its caps."""
     run = np.concatenate([row if ahead else row[::-1] for row, ahead in zip(points, forward)])
     steps = np.diff(np.concatenate([run, run[:1]]), axis=0)
     weigh = np.linalg.norm(steps, axis=1)
@@ -361,7 +361,7 @@ def _cap_loop(
         weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
         caps.append(Patch((curve.space, clamped_space(2)), np.stack(ends, axis=1), weights))
     flat = bool(np.abs(arms @ axes[2]).max() <= tolerance)
-    # A way there and back has no net area; of a loop in space only its cone's area shows that.
+    # A path there and back has no net area; for a loop in space only its cone's area shows that.
     area = float(np.linalg.norm(vector_area(caps))) if flat else width
     slim = bool(area <= tolerance * weigh.sum())
     crossing = flat and not slim and len(arms) <= MAX_CHORDS and self_intersects(arms @ axes[:2].T, tolerance)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The region of a plane that closed curves bound, holes left out: which plane, and which way each curve runs."""
+"""Plane regions bounded by closed curves, with holes: the plane, and the orientation of each curve."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from .curve import Curve
 from .curve_moments import curves_center
 from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
 
-SAMPLES_PER_SPAN = 16  # at first
-FINER_SAMPLES = 64, 256  # Used if fewer samples seem to cross.
+SAMPLES_PER_SPAN = 16  # For the first comparison.
+FINER_SAMPLES = 64, 256  # Used if the chords of fewer samples cross.
 MAX_CHORDS = 8192  # Limit with finer samples.
 MAX_CHORD_PAIRS = 4_000_000  # Pairs compared at a time.
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
-    """Return the closed curves around a plane region, outer ones counter-clockwise, holes clockwise, and its normal.
+    """Return the curves oriented around a plane region, outer ones counter-clockwise, holes clockwise, and its normal.
 
-    Every second curve inside others is a hole, as Blender fills them. The unit normal (3,) points most along +z, then
-    +y, then +x. stored: how far storing the points may have moved them. MeasureError if the curves are not closed, not
-    in one plane, or cross.
+    A curve inside an odd number of others is a hole, as in Blender. The first nonzero component of the unit normal (3,)
+    in the order z, y, x is positive. stored: largest displacement of the points by storing them. MeasureError if the
+    curves are not closed, too small, not in one plane, or cross.
     """
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
@@ -76,7 +76,7 @@ def _is_inside(point: NDArray, loop: NDArray) -> bool:
 
 
 def self_intersects(loop: NDArray, tolerance: float) -> bool:
-    """Return whether a polygon (n, 2) runs through itself, in a corner too, and does not merely touch itself."""
+    """Return whether a polygon (n, 2) crosses itself, along an edge or at a corner; touching does not count."""
     loop = _without_repeats(loop, tolerance)
     return chords_cross([loop], tolerance, touch=False) or (
         chords_cross([loop], tolerance)
@@ -90,7 +90,7 @@ def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
 
 
 def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
-    """Return whether chords of polygons (n, 2) cross by more than a tolerance, or corners coincide if `touch`."""
+    """Return whether edges of polygons (n, 2) cross by more than a tolerance or, if `touch`, corners coincide."""
     a = np.concatenate(loops)
     b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
     step = max(1, MAX_CHORD_PAIRS // len(a))

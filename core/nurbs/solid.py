@@ -3,8 +3,8 @@
 """Measurement of a body bounded by B-spline patches: its kind, the decisions taken, and its moments.
 
 The counterpart of `core.solid` for surfaces that are not made of polygons, with the same verdicts: patches that face
-against the rest of their part are turned, holes are capped, parts that are inside out and in no other's material are
-turned, and unclosable patches are measured as a signed sum and called open. Parts are compared by samples of their
+against the rest of their part are turned, holes are capped, parts that are inside out and in no other part's material
+are turned, and unclosable patches are measured as a signed sum and called open. Parts are compared by samples of their
 patches: an overlap that is thinner than a hundredth of a part may be missed.
 """
 
@@ -56,18 +56,18 @@ from .patch_moments import (
 )
 from .patch_topology import PatchTopology, find_topology
 
-SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # samples of a span, for comparing parts, and where those cross
-MAX_TRIANGLES = 1_000_000  # compared where samples cross
+SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # For comparing parts, and for parts that seem to cross.
+MAX_TRIANGLES = 1_000_000  # Limit for the fine samples.
 
 
 @dataclass(frozen=True, eq=False)
 class PatchIntegrals:
     """The moments of the body that patches bound, and how they came about; errors are estimates.
 
-    `area`: of the patches, without caps. `health`: state of the input.
+    `area`: moments of the patches, without caps. `health`: state of the input.
     `method`: EXACT, CAPPED, REORIENTED or OPEN.
-    `patches`: the patches with the signed sum `volume`, caps among them.
-    `signs`: (n,) how each given patch counts: 1, -1, or 0 for one of a flat part.
+    `patches`: the counted patches and caps, oriented so that their sum is `volume`.
+    `signs`: (n,) how each given patch counts: 1, -1, or 0 if its part is left out.
     """
 
     volume: Moments
@@ -82,7 +82,7 @@ class PatchIntegrals:
 
 @dataclass(frozen=True, eq=False)
 class _PatchVerdict:
-    """Decisions about parts: (c,) masks of those with a volume, to turn, and in the sum; cap areas; comparison."""
+    """Decisions about parts: (c,) masks of parts with a volume, to turn, and in the sum; cap areas; comparison."""
 
     solid: NDArray[np.bool_]
     flipped: NDArray[np.bool_]
@@ -103,9 +103,9 @@ def measure_patches(
     patches : sequence of Patch
         In any order and orientation.
     order, area_order : int
-        Of the volume's moments, and of the area's.
+        Orders of the volume's moments and of the area's.
     stored : float
-        By how much storing the control points may have moved each (unit), for the moments' `input_error`.
+        Largest displacement of a control point by storing it, for the moments' `input_error`.
 
     Returns
     -------
@@ -115,7 +115,7 @@ def measure_patches(
     Raises
     ------
     MeasureError
-        If there is nothing to measure.
+        If all control points coincide, or a patch may be torn at a knot.
 
     Notes
     -----
@@ -164,10 +164,10 @@ def assess(
     stored: float,
     findings: Sequence[Finding] = (),
 ) -> PatchIntegrals:
-    """Judge the moments of parts, as they face.
+    """Combine the moments of parts, turned or left out as needed, into the measurement with its findings.
 
-    parts: from `oriented_parts`, measured: of each, from `volume_moments`. area: of all patches, slope: from
-    `area_slope`. stored: as for `measure_patches`. findings: further ones.
+    parts: from `oriented_parts`. measured: the result of `volume_moments` for each part. area: moments of all patches.
+    slope: from `area_slope`. stored: as for `measure_patches`. findings: further findings to include.
     """
     size = patches_size(patches)
     verdict = _judge_parts(parts, topology, measured, area.total, size, stored)
@@ -179,10 +179,10 @@ def assess(
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
     is_open = bool(topology.unclosable.any() or not verdict.solid.any())
-    whole_sign = -1.0 if volume.total < 0.0 else 1.0  # open, or of cavities that overlap each other
+    whole_sign = -1.0 if volume.total < 0.0 else 1.0  # May be negative if open, or if cavities overlap.
     volume = replace(volume, raw=whole_sign * volume.raw)
     reach = size + 4.0 * stored
-    # caps move with their boundaries
+    # Caps move with their boundaries: their area counts too.
     skin = area.total + sum(loop.area for loop in topology.loops)
     volume = with_swept_error(volume, stored * skin + topology.seam_gap, reach)
     area = with_area_error(area, slope, stored, reach)
@@ -224,7 +224,7 @@ def _judge_parts(
     size: float,
     stored: float,
 ) -> _PatchVerdict:
-    """Find the parts with a volume, and the ones inside out."""
+    """Find the parts with a volume, and the parts that are inside out."""
     caps = np.zeros(topology.number)
     for loop in topology.loops:
         caps[loop.component] += 0.0 if loop.zero_area else loop.area
@@ -262,7 +262,7 @@ def measure_sheet(
 ) -> tuple[Moments, Moments, bool]:
     """Measure a sheet of real thickness along patches, about the middle of the control points' bounding box.
 
-    inner, outer: the heights along the patches' normals between which it lies. stored: as for `measure_patches`. Return
+    inner, outer: its least and largest height along the patches' normals. stored: as for `measure_patches`. Return
     the moments of its volume and of the patches' area, to order 3, and whether both error estimates are below the
     tolerance. MeasureError if the sheet would run through itself.
     """
@@ -272,7 +272,7 @@ def measure_sheet(
     size = patches_size(patches)
     reach = size + max(abs(inner), abs(outer)) + 4.0 * stored
     area = with_area_error(area, area_slope(patches), stored, reach)
-    # it grows with its area, in layers that are at most so thick on average
+    # The volume grows with the area, by at most this thickness on average.
     thickness = max(abs(outer - inner), sheet.total / (area.total or 1.0))
     sheet = replace(sheet, input_error=thickness * area.input_error)
     return sheet, area, fine and converged
@@ -288,7 +288,7 @@ def _compare_parts(
     shared = np.unique(relations.intersecting)
     spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
-    if len(shared) and each > SAMPLES_PER_SPAN:  # Crossing samples may be merely near.
+    if len(shared) and each > SAMPLES_PER_SPAN:  # Parts with crossing samples may be merely near.
         nearer = _classify_parts([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
         crossed, inside, crossing = (
             np.sort(pairs) @ (len(parts), 1)
@@ -305,7 +305,7 @@ def _compare_parts(
 
 
 def _component_findings(comparison: ComponentComparison | None, size: float) -> list[Finding]:
-    """Return findings about parts in others' material, and parts that go through others."""
+    """Return findings about parts in other parts' material, and about parts that go through other parts."""
     if comparison is None:
         return []
     counts = {
@@ -326,9 +326,9 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
 def _classify_parts(
     parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
-    """Compare parts with each other by samples of their patches: `each` to a span.
+    """Compare parts by `each` samples per span of their patches; return the sampled components and their relations.
 
-    Unless `each` is the coarsest, parts nearer than the gap between samples and patches do not cross.
+    Unless `each` is `SAMPLES_PER_SPAN`, crossings within the gap between samples and patches do not count.
     """
     points, triangles, component = [], [], []
     count, off = 0, 0.0

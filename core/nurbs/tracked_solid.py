@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A body of patches that is measured again and again while its control points move.
 
-Orientation and caps are decided anew each time, as in measuring. Only the moments follow, from tables (`incremental`).
-The tables' rule for rational patches is fixed and
-has no estimate of its own: its error depends on the weights, so it is compared with measured moments, of the body and
-of patches with its weights and random points, as a flat body says little about later shapes. Other weights are measured
-anew. So is a body that has gone far from the point about which its moments are taken.
+Orientation and caps are decided anew each time, as in `measure_patches`; only the moments come from tables
+(`incremental`). For rational patches the tables' rule is fixed and has no error estimate. Its error depends on the
+weights, so the rule is compared with measured moments: of the body, and of patches with its weights and random points,
+as a flat body says little about later shapes. If the weights change, or the body moves far from the reference point of
+its moments, everything is measured anew.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from .patch_topology import PatchTopology, find_topology
 from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
 
 MAX_RULE_ERROR = 1e-10  # Relative to the largest possible moment: rules with larger errors are not used.
-RULE_ERROR_GROWTH = 8.0  # by how much moved control points may let the rule's error grow: an estimate
+RULE_ERROR_GROWTH = 8.0  # Estimated growth of the rule's error as control points move.
 
 
 class TrackedSolid:
-    """The body that patches bound, measured again and again while control points move; stored: as `measure_patches`.
+    """The body that patches bound, measured again while control points move; stored: as for `measure_patches`.
 
-    `measure`: the current body, its volume with moments to order 3. After `update` its bounds are estimates, and the
-    area is an approximation.
+    `measure`: the current measurement, with volume moments to order 3. After an `update` from tables its error bounds
+    are estimates, and the area is an approximation.
     """
 
     def __init__(self, patches: Sequence[Patch], stored: float = 0.0):
@@ -68,7 +68,7 @@ class TrackedSolid:
         return np.asarray(area * reach ** (monomials(3).sum(axis=1) + 1.0), np.float64)
 
     def update(self, patches: Sequence[Patch], stored: float = 0.0) -> bool:
-        """Measure the patches as they are now; return True if tables were enough, else all is measured anew."""
+        """Measure the patches in their current shape; return True if tables sufficed, else all is measured anew."""
         size, about = patches_size(patches), self.measure.volume.about
         if not (
             self._is_tracking
@@ -86,7 +86,7 @@ class TrackedSolid:
         return True
 
     def _assess(self, patches: Sequence[Patch], topology: PatchTopology, stored: float) -> PatchIntegrals:
-        """Measure as `measure_patches`, by the patches' fluxes."""
+        """Return the measurement that the stored fluxes give, with the decisions of `measure_patches`."""
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
         area = Moments(np.array([total]), about, Measure.AREA, self._area_error * total)
@@ -115,7 +115,7 @@ def _fixed_part(patches: Sequence[Patch]) -> list[tuple[tuple[SplineSpace, Splin
 
 
 def _rule_error_at_random(patch: Patch) -> float:
-    """Return the error of the tables' rule for these weights, relative to the largest possible moment."""
+    """Return the error of the tables' rule for a patch's weights and random points, relative to the largest moment."""
     points = np.random.default_rng(0).uniform(-1.0, 1.0, patch.points.shape)
     perturbed, about = replace(patch, points=points), np.zeros(3)
     evaluator = IncrementalPatchMoments(perturbed, 3, about)

@@ -24,7 +24,7 @@ def counts() -> tuple[int, int]:
 
 @lru_cache
 def _turning(order: int) -> list[Key]:
-    """Return the complex moments that turn, but for that of first order, which is zero about the centroid."""
+    """Return (p, q) of the complex moments that change by a turn, from second order on, as the first are zero."""
     return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
 
 
@@ -35,7 +35,7 @@ def pairs() -> list[tuple[Key, Key]]:
 
 @lru_cache
 def triples() -> list[tuple[Key, Key, Key]]:
-    """Return triples of two moments, and one with the sum of their p - q."""
+    """Return triples of moments: two, and a third with p - q equal to the sum of theirs."""
     pairs = combinations_with_replacement(_turning(COUPLED_ORDER), 2)
     return [(a, b, d) for a, b in pairs for d in _turning(INVARIANT_ORDER) if _sum((a, b, d), 2) == 0]
 

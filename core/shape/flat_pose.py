@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Laying one flat shape onto another in their planes, and the rotations and mirror lines that a flat shape has.
+"""Registration of flat shapes in their planes, and the rotations and mirror lines that a flat shape has.
 
 Turned by θ about the centroid, a shape's Zernike moments A_nm get the factor exp(-imθ). So the overlap of two shapes
 is, as far as these moments see, a trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ). Its maxima are the
-rotations that may lay one onto the other; the outlines decide. With conj(A_nm) it is the mirror image that is turned.
+rotations that may lay one onto the other; the outlines decide. With conj(A_nm) the mirror image is turned instead.
 Front lies on front: no shape is turned over.
 """
 
@@ -82,7 +82,7 @@ def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> H
 
 
 def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
-    """Return a test that the moments of the shape's image are its own but for a share of all of them."""
+    """Return a test that the image's moments differ from the shape's by at most `tolerance` of their norm."""
     m = np.array([m for _, m in disc_degrees(order)])
     size = np.linalg.norm(zernike)
 

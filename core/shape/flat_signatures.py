@@ -33,9 +33,9 @@ FLAT = 2  # the dimension of such signatures
 def flat_signature(moments: Moments, radius: float) -> Signature:
     """Return the signature of a flat shape, of dimension 2.
 
-    moments: of area, about the centroid, with z = 0, to order 6 at least and 20 at most. radius: of the disc about the
-    centroid that just holds the shape. The invariants are Flusser's (Pattern Recognition 33, 2000), the Zernike
-    descriptors those of Khotanzad and Hong (PAMI 12, 1990).
+    moments: of area, about the centroid, with z = 0, to order 6 at least; orders above 20 are not used. radius: of the
+    disc about the centroid that just holds the shape. The invariants are Flusser's (Pattern Recognition 33, 2000), the
+    Zernike descriptors those of Khotanzad and Hong (PAMI 12, 1990).
     """
     order = min(moments.order, MAX_DISC_ORDER)
     moments = moments.truncate(order)

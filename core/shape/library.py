@@ -72,12 +72,12 @@ def read_library(path: Path) -> tuple[list[Entry], list[Finding]]:
     entries : list of Entry
         The bodies with a signature.
     findings : list of Finding
-        One for each body without.
+        One for each body without a signature.
 
     Raises
     ------
     FileError
-        If the file is no library.
+        If a line of the file is not such JSON, or too long.
 
     Examples
     --------

@@ -3,9 +3,9 @@
 """Registration of one body onto another by their poses, and the residual between them.
 
 The pose leaves as many choices as the body has rotations, and all of them are tried. So are half turns about the
-axes, for noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be
-a part of the other; if a few points are farther apart than all points are in a better way, no more of them are
-looked at. A mirror image is recognized as such: a reflection fits, and no rotation does.
+axes, as noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be
+a part of the other; if a few points are farther apart than all points under a better rotation, the
+other points are skipped. A mirror image is recognized as such: a reflection fits, and no rotation does.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 
 EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
 MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
-FIRST_SAMPLES = 32  # points of each surface that are looked at first
+FIRST_SAMPLES = 32  # points of each surface that are compared first
 MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave means a mirror image
 
 
@@ -51,7 +51,7 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
     """Find the rotation that lays one body onto another, both about their centers.
 
     source, target: central moments, to the order of a pose. residual: (map, count) to (n,) distances that an orthogonal
-    (3, 3) map of the source leaves: of all points if count is None, otherwise of about so many of them. size: the
+    (3, 3) map of the source leaves: of all points if count is None, otherwise of about `count` points. size: the
     target's.
     """
     first = equivalent_frames(source).frames[0]

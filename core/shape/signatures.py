@@ -48,10 +48,10 @@ CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # frequencies that orders to 20 resolve to a millionth
 MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
 MAX_SIZE = 1e150  # meters; the ratio of two sizes is still a number
-MAX_DESCRIPTOR = 1e100  # whose square is still a number
+MAX_DESCRIPTOR = 1e100  # its square is still a number
 MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
-CHIRALITY_NOISE_FACTOR = 10.0  # by the difference of two shapes: what noise that makes it may make of chiralities
-# chiralities whose difference is less than this share of their sum, or the reverse, decide the hand
+CHIRALITY_NOISE_FACTOR = 10.0  # chirality that noise may cause, by the difference of shapes that it causes
+# chiralities with a difference below this share of their sum, or the reverse, decide the hand
 CLEAR_CHIRALITY_SHARE = 0.2
 
 
@@ -62,7 +62,7 @@ class Signature:
     `size`: the radius of gyration, in the body's unit.
     `invariants`, `zernike`, `fourier`, `chirality`: see the module; `fourier` is empty for moments of a surface.
     `error`: an estimate of the rounding of the descriptors.
-    `dimension`: 3, or 2 of a flat shape (`flat_signature`): no body is like one.
+    `dimension`: 3, or 2 for a flat shape (`flat_signature`), which is unlike every body.
     """
 
     size: float
@@ -99,7 +99,7 @@ class Signature:
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise FileError(SIGNATURE_UNRECOGNIZED) from error
         is_complete = (
-            (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # not where one is NaN
+            (np.abs(np.concatenate(arrays)) < MAX_DESCRIPTOR).all()  # false if one is NaN
             and 1.0 / MAX_SIZE < result.size < MAX_SIZE
             and len(result.zernike)
             and (len(result.invariants), len(result.chirality)) == lengths
@@ -115,6 +115,7 @@ class Likeness:
 
     `shape`: the difference of the shapes irrespective of size and hand, 0 for equal shapes.
     `scale`: the second body's size divided by the first one's.
+    `chirality_difference`: the norm of the difference of their chiralities.
     `is_mirror_image`: False also if neither has a hand, None if noise as large as the shapes' difference could make up
     their hands.
     """
@@ -151,7 +152,7 @@ def signature(moments: Moments, radius: float, zernike: Multiplets | None = None
     moments : Moments
         About the center, of volume or area, to order 6 at least and 20 at most.
     radius : float
-        Of the ball about the center that just holds the body.
+        Radius of the ball about the center that just holds the body.
     zernike : dict, optional
         The Zernike moments Ω_nlm in that ball if they are known otherwise; by default from the moments.
 
@@ -190,7 +191,7 @@ def signatures(moments: Moments, radius: NDArray[np.float64]) -> list[Signature]
 def _numbers(
     raw: NDArray, moments: Moments, size: PerBody, radius: PerBody, zernike: Multiplets | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], PerBody]:
-    """Return invariants, descriptors, power, chirality and error from raw moments (K, …), each with its last axes."""
+    """Return invariants, descriptors, power, chirality and error from moments (K, …), with the last axes of `raw`."""
     total, order = raw[0], min(moments.order, MAX_ORDER_BY_MOMENTS)
     degree = along_first(monomials(moments.order).sum(axis=1), raw)
     low = len(monomials(INVARIANT_ORDER))
@@ -273,7 +274,7 @@ def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> lis
 
 
 def _multiplets(order: int) -> list[Key]:
-    """Return the harmonic moments (n, l) that turn, l > 0, but for the first order, which is zero about the center."""
+    """Return (n, l) of the harmonic moments that change by a turn, l > 0, from second order on: first ones are zero."""
     return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 

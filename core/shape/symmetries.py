@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rotations and reflections about its center that take a body to itself.
 
-Moments show which ones can: a rotation takes one of the frames in which all moments to some order are alike to another
-one (see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry
-that the body has is among them, and moments of higher order, or details smaller than noise, may rule some out again;
-the body's geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has nothing, D2h is a box, Oh
-a cube, C∞v a body of revolution, K a ball.
+Moments give the candidates: a rotation takes one frame to another in which all moments, to some order, are the same
+(see `canonical_frame`), and a reflection takes a frame of the body to one of its mirror image. So every symmetry that
+the body has is a candidate; moments of higher order, or details smaller than noise, may rule some out again; the body's
+geometry decides (`confirm`). The group is named by its Schoenflies symbol: C1 has no symmetry, D2h is a box, Oh a cube,
+C∞v a body of revolution, K a ball.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
 
 EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
-MAX_AXIS_ORDER = 128  # the highest order of an axis that is looked for
-FIRST_SAMPLES = 64  # points at most that are looked at first: most of what does not hold fails there
+MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
+FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
 Distance = Callable[[NDArray], NDArray]
 
@@ -75,7 +75,7 @@ class Symmetry:
 
     @property
     def has_center(self) -> bool:
-        """True if inversion in the center is one of them."""
+        """True if inversion in the center is one of the operations."""
         return bool((np.abs(self.operations + np.eye(3)).max(axis=(1, 2)) < EQUAL_OPERATION_ATOL).any())
 
 
@@ -97,7 +97,7 @@ def symmetry(
     Returns
     -------
     Symmetry
-        All that the body has are among them; `confirm` compares them with the surface.
+        Every symmetry of the body is among them; `confirm` compares them with the surface.
 
     Examples
     --------
@@ -134,7 +134,7 @@ def symmetry(
 
 
 def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
-    """Return the symmetries that the geometry has: images of its (n, 3) points are within the tolerance of it."""
+    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface."""
     points = points - center
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
@@ -195,7 +195,7 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return the operations that stand for all of a body of revolution: the identity, perhaps a reflection."""
+    """Return the operations that stand for all of a body of revolution: the identity, and perhaps a reflection."""
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])

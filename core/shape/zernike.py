@@ -100,7 +100,7 @@ def _nodes(size: NDArray, order: int) -> NDArray[np.int64]:
 
 
 def _add_cones(total: Multiplets, x: NDArray, weight: NDArray, order: int) -> None:
-    """Add to each (l+1,) for m = 0..l the integrals along the cones to the (k, 3) points."""
+    """Add to each total[n, l], (l+1,) for m = 0..l, the integrals along the cones to (k, 3) points."""
     argument = 2.0 * (x * x).sum(axis=1) - 1.0
     for l, solid in _solid_at(x, order):
         solid = solid.conj()

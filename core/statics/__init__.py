@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Standing and resting bodies; derivatives by every vertex, and the least change of shape that moves the center."""
+"""Standing and resting bodies, derivatives of moments by vertices, and balancing by the least change of shape."""
 
 from ..lazy import lazy_names
 

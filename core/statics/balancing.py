@@ -164,10 +164,10 @@ def _is_solvable(system: NDArray) -> bool:
 
 
 def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) -> NDArray[np.float64]:
-    """Return (k, 3) the moves of the (r, k, 3) pulls times the (r,) multiplier, cut to the limit."""
+    """Return (k, 3) moves: (r, k, 3) step directions times the (r,) multiplier, each cut to the limit."""
     moves = np.einsum("rnk,r->nk", step_directions, multiplier)
     length = np.linalg.norm(moves, axis=1)
-    if not (length > limit).any():  # also for no limit
+    if not (length > limit).any():  # also if there is no limit
         return moves
     return moves * (limit / np.maximum(length, limit))[:, None]
 
@@ -175,7 +175,7 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (r, r) the derivative of the center by the multiplier; a move that is cut can still turn, not grow."""
+    """Return (r, r) the derivative of the center by the multiplier; moves cut to the limit can turn but not grow."""
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -246,7 +246,7 @@ class _Problem:
 
 
 class _Fans:
-    """Faces as triangles around the means of their vertices; areas: (n,) equal shares of each vertex's faces."""
+    """Faces as fans around the means of their vertices; areas: (n,) each vertex's equal shares of its faces' areas."""
 
     def __init__(self, surface: Surface, shell: bool):
         triangles, faces = surface.all_triangles()

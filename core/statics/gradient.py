@@ -10,7 +10,7 @@ surface is the change of the body (Reynolds): with N = (b-a) × (c-a) of each tr
 It holds for closed surfaces; of the sum over cones it is the derivative there, and needs no reference point. An area's
 moment is |N| m, m the mean of f over the triangle times 1/2; ∂|N|/∂a = (b - c) × n with n = N / |N|.
 
-About the body's own center, first moments vanish, so that the center follows with no term more: ∂first / volume.
+About the body's own center, first moments vanish, so that the derivative of the center is just ∂first / volume.
 """
 
 from __future__ import annotations
@@ -59,14 +59,14 @@ def area_gradient(surface: Surface, about: ArrayLike) -> NDArray[np.float64]:
     Parameters
     ----------
     surface : Surface
-        A triangle without area has no derivative; the area that its vertices could give it is left out.
+        Triangles without area have no derivative and are left out.
     about : (3,) array_like
         The fixed point that the moments are about.
 
     Returns
     -------
     (n, 4, 3) array
-        As of `volume_gradient`.
+        As for `volume_gradient`.
 
     Examples
     --------
@@ -98,7 +98,7 @@ def _gradient(surface: Surface, about: ArrayLike, shares: Callable) -> NDArray[n
 
 
 def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray) -> Iterator[NDArray]:
-    """Yield for each corner the (4, 3, m) that its triangles add; local: (3, 3, m) corners from the reference point."""
+    """Yield for each corner the (4, 3, m) shares of m triangles; local: (3, 3, m) corners from the reference point."""
     total = local[0] + local[1] + local[2]
     for corner in local:
         weights = np.empty((4, normal.shape[1]))
@@ -108,7 +108,7 @@ def _volume_shares(corners: NDArray, local: NDArray, normal: NDArray) -> Iterato
 
 
 def _area_shares(corners: NDArray, local: NDArray, normal: NDArray) -> Iterator[NDArray]:
-    """Yield the shares as `_volume_shares`, of areas."""
+    """Yield for each corner the (4, 3, m) derivatives of area moments; parameters as for `_volume_shares`."""
     double = np.sqrt(np.einsum("im,im->m", normal, normal))
     unit = normal / np.where(double > 0.0, double, 1.0)
     mean = np.empty((4, len(double)))

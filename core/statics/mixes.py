@@ -28,7 +28,7 @@ MIN_SHARE = 1e-6  # Smaller volumes, relative to their terms, are lost to cancel
 class Mixes:
     """Volume and first moments as polynomials of the mixing values.
 
-    `coefficients`: (c, 4) of volume and first moments about `about`.
+    `coefficients`: (c, 4) coefficients of volume and first moments about `about`.
     `exponents`: (c, k) the powers of the mixing values that each coefficient belongs to.
     """
 
@@ -51,7 +51,7 @@ def sample_count(shapes: int) -> int:
 
 
 def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
-    """Find the polynomials of a closed, outward surface, its quads cut as now, and (k, n, 3) offsets."""
+    """Fit the polynomials of a closed, outward surface, triangulated as now, with the (k, n, 3) offsets of k shapes."""
     triangles, _ = surface.all_triangles()
     points, offsets = surface.points.astype(np.float64), np.asarray(offsets, np.float64)
     about = np.mean(surface.box, axis=0)
@@ -69,5 +69,5 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
 
 
 def _powers(values: NDArray, exponents: NDArray) -> NDArray[np.float64]:
-    """Return (f, c) the products of powers."""
+    """Return (f, c) the products of (f, k) values to the powers (c, k)."""
     return np.prod(values[:, None, :] ** exponents, axis=2)

@@ -37,7 +37,7 @@ class RestingPoses:
     `normals`: (k, 3) outward unit normals of the faces that the body rests on: they point down then.
     `shares`: (k,) quasi-static probabilities, adding up to 1.
     `margins`: (k,) distances of the center's foot from the nearest edge of the face.
-    `heights`: (k,) of the center above the ground.
+    `heights`: (k,) heights of the center above the ground.
     """
 
     normals: NDArray[np.float64]
@@ -47,7 +47,7 @@ class RestingPoses:
 
     @property
     def tipping_angles(self) -> NDArray[np.float64]:
-        """(k,) by how much the ground can be tilted in each pose before the body tips, in radians."""
+        """(k,) tilts of the ground at which the body tips, in radians."""
         return np.arctan2(self.margins, self.heights)
 
 
@@ -71,12 +71,12 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     Parameters
     ----------
     hull : ConvexHull
-        Of the body, with a tolerance that is not below the noise of its points.
+        Hull of the body, made with a tolerance that is not below the noise of its points.
     center : (3,) array_like
         Its center of mass.
     tolerance : float
-        Of the hull's largest extent: triangles with corners that near to one plane are one face, and faces with a
-        smaller margin are not stable. At least twice the distance of points outside the hull.
+        Relative to the hull's largest extent: triangles with corners this near to one plane are one face, and faces
+        with a smaller margin are not stable. At least twice the distance of points outside the hull is used.
 
     Returns
     -------
@@ -103,7 +103,7 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     if faces.heights.min() < -least or hull.is_flat and faces.margins.max() < -least:
         raise MeasureError(CENTER_OUTSIDE_HULL)
     shares = sums_by_index(faces.face, _solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
-    # A face that contains the center has an uncertain solid angle: it gets the rest of the others.
+    # A face that contains the center has an uncertain solid angle: it gets the share that the others leave.
     around = faces.heights <= 1e-9 * extent
     if around.any():
         shares[around] = (1.0 - shares[~around].sum()) / np.count_nonzero(around)
@@ -131,7 +131,7 @@ def _solid_angles(points: NDArray, triangles: NDArray) -> NDArray[np.float64]:
 
 
 def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """Find the faces of a hull by its points from the center."""
+    """Find the faces of a hull, given its points from the center; least: distances below it count as none."""
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
     face, count = _coplanar(points, triangles, neighbors, double, least)
@@ -150,7 +150,7 @@ def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
     length = np.linalg.norm(inward, axis=1)
     distance = -np.einsum("ij,ij->i", inward, start) / np.where(length > 0.0, length, 1.0)
     order = np.lexsort((distance, owner))
-    first = np.ones(len(order), bool)  # none where what was flattened is one face
+    first = np.ones(len(order), bool)  # Empty if the whole hull is one face.
     first[1:] = owner[order][1:] != owner[order][:-1]
     nearest = order[first]
     margins, over = np.full(count, -np.inf), np.arange(count)
@@ -163,9 +163,9 @@ def _coplanar(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m,) the face of each triangle, and the number of faces.
 
-    Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. Groups joined so but not
-    in one plane after all, as slivers may join both their sides, are joined anew by neighbors that face alike; groups
-    still in no plane, such as a fine rounding, stay apart.
+    Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. Groups that are
+    not in one plane after all, as slivers may join both their sides, are joined anew by neighbors that face alike; the
+    triangles of groups still not in one plane, such as a fine rounding, stay single.
     """
     lengths = np.linalg.norm(double, axis=1)
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
@@ -181,7 +181,7 @@ def _coplanar(
     order = np.argsort(lengths, kind="stable")
 
     def join_triangles(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Return (m,) the group of each triangle, joined by these pairs, and a mask of groups in no plane."""
+        """Return (m,) the group of each triangle, joined by these pairs, and (m,) True if it is not in one plane."""
         face, count = connected_components(len(triangles), triangle[pairs], other[pairs])
         largest = np.empty(count, np.intp)
         largest[face[order]] = order  # the last one written is the largest

@@ -27,10 +27,10 @@ ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # Relative to the corners' dist
 class Support:
     """The stand of a body on the ground, in the unit and the frame of its points.
 
-    `polygon`: (k, 3) corners of the support polygon, counter-clockwise from above; two of a line, one of a point.
-    `foot`: the point of the ground below the center of mass; `height` of the center above it.
+    `polygon`: (k, 3) corners of the support polygon, counter-clockwise from above; two if it is a line, one if a point.
+    `foot`: the point of the ground below the center of mass. `height`: of the center above the ground.
     `margin`: distance of the foot from the nearest edge, negative if it is outside the polygon.
-    `direction`: unit vector on the ground, over the nearest edge, over which the body tips first or falls.
+    `direction`: unit vector along the ground across the nearest edge, over which the body tips first or falls.
     `up`: unit vector against gravity.
     """
 
@@ -53,7 +53,7 @@ class Support:
 
 
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
-    """Return two directions on the ground and the one up, as columns of a rotation, by the direction of gravity."""
+    """Return a (3, 3) rotation with two columns along the ground and the third up; down: direction of gravity."""
     up = -float_array("down", down, 3)
     return frame_about(up / float(np.linalg.norm(up)))
 
@@ -66,7 +66,7 @@ def find_support(
     Parameters
     ----------
     points : (n, 3) array_like
-        Of the body; the corners of its convex hull are enough. The ground goes through the lowest of them.
+        Points of the body; the corners of its convex hull are enough. The ground goes through the lowest of them.
     center : (3,) array_like
         Center of mass.
     down : (3,) array_like
@@ -95,9 +95,9 @@ def find_support(
 
 
 def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0)) -> Support:
-    """Find the support polygon of (n, 3) contact points, at whatever heights: hands on a wall, feet on stairs.
+    """Find the support polygon of (n, 3) contact points at any heights: hands on a wall, feet on stairs.
 
-    It lies on the ground through the lowest contact; their projections along gravity count.
+    The polygon is the hull of the contacts projected along gravity onto the ground through the lowest contact.
     """
     center = np.asarray(center, np.float64)
     axes = ground_axes(down)
@@ -106,7 +106,7 @@ def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike 
 
 
 def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray) -> Support:
-    """Return the support of (n, 2) contacts on the ground, from the foot."""
+    """Return the support of (n, 2) contacts on the ground, in coordinates from the foot."""
     corners = contacts[convex_polygon(contacts)]
     margin, direction = polygon_margin(corners)
     polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
