@@ -207,11 +207,11 @@ def fit_plane(
     facing = None if facing is None else float_array("facing", facing, 3)
     vectors = normals(points, triangles)
     sizes = np.sqrt((vectors * vectors).sum(axis=1))
+    if not (sizes > 0.0).any():
+        raise MeasureError(SECTION_NO_AREA)
     used = points[np.unique(triangles)]
     size = float(np.sqrt(((used.max(axis=0) - used.min(axis=0)) ** 2).sum()))
     largest = int(np.argmax(sizes))
-    if not sizes[largest] > 0.0:
-        raise MeasureError(SECTION_NO_AREA)
     # Faces that look the other way are of the same plane.
     side = np.sign(vectors @ vectors[largest])
     total = (vectors * side[:, None]).sum(axis=0)
