@@ -6,11 +6,12 @@ Every body becomes raw moments about a stated point (`Moments`), by default the 
 everything else is derived from them.
 `from body_moments.core import ...` has the names that most uses need:
 
+    mass_properties                          all results of a solid from arrays, in one call
     Surface                                  triangles and quads over shared points
     measure_solid, polyhedron_moments        the body in a surface, repaired on a copy; its moments to any order
     grid_moments, read_scan                  densities sampled on a grid; files of samples
     Moments, MassProperties                  raw moments; mass, center, inertia and principal moments
-    principal_frame, pose_matrix             principal axes, unique where the body allows it; the pose
+    principal_frame                          principal axes, unique where the body allows it
     signature, solid_transform               numbers that identify a shape; the Fourier transform
     Finding, MeasureError                    what was noticed or decided; what was refused, and why
 
@@ -52,9 +53,9 @@ __getattr__, __dir__, __all__ = lazy_names(
     Moments="moments",
     Surface="mesh",
     grid_moments="density",
+    mass_properties="measurement",
     measure_solid="solid",
     polyhedron_moments="polyhedron",
-    pose_matrix="inertia",
     principal_frame="inertia",
     read_scan="scans",
     signature="shape",

@@ -313,7 +313,7 @@ def pose_matrix(center: ArrayLike, axes: ArrayLike) -> NDArray[np.float64]:
 
     Examples
     --------
-    >>> from body_moments.core import pose_matrix
+    >>> from body_moments.core.inertia import pose_matrix
     >>> pose_matrix(np.array([1.0, 2.0, 3.0]), np.eye(3))[:3, 3].tolist()
     [-1.0, -2.0, -3.0]
     """

@@ -7,5 +7,6 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     FORMATS="documents",
+    mass_properties="arrays",
     to_html="page",
 )

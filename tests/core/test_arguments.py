@@ -12,9 +12,9 @@ from body_moments.core import (
     Moments,
     Surface,
     grid_moments,
+    mass_properties,
     measure_solid,
     polyhedron_moments,
-    pose_matrix,
     principal_frame,
     signature,
     solid_transform,
@@ -28,7 +28,7 @@ from body_moments.core.flat import (
 )
 from body_moments.core.flat.section import Plane
 from body_moments.core.fourier import polygon_transform, surface_transform
-from body_moments.core.inertia import combine
+from body_moments.core.inertia import combine, pose_matrix
 from body_moments.core.mesh import convex_hull
 from body_moments.core.numerics import SplineSpace, clamped_space, quaternion
 from body_moments.core.nurbs import (
@@ -117,6 +117,10 @@ CALLS = {
     ),
     "grid_moments": (grid_moments, {"samples": SAMPLES, "shape": (2, 2, 2), "matrix": MATRIX}),
     "length_moments": (lambda curves: length_moments([curves]), {"curves": CURVE}),
+    "mass_properties": (
+        lambda points, triangles: mass_properties(points, triangles, density=1.0),
+        {"points": POINTS, "triangles": TRIANGLES},
+    ),
     "measure_patches": (lambda patches: measure_patches([patches]), {"patches": PATCH}),
     "measure_section": (measure_section, {"plane": PLANE, "points": FLAT_POINTS, "edges": EDGES}),
     "measure_solid": (measure_solid, {"surface": SURFACE}),

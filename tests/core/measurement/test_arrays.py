@@ -1,0 +1,37 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one call from arrays to all results."""
+
+import numpy as np
+import pytest
+from body_moments.core import MeasureError, mass_properties
+
+from tests.close import close
+from tests.core.bodies import box, moved, rotation, without
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_turned_brick_has_its_closed_forms(size):
+    turn, place = rotation(3), np.array([30.0, -20.0, 7.0]) * size
+    brick = moved(box((0.0, 0.0, 0.0), np.array([1.0, 2.0, 3.0]) * size), turn, place)
+    body = mass_properties(*brick, density=2.0)
+    found, mass = body.mass_properties, 12.0 * size**3
+    assert str(body.method) == "exact" and body.findings == () and close(found.mass, mass, rel=1e-12)
+    np.testing.assert_allclose(found.center, turn @ (np.array([0.5, 1.0, 1.5]) * size) + place, rtol=1e-12)
+    squares = np.array([1.0, 4.0, 9.0]) * size**2
+    inertia = turn @ np.diag(squares.sum() - squares) @ turn.T * mass / 12.0
+    np.testing.assert_allclose(found.inertia, inertia, atol=1e-10 * inertia.max())
+    assert close(body.area, 22.0 * size**2, rel=1e-12)
+    assert abs(found.mass - mass) <= body.error_bound["volume"] * 2.0 + 4e-16 * mass
+
+
+def test_open_box_is_capped_and_says_so():
+    body = mass_properties(*without(box(), 2, 3), density=1.0)
+    assert str(body.method) == "capped" and [str(found.code) for found in body.findings] == ["holes_capped"]
+    assert close(body.mass_properties.mass, 1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("density", [0.0, -1.0, float("nan")])
+def test_density_that_is_not_positive_is_refused(density):
+    with pytest.raises(MeasureError, match="density"):
+        mass_properties(*box(), density=density)
