@@ -31,18 +31,8 @@ def box(dtype="f4", value=1.0):
 
 def test_a_box_of_voxels_has_the_inertia_of_a_box(tmp_path):
     np.save(tmp_path / "box.npy", box())
-    code, document = run(
-        tmp_path,
-        tmp_path / "box.npy",
-        "--spacing",
-        "0.5,0.5,0.5",
-        "--origin",
-        "-1,0,10",
-        "--density-scale",
-        "2",
-        "--order",
-        "2",
-    )
+    options = "--spacing 0.5,0.5,0.5 --origin -1,0,10 --density-scale 2 --order 2"
+    code, document = run(tmp_path, tmp_path / "box.npy", *options.split())
     assert code == 0 and document["errors"] == []
     (entry,) = document["objects"]
     assert (entry["name"], entry["type"], entry["kind"], entry["method"]) == ("box", "ARRAY", "solid", "grid exact")
@@ -115,20 +105,8 @@ def test_a_scene_with_a_cloud_goes_through_every_option(tmp_path):
     values = np.random.default_rng(0).random((5, 6, 9)).astype("f4")
     volume_object(tmp_path / "a.vdb", vdb_grid(values))
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"))
-    code, document = run(
-        tmp_path,
-        tmp_path / "a.blend",
-        "--order",
-        "4",
-        "--surface-moments",
-        "--pose",
-        "--signature",
-        "--density",
-        "2",
-        "--frame",
-        "object",
-        "--write",
-    )
+    options = "--order 4 --surface-moments --pose --signature --density 2 --frame object --write"
+    code, document = run(tmp_path, tmp_path / "a.blend", *options.split())
     assert code == 0 and document["errors"] == []
     (entry,) = document["objects"]
     assert (entry["type"], entry["method"]) == ("VOLUME", "grid exact")
