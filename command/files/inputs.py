@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -34,12 +35,12 @@ def references(path: str, is_open: bool) -> set[Path]:
     while waiting:
         file = waiting.pop()
         with suppress(*_UNREADABLE):
-            file = file.resolve()
+            file = Path(os.path.realpath(file))
             if file not in known:
                 known.add(file)
                 names = _NAMES.get(file.suffix.lower())
                 waiting += [file.parent / name for name in names(file)] if names else []
-    return known - {Path(path).resolve()}
+    return known - {Path(os.path.realpath(path))}
 
 
 def _of_nrrd(path: Path) -> Iterator[str]:

@@ -117,7 +117,7 @@ class _Places:
             folder = Path(ends.enter_context(tempfile.TemporaryDirectory(prefix="body_moments_")))
             self.work, self.journal = folder / "work", folder / "journal"
             return
-        target = options.output.resolve()
+        target = Path(os.path.realpath(options.output))
         folder, self.journal = hidden_path(target, "body_moments.work"), target.with_name(target.name + ".journal")
         self.work = folder / "work"
         try:

@@ -9,6 +9,7 @@ are checked in `checks.py`, by the process that measures.
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
@@ -98,7 +99,7 @@ def _check_fourier(options: argparse.Namespace) -> None:
     if len(options.files) > 1 or len(options.object or ()) > 1:
         fail(ONE_OBJECT)
     for first, second in ((target, options.q), (target, options.output), (options.output, options.q)):
-        if first is not None and second is not None and first.resolve() == second.resolve():
+        if first is not None and second is not None and os.path.realpath(first) == os.path.realpath(second):
             fail("argument --fourier: {} is used twice".format(first))
 
 

@@ -40,8 +40,9 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
         return "{} is a folder".format(target)
     if output.is_stream(target):
         return ""
-    if not os.access(target.resolve().parent, os.W_OK):
-        return "no file can be written in {}. Use another folder".format(target.resolve().parent)
+    folder = os.path.dirname(os.path.realpath(target))
+    if not os.access(folder, os.W_OK):
+        return "no file can be written in {}. Use another folder".format(folder)
     if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
         return "{} is a file that is read. Use another name".format(target)
     if not (force or own_results.is_replaceable(target)):

@@ -23,7 +23,7 @@ def whole_file(path: Path, check: Callable[[Path], None] | None = None) -> Itera
         with open(path, "wb") as file:
             yield file
         return
-    path = path.resolve()
+    path = Path(os.path.realpath(path))
     with partial_file(path) as partial:
         with open(partial, "wb") as file:
             yield file

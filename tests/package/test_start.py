@@ -11,7 +11,7 @@ import bpy
 from tests.blender.objects import add, mesh_body
 
 ROOT = Path(__file__).resolve().parents[2]
-MAX_MODULES = 150
+MAX_MODULES = 145  # of ours; the standard library adds five in a real Blender
 # The module of Blender loads numpy by itself, which is hidden here: an import fails.
 CODE = """
 import importlib.util, os, sys, types
@@ -28,7 +28,8 @@ module.register()
 bpy.ops.wm.open_mainfile(filepath=sys.argv[2])
 from tests.panels.drawing import labels, shown
 assert "Exact" in labels(shown())
-assert len(set(sys.modules) - loaded) <= int(sys.argv[3]), sorted(set(sys.modules) - loaded)
+ours = [name for name in sys.modules if name not in loaded and name.split(".")[0] == "body_moments"]
+assert len(ours) <= int(sys.argv[3]), ours
 sys.stdout.flush()
 os._exit(0)
 """
