@@ -38,11 +38,6 @@ class Settings:
     threads: int = 1
 
     @property
-    def is_thin(self) -> bool:
-        """True for a shell without walls of real thickness."""
-        return self.kind == "shell" and self.wall == "thin"
-
-    @property
     def digest(self) -> str:
         """Digest of the settings behind stored results; settings without use for the kind do not count."""
         is_shell = self.kind == "shell"
