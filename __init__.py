@@ -12,7 +12,9 @@ from typing import Any
 
 
 def __getattr__(name: str) -> Any:
-    """Return a public name of the core."""
+    """Return `describe`, which needs Blender, or a public name of the core."""
+    if name == "describe":
+        return import_module(__name__ + ".blender.session.describe").describe
     core = None if name.startswith("_") else import_module(__name__ + ".core")
     if core is None or name not in core.__all__:
         raise AttributeError("module {!r} has no attribute {!r}".format(__name__, name))
@@ -21,7 +23,7 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     """Return the public names of the package."""
-    return [*import_module(__name__ + ".core").__all__, "core", "register", "unregister"]
+    return [*import_module(__name__ + ".core").__all__, "core", "describe", "register", "unregister"]
 
 
 def register() -> None:
