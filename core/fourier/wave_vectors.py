@@ -112,7 +112,7 @@ class ListWaves:
         self.rows = len(q)
 
     def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
-        """Return (3, m) the wave vectors of some rows."""
+        """Return the (3, m) wave vectors of some rows."""
         return self.q[:, wave_rows]
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
@@ -151,7 +151,7 @@ class GridWaves:
         self.rows, self.columns = len(self.side) ** 2, len(self.depth)
 
     def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
-        """Return (3, m) the wave vectors of some rows."""
+        """Return the (3, m) wave vectors of some rows."""
         x, y = self.side[np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))]
         n = self.columns
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])

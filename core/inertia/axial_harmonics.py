@@ -90,7 +90,7 @@ def axial_harmonics(
 
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
-    """Return (2, order + 1, k) the means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
+    """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
     w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
     power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)

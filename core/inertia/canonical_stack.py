@@ -32,7 +32,7 @@ HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.
 
 
 def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return (n, 4) the HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
+    """Return the (n, 4) HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
 

@@ -60,7 +60,7 @@ def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: N
 
 
 def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) the parts of vectors perpendicular to unit vectors."""
+    """Return the (..., 3) parts of vectors perpendicular to unit vectors."""
     return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
 
 

@@ -245,9 +245,9 @@ def affine_image(
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return (n,) whether centers are in boxes (n, 3) to (n, 3), and second central moments can be those of a mass.
+    """Return an (n,) mask of the bodies whose center and second central moments are possible for a mass in their box.
 
-    A surface that intersects itself may violate both.
+    low, high: (n, 3) corners of the boxes. A surface that intersects itself may have an impossible center or moments.
     """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]

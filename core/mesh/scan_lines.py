@@ -90,7 +90,7 @@ class LineGrids:
     def squared_distances(
         self, body: NDArray[np.intp], row: NDArray[np.intp], column: NDArray[np.intp], along: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Return (k,) the squared distances of places on lines from the centers of their bodies (unit²)."""
+        """Return the (k,) squared distances of places on lines from the centers of their bodies (unit²)."""
         across = np.stack([row, column], axis=1) - self.origin[body]
         across[:, 1] += COLUMN_SLOPE * across[:, 0]
         across = across * self.cell[body] + np.multiply.outer(along, LINE_SLOPES)
@@ -159,7 +159,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
 def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Return (n,) and (n,) the first row and the first column that each point is not above."""
+    """Return the (n,) first rows and the (n,) first columns that the points are not above."""
     short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # the cache holds more of these
     cells = np.empty((2, len(points)), np.int16 if short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
@@ -169,7 +169,7 @@ def _cells(
 
 
 def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
-    """Return (b,) the number of triangles of each body."""
+    """Return the (b,) numbers of triangles of the bodies."""
     if body is None:
         return np.array([len(surface.triangles) + 2 * len(surface.quads)])
     quads, triangles = (
@@ -179,7 +179,7 @@ def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int
 
 
 def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return (b,) the distance of the rows that are taken, so that the work stays within a limit."""
+    """Return the (b,) distances, in rows, between the scanned rows of bodies, so that the work stays within a limit."""
     return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
 
 
@@ -208,7 +208,7 @@ def _crossed_triangles(
 
 
 def _differ(cell: NDArray[np.integer], corners: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return (k,) whether the corners of faces, (3 or 4, k), are in different rows, or columns."""
+    """Return a (k,) mask of faces whose corners, (3 or 4, k), are in different rows, or columns."""
     first = cell.take(corners[0])
     differ = cell.take(corners[1]) != first
     for corner in corners[2:]:

@@ -128,7 +128,7 @@ def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[
 
 
 def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """Return (3,) the middle of the box around all control points: the reference point."""
+    """Return the (3,) middle of the box around all control points: the reference point."""
     low, high = control_box(patches)
     return low + (high - low) / 2.0
 

@@ -50,7 +50,7 @@ def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[n
 
 
 def _sums(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Return (4,) the sums of volumes, and of volumes times sums of corners, (3, k)."""
+    """Return the (4,) sums of volumes, and of volumes times sums of corners, (3, k)."""
     return sum(
         [np.append(volumes.sum(), np.einsum("ij,j->i", corners, volumes)) for volumes, corners in parts], np.zeros(4)
     )

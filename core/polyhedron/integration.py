@@ -158,7 +158,7 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
 
 
 def _center(surfaces: list[Surface]) -> NDArray[np.float64] | None:
-    """Return (3,) the center of the box around all surfaces; None if there are no points."""
+    """Return the (3,) center of the box around all surfaces; None if there are no points."""
     boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
     if not boxes:
         return None

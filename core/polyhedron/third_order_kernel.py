@@ -341,5 +341,5 @@ def _in_slices(table: NDArray) -> NDArray[np.float64]:
 
 
 def _scalar_products(vectors: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """Return (m, n) the scalar products of m rows with n."""
+    """Return the (m, n) scalar products of m rows with n."""
     return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, second), axis=2)

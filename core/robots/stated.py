@@ -39,7 +39,7 @@ class StatedInertial:
 
     @property
     def inertia(self) -> NDArray[np.float64]:
-        """(3, 3) the tensor along the link's axes."""
+        """The (3, 3) tensor along the link's axes."""
         return self.rotation @ self.tensor @ self.rotation.T
 
     def along_link(self, inertia: NDArray | None = None, **changes) -> StatedInertial:

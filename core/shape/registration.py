@@ -66,7 +66,7 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 
 
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
-    """Return (k, 3, 3) the rotations from a frame of the source to the frames of the target and their half turns."""
+    """Return the (k, 3, 3) rotations from a frame of the source to the frames of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
     frames = np.array([complete_free_axes(frame, undetermined_axes(target.revolution_axes), first) for frame in frames])
     return distinct_arrays(frames @ first.T, 1e-9)

@@ -274,7 +274,7 @@ def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> lis
 
 
 def _multiplets(order: int) -> list[Key]:
-    """Return (n, l) of the harmonic moments that change by a turn, l > 0, from second order on: first ones are zero."""
+    """Return (n, l) of the harmonic moments of order 2 to `order` that a rotation changes: those with l > 0."""
     return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 

@@ -206,7 +206,7 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
 
 
 def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
-    """Return (3, 3) the rotation about an axis, by Rodrigues' formula."""
+    """Return the (3, 3) rotation about an axis, by Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross

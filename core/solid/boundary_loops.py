@@ -133,11 +133,11 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return a (l,) mask of holes; gaps are narrower than `tolerance`, for all or (l,), and far longer."""
+        """Return an (l,) mask of holes; gaps are narrower than `tolerance`, for all or (l,), and far longer."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:
-        """Return (l,) the value of the first side of each loop. side_values: (r,)."""
+        """Return the (l,) values of the loops' first sides. side_values: (r,)."""
         values = np.empty(len(self.perimeter), side_values.dtype)
         values[self.of_side[::-1]] = side_values[::-1]  # The last of equal indices wins.
         return values

@@ -163,6 +163,6 @@ class RepairedMesh:
 
 
 def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
+    """Return an (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
     a, b, c = triangles.T
     return (a != b) & (b != c) & (c != a)

@@ -175,7 +175,7 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (r, r) the derivative of the center by the multiplier; moves cut to the limit can turn but not grow."""
+    """Return the (r, r) derivative of the center by the multiplier; moves cut to the limit can turn but not grow."""
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -210,7 +210,7 @@ class _Problem:
         return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """Return (3,) the center, (r,) its distances from the target, (r, n, 3) derivatives; None if inside out."""
+        """Return the (3,) center, its (r,) distances from the target, and (r, n, 3) derivatives; None if inside out."""
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
             return None

@@ -302,7 +302,7 @@ class _Prisms:
         return np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2]) * self.far
 
     def sums(self) -> NDArray[np.float64]:
-        """Return (20, 6) the coefficients of the moments."""
+        """Return the (20, 6) coefficients of the moments."""
         sums, count = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT)), self.points.shape[2]
         place, step = (
             np.einsum("nk,kim->inm", NODES, corners).reshape(3, 6 * count) for corners in (self.points, self.vectors)

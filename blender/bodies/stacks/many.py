@@ -5,7 +5,7 @@
 Both ways give the same numbers.
 
 An object joins no stack if it shows more than one mesh in one place, is no solid, is large, or has a varying density:
-`measure_body` measures it. It also gets the refused objects, to find the reason.
+`measure_body` measures it. Objects that a stack refuses go to `measure_body`, too, which finds the reason.
 """
 
 from __future__ import annotations
