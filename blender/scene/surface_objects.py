@@ -37,7 +37,7 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
 
     patches: with the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
     patches do. factor: Blender units for a unit of the patches.
-    The object's origin is that of the patches, or among them if they are far from it.
+    The object's origin is the origin of the patches' coordinates, or a point among the patches if they are far from it.
     """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)

@@ -20,7 +20,7 @@ _STOP = 5.0  # seconds that a run may take to stop
 class WholeRun:
     """A running `measure` with the given words.
 
-    output: its result. blender: the Blender to start; None for this Python, which must have the bpy module then. Raises
+    output: its result. blender: the Blender to start; None for this Python, if it has the bpy module. Raises
     OSError.
     """
 

@@ -187,7 +187,7 @@ class GridTransform(Transform):
         self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
 
     def _collect_spread(self) -> Iterator[None]:
-        """Add the spread sources to the sums, less the halves that `Transform` takes off."""
+        """Add the spread sources to the sums, minus the 1/2 that `Transform` subtracts from each D."""
         vectors = self.waves.vectors(slice(0, self.waves.rows))
         for axis, waves in enumerate(self.spreading.sums()):
             if self.measure == Measure.VOLUME:

@@ -142,7 +142,8 @@ class ListWaves:
 class GridWaves:
     """The half of a grid with z ≥ 0, times `scale`; the rest follows from F(-q) = conj F(q).
 
-    Along x and y both ends are included, so that every vector of the grid, or its opposite, is here. A row is all of z.
+    Along x and y both ends are included, so that the half has every vector of the grid, or its opposite. A row has all
+    z at one x and y.
     """
 
     def __init__(self, grid: FrequencyGrid, scale: float):

@@ -9,8 +9,8 @@ are powers of linear forms. The mean of w^m over a triangle is a complete homoge
 
     E[w^m] = 2 m! / (m+2)! h_m(w_a, w_b, w_c),
 
-found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The first one
-that is more than noise turns the frame: there it is to be positive. The others decide between the m turns that make it
+found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The frame is
+turned so that the first harmonic above noise is positive. The other harmonics decide between the m turns that make it
 positive.
 """
 

@@ -222,8 +222,8 @@ def affine_image(
 ) -> MassProperties:
     """Return the mass properties of a body that is stretched, sheared and turned by the (3, 3) part of a map.
 
-    `center` and `mass` are those of the image; each principal axis points the way of a column of `preferred_axes`.
-    The bounds are those of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
+    `center` and `mass` are those of the image; each principal axis points the same way as a column of `preferred_axes`.
+    The bounds of `properties` are kept, as nothing better is known here. The frame is no choice of the canonical rule:
     second moments alone leave the signs open.
     """
     linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)

@@ -14,7 +14,7 @@ ROUNDING = 1e-6  # relative to a box's sides
 
 
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) boxes in order along the best axis, and (k,) counts of later ones that begin before their ends."""
+    """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin before each one ends."""
     sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
         order = np.argsort(low[:, axis], kind="stable")

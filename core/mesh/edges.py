@@ -145,7 +145,7 @@ class Edges:
         return self.first[self.count == 1]
 
     def boundary_ends(self, triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-        """Return the vertices from which and to which the boundary sides of (m, 3) triangles run."""
+        """Return the start vertices and the end vertices of the boundary sides of (m, 3) triangles."""
         side = self.boundary_sides()
         return triangles.ravel()[side], np.roll(triangles, -1, axis=1).ravel()[side]
 
@@ -205,9 +205,9 @@ def group_components(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m,) components of triangles, made of whole parts, and their number.
 
-    part: (m,) parts connected across edges of two sides; even: (e,) edges of one side that gaps close. A part that
-    closes by itself is a component, though it may share edges (two boxes that meet in an edge); others that share an
-    edge belong together (a box with an inner wall).
+    part: (m,) parts connected across edges of two sides; even: (e,) mask of edges of one side that gaps close. A part
+    that closes by itself is a component, though it may share edges (two boxes that meet in an edge). Parts that do not
+    close by themselves and share an edge are one component (a box with an inner wall).
     """
     non_manifold = edges.count > 2
     if not non_manifold.any():

@@ -71,7 +71,7 @@ class LineGrids:
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
-        """Return (3, n) row, column and length along the lines of each point. body: (n,), None for a single one."""
+        """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None for a single body."""
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
@@ -122,7 +122,7 @@ def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
 
 
 def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None) -> Crossings:
-    """Find the crossings of lines with faces of bodies, unordered. body: (n,) of each point, None for a single one."""
+    """Find the crossings of lines with faces of bodies, unordered. body: (n,) of the points, None for a single body."""
     triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
     corners, count = triangles.ravel(), triangles.shape[1]
     owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)

@@ -4,7 +4,7 @@
 
 Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: points
 that are within half a cell along each axis share a cell of at least one of them. Within a cell points are compared with
-its first one alone. Only points with neighbors along a line enter grids: most meshes have none. Faces are one if the
+its first one alone. Only points with neighbors along a line enter grids: most meshes have none. Faces are copies if the
 sums of two hashes over their vertices agree.
 """
 

@@ -84,7 +84,7 @@ class _BlockCalls:
 
     start: the calls from the corners to the normals, weigh: the calls to the weights. largest, least: (3, c-1, chunks)
     of the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times the tetrahedron of each
-    quad's corners, room: two rows that are free then. prepare: the calls that the moments with all weights share,
+    quad's corners, room: two rows that are free meanwhile. prepare: the calls that the moments with all weights share,
     moments: the calls for each weight, and the calls that return sums.
     """
 

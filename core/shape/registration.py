@@ -73,7 +73,7 @@ def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np
 
 
 def best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
-    """Return the one of (k, 3, 3) maps with the least residual, and its distances; of equals, the smallest turn."""
+    """Return that of (k, 3, 3) maps with the least residual, else the smallest turn, and its distances."""
     least = np.array([residual(way, FIRST_SAMPLES).max() for way in candidates])
     worst, distances = np.full(len(candidates), np.inf), {}
     for i in np.argsort(least, kind="stable"):

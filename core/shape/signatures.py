@@ -126,10 +126,10 @@ class Likeness:
     is_mirror_image: bool | None
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
-        """Return 0 for a copy; also for one of another size, and for a mirror image, if that does not matter.
+        """Return the norm of the differences of shape, size and hand, 0 for a copy.
 
-        Else a difference of size or hand counts as much as one of shape, but never for more than
-        MAX_SIMILAR_DIFFERENCE.
+        The differences of size and of hand count as at most MAX_SIMILAR_DIFFERENCE, and not at all with `any_size` or
+        `any_hand`.
         """
         size, hand = (
             MAX_SIMILAR_DIFFERENCE * tanh(abs(value) / MAX_SIMILAR_DIFFERENCE)

@@ -23,7 +23,7 @@ MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in t
 
 
 def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-    """Return the vertices from which and to which sides run: 3t + i from corner i of triangle t to the next one."""
+    """Return the start and end vertices of sides; side 3t + i runs from corner i of triangle t to the next corner."""
     triangle, corner = sides // 3, sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 

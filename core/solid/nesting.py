@@ -95,8 +95,8 @@ def _breakthrough(
 ) -> NDArray[np.float64]:
     """Return (k,) how far the components of each pair (inner, outer) reach out of each other, at least `tolerance`.
 
-    It is the largest distance, from the other surface, of places on edges of the inner one outside the outer one, and
-    of the outer one in the inner one.
+    The value is the largest distance from the other surface: of places on edges of the inner component that are outside
+    the outer one, and of places on edges of the outer component that are inside the inner one.
     """
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):

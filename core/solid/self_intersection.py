@@ -8,7 +8,8 @@ show this on the way; for the others a pass over the faces, which ends early if 
 
 Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
 faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. Every region
-as wide as these distances is found, and their number follows from that of the faces, so that looking costs little.
+as wide as these distances is found. The number of lines follows from the number of faces, so that the search costs
+little.
 """
 
 from __future__ import annotations

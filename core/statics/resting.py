@@ -34,7 +34,7 @@ ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ 
 class RestingPoses:
     """Stable resting poses, the likeliest first.
 
-    `normals`: (k, 3) outward unit normals of the faces that the body rests on: they point down then.
+    `normals`: (k, 3) outward unit normals of the faces that the body rests on; at rest they point down.
     `shares`: (k,) quasi-static probabilities, adding up to 1.
     `margins`: (k,) distances of the center's foot from the nearest edge of the face.
     `heights`: (k,) heights of the center above the ground.

@@ -323,8 +323,9 @@ class _Prisms:
     def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
         """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two rows of changes.
 
-        Sizes are three, and four zeros. Changes are three of J, and four of J's size times the move of x, if directions
-        move by the first row of the errors; or by the second row, and the points by `stored`.
+        The row of sizes is three coefficients and four zeros. A row of changes is three coefficients of the change of
+        J, and four of J's size times the move of x. The directions move by the first row of the errors; in the last row
+        by the second row of the errors, and the points by `stored`.
         """
         sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes
