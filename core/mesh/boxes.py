@@ -24,7 +24,7 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
 
 
 def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
-    """Return (k,), (k,) boxes of about `most` pairs that overlap by over `margin`, and the number of untested ones."""
+    """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of untested pairs."""
     order, count = _sweep(low, high, margin)
     left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
     for i, j in following_pairs(order, count, PIECE):

@@ -33,7 +33,7 @@ INDEX_SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles and quads over shared points, outward faces counter-clockwise: the input of every measurement.
+    """Triangles and quads over shared points, counter-clockwise from outside: the input of every measurement.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ class Surface:
 
     @classmethod
     def from_triangles(cls, points: ArrayLike, triangles: ArrayLike) -> Surface:
-        """Make a surface of (m, 3) triangles, outward ones counter-clockwise, over (n, 3) points, float32 or 64.
+        """Make a surface of (m, 3) triangles, counter-clockwise from outside, over (n, 3) points, float32 or float64.
 
         ValueError if the shapes or types differ, or an index has no point.
         """

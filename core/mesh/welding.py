@@ -94,7 +94,7 @@ def vertex_tolerance(
 
 
 def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return (m,) faces: for each triangle the first mesh face on the same vertices as its own; faces: (m,) its own."""
+    """Return for m triangles the first mesh faces on the same vertices as their own mesh faces, `faces` (m,)."""
     width = int(faces.max()) + 1
     pieces = np.bincount(faces)
     single = pieces[faces] == 1

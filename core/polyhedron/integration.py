@@ -57,8 +57,8 @@ def polyhedron_moments(
     Parameters
     ----------
     body : Surface, or an iterable of pieces of one body
-        Pieces, in the same coordinates, are Surfaces or (m, 3, 3) arrays of the corners of outward counter-clockwise
-        triangles. Of a stream only a few are held at a time.
+        Pieces, in the same coordinates, are Surfaces or (m, 3, 3) arrays of the corners of triangles, counter-clockwise
+        from outside. Of a stream only a few are held at a time.
     order : int
         The highest order p+q+r of the volume's moments.
     area_order : int, optional

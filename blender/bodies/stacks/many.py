@@ -48,7 +48,7 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function that measures in batches; called with each object in order, it returns its measurement."""
+    """Return a function that measures in batches and, called with each object in order, returns its measurement."""
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 
@@ -168,7 +168,7 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """Return stacked measurements by member number; none if the stack fails, then objects are measured alone."""
+        """Return stacked measurements by member number; none if the stack fails, so that objects are measured alone."""
         try:
             stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:
