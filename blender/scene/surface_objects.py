@@ -170,7 +170,7 @@ def import_bodies(
 class ImportedSurfaces(NamedTuple):
     """Objects of a file of surfaces, with the number and the highest order of their patches.
 
-    findings: about what was left out or decided.
+    findings: about omissions and decisions.
     """
 
     objects: list[Object]

@@ -53,7 +53,8 @@ class OutlineDefects:
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
     """Return ∫ x^p y^q dA of the region left of (m, 2) directed edges for all p + q ≤ order, with error bounds.
 
-    By default they are about the middle of the bounding box of the used points. MeasureError if the edges do not close.
+    The moments are about the middle of the bounding box of the used points by default. MeasureError if edges do not
+    close.
     """
     points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]

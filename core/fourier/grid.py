@@ -150,7 +150,7 @@ class GridTransform(Transform):
         )
 
     def steps(self) -> Iterator[float]:
-        """Do the work and yield the rough fraction done, from 0 to 1, after each part of it."""
+        """Do the work in parts; yield the rough fraction done, from 0 to 1, after each."""
         expected = len(self.faces.triangles) * len(_trial_vectors(self.grid)) / PAIRS_PER_BLOCK
         for tried, _ in enumerate(self._assign_triangles()):
             yield SHARING_TIME * tried / (tried + expected)

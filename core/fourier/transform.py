@@ -148,7 +148,7 @@ class Transform:
         return total
 
     def steps(self) -> Iterator[float]:
-        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
+        """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
         shares = self._tasks()
         if self.threads == 1:
             results = map(self._run_task, shares)

@@ -59,7 +59,7 @@ class AxialHarmonics:
         return AxialHarmonics(frame, values * np.exp(-1j * turn * np.arange(values.shape[1])))
 
     def inverted(self) -> AxialHarmonics:
-        """Return the harmonics of the body's image in its center."""
+        """Return the harmonics of the body's point reflection in its center."""
         m = np.arange(self.values.shape[1])
         return replace(self, values=self.values * np.stack([(-1.0) ** m, (-1.0) ** (m + 1)]))
 

@@ -158,7 +158,7 @@ class MassProperties:
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
     def as_moments(self) -> Moments:
-        """Return its mass moments about the center; the third ones are not known any more and left zero."""
+        """Return the mass moments about the center; third moments are no longer known and are zero."""
         raw = np.zeros(monomial_count(3))
         raw[0] = self.mass
         raw[SECOND_MOMENT_INDEX] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia

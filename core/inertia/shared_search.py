@@ -138,7 +138,7 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) central moments along (n, 3, 3) axes, by total and extents; bounds by degree; (n, 3) extents."""
+    """Return (n, K) central moments along (n, 3, 3) axes, over total and extents; bounds by degree; (n, 3) extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()

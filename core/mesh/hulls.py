@@ -7,8 +7,8 @@ operations on arrays, all such points that see no face in common, and no face ac
 of these points does not matter, because a face over a horizon's edge is a positive combination of the two faces at that
 edge.
 
-The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it, on which integers decide without
-rounding on which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
+The points are rounded to a grid of 2^29 steps over the largest extent. On this grid integers decide without rounding on
+which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
 """
 
 from __future__ import annotations

@@ -71,7 +71,7 @@ class Patch:
         return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
 
     def transform(self, matrix: ArrayLike) -> Patch:
-        """Return its image under an affine map (4, 4)."""
+        """Return the image of the patch under a (4, 4) affine map."""
         matrix = float_array("matrix", matrix, 4, 4)
         return replace(self, points=self.points @ matrix[:3, :3].T + matrix[:3, 3])
 

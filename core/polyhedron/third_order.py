@@ -296,7 +296,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
     """Return the four corners of quads, (k/2,) each, if triangles 2i and 2i+1 are always halves of a quad; else None.
 
-    Two triangles that share an edge cost less than two loose ones. The first pair shows which of their corners meet.
+    Two triangles that share an edge cost less than two loose ones. The first pair shows their common corners.
     """
     return _quad_corners_of(triangles[0::2], triangles[1::2])
 

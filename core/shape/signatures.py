@@ -86,7 +86,7 @@ class Signature:
 
     @classmethod
     def from_record(cls, record: dict) -> Signature:
-        """Read a signature from JSON; FileError if the record is none."""
+        """Read a signature from JSON. FileError if the record is not a signature."""
         try:
             arrays = [
                 np.array(record[name], np.float64).reshape(-1)

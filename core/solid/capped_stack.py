@@ -119,7 +119,7 @@ def _capped(
     loops: BoundaryLoops,
     of_loop: NDArray[np.intp],
 ) -> StackCaps:
-    """Add the cones over loops to their surfaces. part: (t,) of each triangle; of_loop: the surface of each loop."""
+    """Add the cones over loops to their surfaces. part: (t,) components of triangles; of_loop: surfaces of loops."""
     count, owner, (start, stop) = len(stack), stack.point_owners, side_ends(stack.triangles, side)
     body, caps = owner[start], loops.cones(start, stop, len(owner))
     kept = has_distinct_vertices(caps)

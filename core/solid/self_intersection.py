@@ -130,7 +130,7 @@ def measure_excess(
 ) -> Excess:
     """Measure along lines the volume that a closed part counts more than once, or as negative.
 
-    tolerance: (b,) shorter lengths do not count (unit). part: (t,) of each triangle; by default a body is one part.
+    tolerance: (b,) lengths below which nothing counts (unit). part: (t,) parts of the triangles, by default one a body.
     """
     bodies = len(grids.cell)
     if not len(crossings.row):

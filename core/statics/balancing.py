@@ -158,7 +158,7 @@ def _newton_solve(
 
 
 def _is_solvable(system: NDArray) -> bool:
-    """Return whether the (r, r) system can be solved: none of its directions is without effect."""
+    """Return whether the (r, r) system can be solved, because every direction has an effect."""
     strength = np.linalg.svd(system, compute_uv=False)
     return bool(np.isfinite(strength).all() and strength[-1] > MIN_RELATIVE_EFFECT * strength[0])
 
