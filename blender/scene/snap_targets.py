@@ -4,8 +4,7 @@
 
 Coordinates in float32 do not fix the directions of nearly equal moments: when a body is measured again, they turn by
 about the rounding divided by the gap between the moments. Whether axes are principal is therefore decided by the
-tensor, which
-must be diagonal in them to rounding, not from the angle between two measured frames.
+tensor, which must be diagonal in them to rounding, not from the angle between two measured frames.
 """
 
 from __future__ import annotations

@@ -34,10 +34,9 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
     """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of the body in the grid.
 
     The moments are about the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n,
-    3, 3)
-    corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is the cube
-    from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), nothing outside. `rounding_error` estimates the rounding
-    from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
+    3, 3) corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is
+    the cube from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), nothing outside. `rounding_error` estimates the
+    rounding from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
     """
     triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)
     if not len(triangles):

@@ -10,8 +10,7 @@ positive weights errs by no more than twice that. This bound is met by one trian
 of many cancel as the waves do. So fewer points are taken if a test shows that they suffice: at frequencies of all
 sizes, the joint error of the triangles is found by comparison with the closed form. If a wave is shorter than a
 triangle's height over its shortest side, the bound is kept, because at some frequencies all triangles of a regular mesh
-err alike. Triangles
-that would need too many points keep their closed form.
+err alike. Triangles that would need too many points keep their closed form.
 
 The width of the spreading kernel follows from a bound of its aliasing. The reported error is found by comparison with
 the closed form at other frequencies.

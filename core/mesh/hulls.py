@@ -35,9 +35,9 @@ class ConvexHull:
     """A closed convex surface of triangles; for points in one plane, both sides of their polygon.
 
     points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3) rows of `points`,
-    counter-clockwise from outside. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to
-    2, from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distance of points outside: above
-    the tolerance if the limit of corners was reached.
+    counter-clockwise from outside. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to 2,
+    from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distance of points outside: above the
+    tolerance if the limit of corners was reached.
     """
 
     points: NDArray[np.float64]

@@ -4,10 +4,9 @@
 
 The lines run along the shortest side of a body's box, a little aslant, so that they are parallel to none of the box's
 faces. Across the box they form a lattice of rows and columns. As in drawing a picture, a row crosses a triangle between
-two of its edges, and columns
-in between meet it: only faces with corners in several rows and columns cause work. A row crosses an edge with one end
-above the row, at a place that is computed from the vertex with the lower index on: triangles that share the edge get
-the same place, and no line slips through between them.
+two of its edges, and columns in between meet it: only faces with corners in several rows and columns cause work. A row
+crosses an edge with one end above the row, at a place that is computed from the vertex with the lower index on:
+triangles that share the edge get the same place, and no line slips through between them.
 
 Several bodies share a scan, each with its own lines and the same result as alone. Fewer rows are taken of a body if
 the work would exceed the limit for its number of triangles.

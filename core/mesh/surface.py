@@ -95,8 +95,7 @@ class Surface:
     def coordinate_error(self) -> NDArray[np.float64]:
         """The (3,) bounds of the points' shift by storing: half an ulp of the largest float32 coordinate by axis.
 
-        `displacement` holds it for points that were float32
-        before; otherwise it is zero for float64 points.
+        `displacement` holds it for points that were float32 before; otherwise it is zero for float64 points.
         """
         if self.displacement is not None:
             return self.displacement

@@ -50,10 +50,9 @@ def polyhedron_moments(
 
     All moments are about the center of the bounding box, unless `about` is given. The volume is positive for outward
     faces, and signed otherwise. The moments of an open surface would depend on the reference point: it is refused
-    unless
-    `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error` bounds the
-    rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of a closed
-    surface).
+    unless `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error`
+    bounds the rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of
+    a closed surface).
 
     Parameters
     ----------

@@ -222,7 +222,7 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the columns below k with quads that Blender may, and that it does, cut along their other diagonal.
+        """Return the columns below k of quads that Blender may cut along the other diagonal, and of those that it does.
 
         The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
         product is within float32's rounding of zero. The quads are appended to `flipped`.

@@ -4,9 +4,8 @@
 
 The patches that are read may differ from the displayed ones if shape keys and hooks move control points, or if a spline
 has knots that Blender's interface does not show (as from its OBJ importer). So the patches are evaluated at the
-parameters of the
-display mesh's vertices and compared with them. If they differ, the control points are recovered from these vertices, a
-linear problem in each direction; if a difference remains, the display mesh is measured.
+parameters of the display mesh's vertices and compared with them. If they differ, the control points are recovered from
+these vertices, a linear problem in each direction; if a difference remains, the display mesh is measured.
 """
 
 from __future__ import annotations

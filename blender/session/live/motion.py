@@ -37,9 +37,8 @@ class _Followed:
     """The measurement of a followed object.
 
     change: number of the geometry's last update at the measurement, -1 before the first. moments: of the mass, in the
-    object's coordinates in
-    SI units. given_mass: in kg, if the mass is given. mixes: volume and center as polynomials of the values of the
-    shape keys `keys`, for faces cut into `triangles`; density: the density for them.
+    object's coordinates in SI units. given_mass: in kg, if the mass is given. mixes: volume and center as polynomials
+    of the values of the shape keys `keys`, for faces cut into `triangles`; density: the density for them.
     """
 
     change: int = -1
