@@ -66,7 +66,7 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the allowed half turns with the largest normalized moments (n, columns).
+    """Return an (n, 4) mask of the allowed half turns with the largest normalized moments (n, columns).
 
     They are compared column after column; values that differ by no more than `least` are equal.
     """

@@ -192,7 +192,7 @@ def _third_scores(
 
 
 def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
+    """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
     size, counts = np.abs(scores), scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
     weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)

@@ -195,7 +195,7 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return the operations that stand for all of a body of revolution: the identity, and perhaps a reflection."""
+    """Return the finite operations of a body of revolution, for all others: the identity and perhaps a reflection."""
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
