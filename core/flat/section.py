@@ -112,7 +112,7 @@ class Section:
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) the centroid in space, in the same coordinates as the plane's origin."""
+        """The (3,) centroid in space, in the same coordinates as the plane's origin."""
         return self.plane.origin + self.plane.axes[:, :2] @ self.centroid
 
     @property
@@ -145,12 +145,12 @@ class Section:
 
     @property
     def radii(self) -> NDArray[np.float64]:
-        """(4,) the radii of gyration about x, y, 1, 2."""
+        """The (4,) radii of gyration about x, y, 1, 2."""
         return np.sqrt(np.array([*self.second[:2], *self.principal]) / self.area)
 
     @property
     def moduli(self) -> NDArray[np.float64]:
-        """(4,) the elastic section moduli about x, y, 1, 2, each for the outermost corner: the smaller of two sides."""
+        """The (4,) elastic section moduli about x, y, 1, 2, each for the outermost corner: the smaller of two sides."""
         return np.array([*self.second[:2], *self.principal]) / self.reach
 
 

@@ -211,7 +211,7 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
 ) -> tuple[NDArray, float, float, bool]:
-    """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
+    """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
 
     Return also 1 for the largest or -1 for the least; the angle by which noise may have turned the directions; and
     whether they are isolated: for a circle of directions its poles are returned. There are none, (0, 3), if the moment
@@ -295,7 +295,7 @@ def frame_about(axis: NDArray) -> NDArray[np.float64]:
 
 
 def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:
-    """Return (k, n) the normalized moments in the frames, and (n,) their noise."""
+    """Return the (k, n) normalized moments in the frames, and (n,) their noise."""
     values, noises = [], []
     for degree in range(3, central.order + 1):
         unit, noise = _normalization(central, spread, degree)

@@ -158,7 +158,7 @@ class MassProperties:
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
     def as_moments(self) -> Moments:
-        """Return its mass moments about the center; the third ones are not known any more and left zero."""
+        """Return the mass moments about the center; third moments are no longer known and are zero."""
         raw = np.zeros(monomial_count(3))
         raw[0] = self.mass
         raw[SECOND_MOMENT_INDEX] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
@@ -222,8 +222,8 @@ def affine_image(
 ) -> MassProperties:
     """Return the mass properties of a body that is stretched, sheared and turned by the (3, 3) part of a map.
 
-    `center` and `mass` are those of the image; each principal axis points the way of a column of `preferred_axes`.
-    The bounds are those of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
+    `center` and `mass` are those of the image; each principal axis points the same way as a column of `preferred_axes`.
+    The bounds of `properties` are kept, as nothing better is known here. The frame is no choice of the canonical rule:
     second moments alone leave the signs open.
     """
     linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
@@ -245,9 +245,9 @@ def affine_image(
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return (n,) whether centers are in boxes (n, 3) to (n, 3), and second central moments can be those of a mass.
+    """Return an (n,) mask of the bodies whose center and second central moments are possible for a mass in their box.
 
-    A surface that intersects itself may violate both.
+    low, high: (n, 3) corners of the boxes. A surface that intersects itself may have an impossible center or moments.
     """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]

@@ -111,7 +111,7 @@ def _frames_alike(
 def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
-    """Return the frames of a body with these rounded moments; ways: its fixed axis points ahead (1), back (2), both."""
+    """Return the frames of a body with these rounded moments. ways: of its fixed axis, coded as by `_ways`."""
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -135,7 +135,7 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
-    """Return (n,) the ways that the fixed axes of bodies may point, in the code of `_search`."""
+    """Return (n,) codes of the directions in which the bodies' fixed axes may point: 1 ahead, 2 back, 3 both."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
@@ -143,7 +143,7 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) central moments along (n, 3, 3) axes, by total and extents; bounds by degree; (n, 3) extents."""
+    """Return (n, K) central moments along (n, 3, 3) axes, over total and extents; bounds by degree; (n, 3) extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()

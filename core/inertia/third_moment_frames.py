@@ -71,7 +71,7 @@ class ThirdMomentFrames:
         return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
 
     def frames(self, i: int) -> NDArray[np.float64]:
-        """Return (k, 3, 3) the right-handed frames of one body that third moments allow: signs of its axes."""
+        """Return the (k, 3, 3) right-handed frames of one body that third moments allow: signs of its axes."""
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
@@ -149,7 +149,7 @@ def third_moment_frames(
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n,) whether better third moments could change no score that counts, no sign and no order."""
+    """Return an (n,) mask of bodies with frames that more exact third moments could not change."""
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
@@ -194,7 +194,7 @@ def _third_scores(
 
 
 def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
+    """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
     size, counts = np.abs(scores), scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
     weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)

@@ -152,15 +152,15 @@ class Moments:
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) the centroid, in the coordinates of `about`. The total must not be zero."""
+        """The (3,) centroid, in the coordinates of `about`. The total must not be zero."""
         return self.about + self.raw[..., 1:4] / self.raw[..., :1]
 
     def second(self) -> NDArray[np.float64]:
-        """Return (3, 3) the second moments about `about`."""
+        """Return the (3, 3) second moments about `about`."""
         return self.raw[..., SECOND_MOMENT_INDEX]
 
     def third(self) -> NDArray[np.float64]:
-        """Return (3, 3, 3) the third moments about `about`."""
+        """Return the (3, 3, 3) third moments about `about`."""
         return self.raw[..., THIRD_MOMENT_INDEX]
 
     def truncate(self, order: int) -> Moments:

@@ -61,7 +61,7 @@ def extend_small_moments(
 
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K, t) the S_α of triangles with corners (3, t)."""
+    """Return the (K, t) S_α of triangles with corners (3, t)."""
     levels = np.zeros((2, 3, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
     levels[0] = 1.0
     vectors, out = np.stack([a, c, b], axis=1), np.empty((monomial_count(order), a.shape[1]))

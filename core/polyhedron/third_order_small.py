@@ -157,7 +157,7 @@ def error_bounds(
 
 
 def monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
-    """Return (k, 20) the largest value of each monomial within each of (k, 3) reaches."""
+    """Return the (k, 20) largest values of the monomials within (k, 3) reaches."""
     factors = np.ones((len(reaches), 4))
     factors[:, 1:] = reaches
     return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)

@@ -23,7 +23,7 @@ MAX_END_PAIRS = 4_000_000  # Limit of meeting ends; beyond, ends are joined in t
 
 
 def side_ends(triangles: NDArray[np.integer], sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-    """Return the vertices from which and to which sides run: 3t + i from corner i of triangle t to the next one."""
+    """Return the start and end vertices of sides; side 3t + i runs from corner i of triangle t to the next corner."""
     triangle, corner = sides // 3, sides % 3
     return triangles[triangle, corner], triangles[triangle, (corner + 1) % 3]
 
@@ -133,11 +133,11 @@ class BoundaryLoops:
     out_of_plane: NDArray[np.float64]
 
     def has_area(self, tolerance: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Return a (l,) mask of holes; gaps are narrower than `tolerance`, for all or (l,), and far longer."""
+        """Return an (l,) mask of holes: loops that are not gaps, narrower than `tolerance`, one or (l,)."""
         return self.cone_area > self.perimeter * np.minimum(tolerance, MAX_GAP_ASPECT * self.perimeter)
 
     def of_each(self, side_values: NDArray) -> NDArray:
-        """Return (l,) the value of the first side of each loop. side_values: (r,)."""
+        """Return the (l,) values of the loops' first sides. side_values: (r,)."""
         values = np.empty(len(self.perimeter), side_values.dtype)
         values[self.of_side[::-1]] = side_values[::-1]  # The last of equal indices wins.
         return values

@@ -76,7 +76,7 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) nearer points touch."""
+    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) distances of touch."""
     can = usable & links.is_open
     start, stop = links.open_sides
     owner, total = stack.point_owners, len(stack.points)

@@ -84,7 +84,7 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Finding, ...]:
-    """Return the findings, without copies of faces that are the walls of two bodies. sides: at such walls."""
+    """Return the findings without counting copies of faces that are walls of two bodies. sides: the sides at walls."""
     walls, findings = np.unique(mesh.face[sides // 3]), []
     for item in mesh.findings:
         if item.code.startswith(DUPLICATE_FACES_COUNTED):
@@ -188,7 +188,7 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
-    """Return a (e,) mask of the edges along gaps without area."""
+    """Return an (e,) mask of the edges along gaps without area."""
     edges = mesh.state.edges
     along = np.zeros(len(edges.count), bool)
     along[edges.of_side[mesh.state.gaps.sides]] = True

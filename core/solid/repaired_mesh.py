@@ -150,7 +150,7 @@ class RepairedMesh:
         )
 
     def oriented_ends(self, sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-        """Return the vertices from which and to which sides run once the faces are turned."""
+        """Return the start vertices and the end vertices of sides once the faces are turned."""
         start, stop = side_ends(self.triangles, sides)
         flipped = self.flipped[sides // 3]
         return np.where(flipped, stop, start), np.where(flipped, start, stop)

@@ -120,9 +120,9 @@ def flat_region(
 ) -> FlatRegion:
     """Return an object as a region of a plane, in SI units.
 
-    `selected` reads only the selected faces in Edit Mode; `resolution` replaces that of curves and text; `exact` reads
-    the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if the object is
-    not flat, is extruded, or has outlines that cross.
+    `selected` reads only the selected faces in Edit Mode; `resolution` replaces the resolution of curves and text;
+    `exact` reads the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if
+    the object is not flat, is extruded, or has outlines that cross.
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)

@@ -243,7 +243,7 @@ class Stacked:
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
-    """Return a stack of the members with certain shapes and numbers, or None; all members must have the same unit."""
+    """Return a stack of the members whose volume and mass are certain, or None; all members have the same unit."""
     unit, axes = members[0].settings.unit, members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
