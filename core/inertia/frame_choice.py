@@ -7,10 +7,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .tensors import EQUAL_TRACE_ATOL
 from .third_moment_frames import IS_FIXED, ThirdMomentFrames
 
-# Traces closer than the first always count as equal; farther apart than the second, never.
-EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
+MAX_TRACE_AMBIGUITY = 0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always
 MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments, and a copy's
 
 
