@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from bpy.types import Context, UILayout
 
 from ..blender.session.stored import outcome
-from ..blender.write.properties import StoredProperties
+from ..blender.write.numbers import StoredProperties
 from ..blender.write.remedies import DEFECTS, OUTSIDE, SHELL, UNION, remedies_of
 from ..blender.write.translations import localized
 from ..blender.write.units import Units

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
-from ...core.inertia.third_moment_frames import EQUAL_AXES
+from ...core.inertia.tensors import EQUAL_AXES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Verdict

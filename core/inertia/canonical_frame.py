@@ -27,6 +27,7 @@ from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
 from ..verdict.finding import MeasureError
 from .findings import MOMENTS_OVERFLOW
+from .tensors import frame_about
 
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
 NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times the noise of float32 coordinates
@@ -133,7 +134,7 @@ def _candidates(
             directions, sign, tilt, are_isolated = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
-            bases = np.array([frame_about(direction) for direction in directions])
+            bases = np.array([frame_about(direction) for direction in directions.tolist()]).transpose(0, 2, 1)
             fourfold = sign if degree == 4 else -1.0
             frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
             rule = FrameRule(degree, 2, harmonic, _sign(harmonic, fourfold)) if are_isolated else None
@@ -284,14 +285,6 @@ def _sphere_directions() -> NDArray[np.float64]:
     z, turn = 1.0 - 2.0 * i / START_DIRECTIONS, np.pi * (1.0 + 5.0**0.5) * i
     r = np.sqrt(1.0 - z * z)
     return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
-
-
-def frame_about(axis: NDArray) -> NDArray[np.float64]:
-    """Return a right-handed frame with this third axis; the first is a coordinate axis, projected."""
-    helper = np.eye(3)[np.argmin(np.abs(axis))]
-    first = helper - axis * (axis @ helper)
-    first /= np.linalg.norm(first)
-    return np.stack([first, np.cross(axis, first), axis], axis=1)
 
 
 def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:

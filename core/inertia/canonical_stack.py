@@ -22,7 +22,8 @@ from ..moments.moments import Moments
 from ..verdict.finding import MeasureError
 from .canonical_frame import NOISE_GROWTH, extents_of
 from .findings import MOMENTS_OVERFLOW
-from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
+from .tensors import SYMMETRIES
+from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # index of the first moment of third order
 # By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the exponent of other parity.

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arrays import cross_rows, lengths
+from .tensors import EQUAL_TRACE_ATOL
 from .third_moment_frames import AXES, IS_FIXED, ThirdMomentFrames
 
-# Traces closer than the first always count as equal; farther apart than the second, never.
-EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
+MAX_TRACE_AMBIGUITY = 0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always
 AXIS_RANK = np.array([4, 2, 1])  # axes that point along the preferred ones count in this order
 MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments, and a copy's
 

@@ -15,7 +15,7 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count, sum_moments
+from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
@@ -84,26 +84,6 @@ class MassProperties:
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
 
     @classmethod
-    def from_numbers(
-        cls,
-        mass: float,
-        center: ArrayLike,
-        inertia: ArrayLike,
-        moments: ArrayLike,
-        axes: ArrayLike,
-        rounding_error: dict[str, PerBody],
-        input_error: dict[str, PerBody],
-    ) -> MassProperties:
-        """Return the body with these numbers, as `MassProperties` and `PrincipalFrame` hold them.
-
-        Whether its axes are unique is unknown.
-        """
-        frame = PrincipalFrame(
-            np.asarray(moments, float), np.asarray(axes, float), symmetry="", is_unique=False, finding=None
-        )
-        return cls(mass, np.asarray(center, float), np.asarray(inertia, float), frame, rounding_error, input_error)
-
-    @classmethod
     def of_stack(
         cls,
         moments: Moments,
@@ -156,13 +136,6 @@ class MassProperties:
         """Return the (3, 3) tensor about another point, by the parallel-axis theorem."""
         arm = float_array("point", point, 3) - self.center
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
-
-    def as_moments(self) -> Moments:
-        """Return the mass moments about the center; third moments are no longer known and are zero."""
-        raw = np.zeros(monomial_count(3))
-        raw[0] = self.mass
-        raw[SECOND_MOMENT_INDEX] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
-        return Moments(raw, self.center, Measure.MASS)
 
     @property
     def radii_of_gyration(self) -> NDArray[np.float64]:

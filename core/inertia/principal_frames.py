@@ -41,7 +41,8 @@ from .findings import (
 )
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .shared_search import shared_frames
-from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames, third_moment_frames
+from .tensors import EQUAL_AXES, SYMMETRIES
+from .third_moment_frames import HALF_TURN_SIGNS, ThirdMomentFrames, third_moment_frames
 
 NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed

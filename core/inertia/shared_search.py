@@ -33,7 +33,8 @@ from .canonical_frame import (
     canonical_frames,
 )
 from .findings import MOMENTS_OVERFLOW
-from .third_moment_frames import EQUAL_AXES, FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
+from .tensors import EQUAL_AXES, SYMMETRIES
+from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
 LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same

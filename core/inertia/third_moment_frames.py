@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
 from .canonical_frame import NOISE_LEVEL, SecondMomentAxes
+from .tensors import EQUAL_AXES, EQUAL_MOMENTS_RTOL, SYMMETRIES
 
-EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
 EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
 PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
@@ -28,9 +28,6 @@ OWN_AXIS = AXES[:, None]
 # Signs of the axes that keep a frame right-handed.
 HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
 
-SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
-# For each symmetry, the axes with equal moments.
-EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
 FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the axis with the moment that differs
 IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for name in SYMMETRIES])
 
@@ -199,5 +196,5 @@ def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
     # The weakest of three is dropped; the last of equal ones.
     weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
     last = 2 - weak[:, ::-1].argmax(axis=1)
-    counts = counts & ~(counts.all(axis=1)[:, None] & (AXES == last[:, None]))
+    counts = counts & ~(counts.all(axis=1)[:, None] & (last[:, None] == AXES))
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)

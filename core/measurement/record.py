@@ -68,7 +68,7 @@ def record(
         }
     point = _point(about, measurement, properties, frame)
     if about is not None:
-        entry["inertia_about"] = {"point": point, "inertia": _inertia_about(point, properties)}
+        entry["inertia_about"] = {"point": point, "inertia": properties.inertia_about(point)}
     if order is not None:
         volume = measurement.volume_moments
         if volume is None:
@@ -166,12 +166,6 @@ def _point(
     if about == "world" and frame == "object":
         return -measurement.rotation.T @ measurement.location
     return np.zeros(3) if about is None or isinstance(about, str) else np.asarray(about, np.float64)
-
-
-def _inertia_about(point: NDArray[np.float64], properties: MassProperties) -> NDArray[np.float64]:
-    """Return the tensor about another point, by the parallel-axis theorem."""
-    arm = point - properties.center
-    return properties.inertia + properties.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
 
 
 def _about(point: NDArray[np.float64], moments: Moments, measurement: Measurement, frame: str) -> Moments:

@@ -33,7 +33,6 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
-from ...read import assembly, rig
 from ...read.fingerprint import VERSION, digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
 from ...write import properties
@@ -121,10 +120,11 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
 
 def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
     if isinstance(root, Object) and root.type == "ARMATURE":
-        return rig.rig_hash(root, rig.rig_objects(root, scene.objects), scene), ""
+        return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
     depsgraph = bpy.context.view_layer.depsgraph
     if depsgraph is None:
         return None
+    assembly = read.assembly
     member = assembly.members_of(root, depsgraph)
     measured = [part.data for part in member.walk() if part.kind == assembly.MemberKind.OBJECT and part.is_measured]
     texts = {obj: properties.fingerprint(obj) for obj in measured}
