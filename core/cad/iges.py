@@ -20,12 +20,12 @@ from numpy.typing import NDArray
 
 from ..nurbs.curve import Curve
 from ..nurbs.flat_face import FlatFace
-from ..nurbs.patch import Face
+from ..nurbs.patch import Face, Patch, patches_size
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACE_TRIMMED, SURFACE_UNSUPPORTED, SURFACES_HIDDEN
 from .iges_curves import MAX_DEPTH, CurveReader
-from .iges_text import Entry, IgesText, integers, numbers, padded
+from .iges_text import Entry, IgesText, decimal_rounding, integers, numbers, padded
 from .surfaces import (
     MAX_SURFACES,
     Refusals,
@@ -80,7 +80,7 @@ class _Reader:
         self._entries = self._text.entries
         self._refusals = Refusals()
         self._matrices: dict[int, NDArray[np.float64] | None] = {0: np.eye(4)}
-        self._name, self._placed = path.stem, 0
+        self._name, self._placed, self._rounding = path.stem, 0, 0.0
         self._curves = CurveReader(self._text, self._matrix)
 
     def read(self) -> SurfaceFile:
@@ -97,7 +97,7 @@ class _Reader:
             else:
                 patches += self._place(entry, np.eye(4), ())
         notes = [finding(code, count=n) for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others)) if n]
-        return self._refusals.file([SurfaceBody(self._name, tuple(patches))], self._text.unit, notes)
+        return self._refusals.file([SurfaceBody(self._name, tuple(patches), self._rounding)], self._text.unit, notes)
 
     def _references(self) -> Iterator[int]:
         """Yield the numbers of entities that are parts of other entities, and so are not placed by themselves."""
@@ -266,14 +266,26 @@ class _Reader:
         elif base.type != SURFACE:
             raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
         else:
-            *spline, domain = _spline(self._text.fields(base))
+            fields = self._text.fields(base)
+            *spline, domain = _spline(fields)
             surface = placed_surface(*spline, matrix)
+            self._note_rounding(fields, surface, matrix)
             faces = trimmed_faces(
                 surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer
             )
         if not self._for_blender:
             return faces
         return [patch for face in faces for patch in ([face] if not isinstance(face, FlatFace) else _cones(face))]
+
+    def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> None:
+        """Note how far the decimals of a surface's points and weights leave its points undecided."""
+        count = surface.points.size // 3
+        start = 9 + sum(len(space.knots) for space in surface.spaces)
+        moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[start + count : start + 4 * count])
+        if surface.weights is not None:  # A point is a mean of control points: it moves by twice its weights' share.
+            share = decimal_rounding(fields[start : start + count]) / float(surface.weights.min())
+            moved += 2.0 * share * patches_size([surface])
+        self._rounding = max(self._rounding, moved)
 
     def _plane_normal(self, base: Entry, matrix: NDArray) -> NDArray[np.float64]:
         """Return a vector (3,) across a plane, on the side that it faces."""

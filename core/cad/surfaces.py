@@ -14,10 +14,9 @@ from ..numerics.bspline import SplineSpace
 from ..nurbs.bezier_form import bezier_patches
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.patch import Face, Patch
-from ..streams.findings import FILE_TOO_LARGE
+from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
-    FILE_WITHOUT_SURFACES,
     NO_SURFACE_KEPT,
     SURFACE_DAMAGED,
     SURFACE_ORDER,
@@ -36,10 +35,14 @@ MAX_COORDINATE = 3e38  # Just below the largest float32.
 
 @dataclass(frozen=True, eq=False)
 class SurfaceBody:
-    """Faces of one object in a file, in the file's unit; patches for Blender's flags *Bézier* and *Endpoint*."""
+    """Faces of one object in a file, in the file's unit; patches for Blender's flags *Bézier* and *Endpoint*.
+
+    rounding: largest effect of the file's decimals on a point.
+    """
 
     name: str
     patches: tuple[Face, ...]
+    rounding: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +113,7 @@ class Refusals:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
             raise FileError(NO_SURFACE_KEPT, causes=causes)
         if not kept:
-            raise FileError(FILE_WITHOUT_SURFACES)
+            raise FileError(FILE_WITHOUT_OBJECTS, content="surfaces")
         return SurfaceFile(kept, unit, refused, tuple(notes), sum(map(len, self.names.values())))
 
 
@@ -147,9 +150,11 @@ def bezier_surface(
     if sizes[0] * sizes[1] > MAX_POINTS:
         raise SurfaceRefusedError(SURFACE_TOO_LARGE, points=sizes[0] * sizes[1], limit=MAX_POINTS)
     patches = bezier_patches(surface, domain)
-    weights_of = [patch.weights for patch in patches if patch.weights is not None]
-    if for_blender and any(
-        row.min() < 1e-30 * row.max() for row in weights_of
-    ):  # float32 would not hold them as positive numbers
+    if for_blender and not all(map(is_storable, patches)):
         raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_POSITIVE_WEIGHTS))
     return patches
+
+
+def is_storable(patch: Patch) -> bool:
+    """Return whether float32 can hold all weights of a patch as positive numbers."""
+    return patch.weights is None or bool(patch.weights.min() >= 1e-30 * patch.weights.max())
