@@ -8,14 +8,14 @@ Results are files of `measure` as json or jsonl, and journals. Standard library 
 from __future__ import annotations
 
 import argparse
-import json
 import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ...core.measurement.documents import SCHEMA, to_csv, to_json_lines
+from ...core.measurement.checked import check_document, check_journal_line, parse_json
+from ...core.measurement.documents import to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
@@ -62,13 +62,7 @@ def _read(paths: Iterable[str]) -> list[Entry]:
     """Return the documents of files of results, in order; a later document replaces one about the same file."""
     entries: dict[str | None, Entry] = {}
     for path in paths:
-        try:
-            entries.update((document["file"], (document, about)) for document, about in _read_file(path))
-        except OSError as error:
-            raise UsageError("The results {} cannot be read: {}".format(path, system_reason(error))) from error
-        except (ValueError, KeyError, TypeError, RecursionError) as error:
-            text = "{} is not a result of body_moments. Name what “measure” has written"
-            raise UsageError(text.format(path)) from error
+        entries.update((document["file"], (document, about)) for document, about in _read_file(path))
     return [*entries.values()]
 
 
@@ -77,27 +71,34 @@ def _documents(options: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def _read_file(path: str) -> Iterator[Entry]:
-    """Yield the documents of one file: a JSON object, an array, or one object on each line.
+    """Yield the documents of one file: a JSON object, an array, or one object on each line. Raises UsageError."""
+    try:
+        with open(path, encoding="utf-8-sig", errors="surrogateescape") as file:
+            begin = file.read(2)
+            file.seek(0)
+            if begin[:1] == "[" or begin == "{\n":
+                whole = parse_json(file.read())
+                for number, entry in enumerate(whole if isinstance(whole, list) else [whole], 1):
+                    yield _entry(entry, "document {}".format(number))
+                return
+            for number, line in enumerate(file, 1):
+                if line.strip():
+                    yield _entry(parse_json(line, number), "line {}".format(number))
+    except OSError as error:
+        raise UsageError("The results {} cannot be read: {}".format(path, system_reason(error))) from error
+    except ValueError as error:
+        text = "{} is not a result of body_moments: {}. Name what “measure” has written"
+        raise UsageError(text.format(path, error)) from error
 
-    Raises ValueError, KeyError, TypeError and OSError.
-    """
-    with open(path, encoding="utf-8", errors="surrogateescape") as file:
-        begin = file.read(2)
-        file.seek(0)
-        found: Iterable[Any]
-        if begin[:1] == "[" or begin == "{\n":
-            whole = json.load(file)
-            found = whole if isinstance(whole, list) else [whole]
-        else:
-            found = (json.loads(line) for line in file if line.strip())
-        for entry in found:
-            about: dict[str, Any] = {}
-            if entry["schema"] == journal.SCHEMA:
-                about = {name: entry[name] for name in ("attempts", "seconds")}
-                entry = entry["document"]
-            if entry["schema"] != SCHEMA:
-                raise ValueError(path)
-            yield entry if "status" in entry else {**entry, "status": "error" if entry["errors"] else "ok"}, about
+
+def _entry(record: Any, place: str) -> Entry:
+    """Return the document of a record, and what a journal adds. ValueError, with the place, if it is neither."""
+    is_line = isinstance(record, dict) and record.get("schema") == journal.SCHEMA
+    try:
+        (check_journal_line if is_line else check_document)(record)
+    except ValueError as error:
+        raise ValueError("{}: {}".format(place, error)) from error
+    return (record["document"], record) if is_line else (record, {})
 
 
 def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
@@ -122,8 +123,9 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         file = document["file"] or "-"
         statuses[document["status"]] += 1
         if document["status"] != "ok" and len(failed) < _LISTED:
-            failed.append("{}  {}: {}".format(document["status"], file, document["errors"][0]["reason"]))
-        if "seconds" in about:
+            reason = document["errors"][0]["reason"] if document["errors"] else "-"
+            failed.append("{}  {}: {}".format(document["status"], file, reason))
+        if about.get("seconds") is not None:
             slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[:_LISTED]
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1

@@ -14,7 +14,7 @@ import io
 import json
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from math import isfinite
+from math import isfinite, sqrt
 from typing import Any
 
 SCHEMA = "body-moments/1"
@@ -89,6 +89,15 @@ def failed_document(file: str, reason: str, status: str, *, blender: str | None,
     total |= {"findings": [], "warnings": [], "notes": []}
     errors = [{"name": None, "reason": reason}]
     return document([], total, errors, file=file, blender=blender, frame=frame, status=status)
+
+
+def radius_of_gyration(record: dict[str, Any]) -> float | None:
+    """Return the radius of gyration of a body's record in m, or None without a positive mass and known moments."""
+    mass, moments = record["mass"], record["principal_moments"]
+    if not mass or None in moments:
+        return None
+    square = sum(moments) / (2.0 * mass)
+    return sqrt(square) if square >= 0.0 else None
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
@@ -186,12 +195,12 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number] for i, axis in enumerate("xyz")
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
-    row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
+    row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"] or {})
     for name in ("volume", "length", "surface", "mass"):
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     if entry.get("pose"):
-        row |= {f"pose_{name}": entry["pose"][name] for name in ("unique", "symmetry", "symmetry_order")}
+        row |= {f"pose_{name}": entry["pose"].get(name) for name in ("unique", "symmetry", "symmetry_order")}
         row |= {
             f"pose_matrix_{i + 1}{j + 1}": value
             for i, line in enumerate(entry["pose"]["matrix"])

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Summaries, comparisons and the report page; and the options that the panel has too."""
 
+import functools
 import html
 import json
 import math
+import random
 import re
 import shutil
 import subprocess
@@ -20,6 +22,7 @@ from body_moments.operators import batch
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured
+from tests.blender.flat_objects import sheet
 from tests.blender.grids import vdb_grid, volume_object
 from tests.close import close
 
@@ -72,6 +75,94 @@ def test_summary_counts_files_by_status(main, tmp_path):
     assert main("summary", tmp_path / "b")[0] == 2 and main("merge", tmp_path / "none")[0] == 2
     assert main("merge", path, "--output", tmp_path / "b")[0] == 1
     assert main("merge", path, "--output", tmp_path / "b", "--force")[0] == 0
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A document with every kind of entry, as text."""
+    files.empty_scene()
+    box = files.add_box("Box")
+    box.rotation_euler = (0.3, 0.2, 0.1)
+    sheet([(0, 0), (3, 0), (2, 2), (0, 1)], "Sheet")
+    found = document("--flat", "--order", "3", "--pose", "--signature", "--surface-moments", "--about", "1,2,3")
+    found["assemblies"] = [{**found["objects"][0], "name": "All"}]
+    found["bones"] = [{**found["objects"][0], "name": "Arm", "armature": "Rig"}]
+    return json.dumps(found)
+
+
+def places_of(value, path=()):
+    """The paths of all values in a document."""
+    if path:
+        yield path
+    for key, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+        yield from places_of(part, (*path, key))
+
+
+def nested(depth):
+    value = []
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+WRONG_VALUES = (
+    None,
+    True,
+    -1,
+    1e308,
+    10**400,
+    "x",
+    "\ud800",
+    [],
+    {},
+    [[]],
+    [None] * 3,
+    {"a": {}},
+    math.nan,
+    nested(99),
+)
+
+
+def test_no_damaged_document_ends_in_a_traceback(main, tmp_path, whole):
+    """Values of other types, removed and added entries, cut text: one command each, which names file and line."""
+    chance, good, path = random.Random(7), tmp_path / "good", tmp_path / "bad"
+    good.write_text(whole)
+    commands = [("merge", path), ("to-csv", path), ("summary", path), ("report", path)]
+    commands += [("compare", path, good), ("compare", good, path, "--align"), ("similar", path, "--to", "Box")]
+    codes = set()
+    for number in range(250):
+        damaged = json.loads(whole)
+        place = chance.choice([*places_of(damaged)])
+        parent = functools.reduce(lambda value, key: value[key], place[:-1], damaged)
+        if chance.random() < 0.3:
+            del parent[place[-1]]
+        else:
+            parent[place[-1]] = chance.choice(WRONG_VALUES)
+        text = json.dumps(damaged)
+        text = text[: chance.randrange(len(text))] if chance.random() < 0.1 else text
+        path.write_bytes((whole + "\n" + text).encode(chance.choice(["utf-8"] * 9 + ["utf-16"]), "surrogatepass"))
+        words = commands[number % len(commands)]
+        code, _, said = main(*words)
+        assert code in (0, 1, 2) and "Traceback" not in said, (place, said)
+        assert code != 2 or words[0] == "similar" or str(path) in said and "line " in said, said
+        codes.add((words[0], code))
+    assert {("merge", 0), ("merge", 2), ("compare", 1), ("report", 2)} <= codes
+
+
+def test_wrong_value_is_named_with_its_place(main, tmp_path, whole):
+    for change, place in (
+        ({"mass": "heavy"}, "line 1: objects[0].mass is a text ('heavy'), not a number or null"),
+        ({"inertia": [[1, 2, 3]]}, "line 1: objects[0].inertia has 1 entries, not 3"),
+        ({"moments": {"volume": {"a": 1}}}, "line 1: objects[0].moments.volume has the unknown entry “a”"),
+    ):
+        damaged = json.loads(whole)
+        damaged["objects"][0] |= change
+        code, out, said = main("merge", result(tmp_path / "bad", damaged))
+        assert (code, out) == (2, "") and place in said
+    (tmp_path / "bad").write_bytes(b"\xef\xbb\xbf" + whole.encode())  # as some editors save it
+    assert main("summary", tmp_path / "bad")[0] == 0
+    (tmp_path / "bad").write_text(whole + "\n" + whole.replace('"schema": "body-moments/1"', '"schema": "x/1"'))
+    assert "line 2: schema is x/1, not body-moments/1" in main("to-csv", tmp_path / "bad")[2]
 
 
 def test_results_within_their_bounds_are_the_same(main, tmp_path):
