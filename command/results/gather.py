@@ -19,7 +19,7 @@ from ...core.measurement.documents import to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
-from ..options.option_types import positive
+from ..options.option_types import count, positive
 from ..parser import Parser, UsageError
 from ..supervisor import journal, listing
 from . import compare
@@ -45,7 +45,14 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser.add_argument("paths", nargs="+", metavar=names)
     parser.add_argument("--output", type=Path, metavar="PATH", help="(standard output)")
     parser.add_argument("--force", action="store_true", help="replace any file at --output (only results)")
+    if command == "manifest":
+        parts = "divide the list into this many parts, for `measure --part K` (1)"
+        parser.add_argument("--parts", type=count, default=1, metavar="N", help=parts)
+    if command == "merge":
+        whole = "refuse results in which a file of this list is missing or has two documents, or with other files"
+        parser.add_argument("--manifest", type=Path, metavar="LIST", help=whole)
     if command == "compare":
+        parser.add_argument("--quiet", action="store_true", help="print only what differs by more than it may")
         parser.add_argument("--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)")
         parser.add_argument(
             "--align", action="store_true", help="compare in each body's own pose: it may have moved (needs --pose)"
@@ -68,6 +75,34 @@ def _read(paths: Iterable[str]) -> list[Entry]:
 
 def _documents(options: argparse.Namespace) -> list[dict[str, Any]]:
     return [document for document, _ in _read(options.paths)]
+
+
+def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
+    """Return the documents of results of one run; a later document replaces one about the same file."""
+    documents: dict[str | None, dict[str, Any]] = {}
+    counts: Counter[str] = Counter()
+    first: tuple[str, dict[str, Any]] | None = None
+    for path in options.paths:
+        for document, _ in _read_file(path):
+            given = document.get("run", {}).get("options", {})
+            first = first or (path, given)
+            if given != first[1]:
+                text = "{} was made with other options than {}: {}. Merge results of one run"
+                names = {name for name in {**given, **first[1]} if given.get(name) != first[1].get(name)}
+                raise UsageError(text.format(path, first[0], ", ".join(sorted(names))))
+            documents[document["file"]] = document
+            counts[os.path.abspath(document["file"] or "")] += 1
+    if options.manifest is not None:
+        listed = [os.path.abspath(name) for name in listing.read(options.manifest)]
+        for what, names in (
+            ("no document of", [name for name in listed if not counts[name]]),
+            ("several documents of", [name for name in listed if counts[name] > 1]),
+            ("documents of files that are not in the list:", sorted(counts.keys() - {*listed})),
+        ):
+            if names:
+                more = " and {} more".format(len(names) - _LISTED) if len(names) > _LISTED else ""
+                raise UsageError("There are {} {}{}".format(what, ", ".join(names[:_LISTED]), more))
+    return to_json_lines(documents.values()), 0
 
 
 def _read_file(path: str) -> Iterator[Entry]:
@@ -108,7 +143,7 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
     if options.output and options.output.parent != Path():  # Relative names in a list start from its folder.
         paths = [os.path.abspath(path) for path in paths]
-    return listing.write_lines(paths), 0
+    return listing.write_lines(paths, options.parts), 0
 
 
 def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
@@ -122,7 +157,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     for document, about in _read(options.paths):
         file = document["file"] or "-"
         statuses[document["status"]] += 1
-        if document["status"] != "ok" and len(failed) < _LISTED:
+        if document["status"] != "ok":
             reason = document["errors"][0]["reason"] if document["errors"] else "-"
             failed.append("{}  {}: {}".format(document["status"], file, reason))
         if about.get("seconds") is not None:
@@ -136,7 +171,8 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
                 widest = sorted([*widest, share], reverse=True)[:_LISTED]
     lines = ["{}: {}".format(counted(statuses.total(), "file"), _counted(statuses))]
     lines += ["{}: {}".format(counted(methods.total(), "object"), _counted(methods))]
-    lines += ["", "Not measured:", *failed] if failed else []
+    more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
+    lines += ["", "Not measured:", *failed[:_LISTED], *more] if failed else []
     if codes:
         lines += ["", "Findings, by how many objects have them:"]
         lines += ["{:>8}  {:<8} {}".format(count, *one) for one, count in codes.most_common()]
@@ -161,7 +197,8 @@ def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         raise UsageError("“compare” takes two results")
     first, second = ([document for document, _ in _read([path])] for path in options.paths)
     lines, failed = compare.differences(first, second, options.tolerance, options.align)
-    return (visible(line) + "\n" for line in lines), int(failed)
+    shown = [] if options.quiet and not failed else lines
+    return (visible(line) + "\n" for line in shown if not (options.quiet and line.startswith("pass"))), int(failed)
 
 
 def _counted(counts: Counter[str]) -> str:
@@ -170,7 +207,7 @@ def _counted(counts: Counter[str]) -> str:
 
 _COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], int]]] = {
     "manifest": _manifest,
-    "merge": lambda options: (to_json_lines(_documents(options)), 0),
+    "merge": _merge,
     "to-csv": lambda options: (to_csv(_documents(options)), 0),
     "summary": _summary,
     "compare": _compare,

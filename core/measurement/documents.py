@@ -60,11 +60,13 @@ def document(
     blender: str | None,
     frame: str = "world",
     status: str | None = None,
+    run: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Return the document of one file, with the objects sorted by name.
 
     `file` is None for a scene that was never saved. errors, left_out: names and reasons of objects that could not be
-    measured, or were excluded. status: one of `STATUSES`, by default according to the errors.
+    measured, or were excluded. status: one of `STATUSES`, by default according to the errors. run: the add-on's
+    version and the given options, None outside of the command line.
     """
     errors = list(errors)
     if frame != "world":
@@ -72,6 +74,7 @@ def document(
     return {
         "schema": SCHEMA,
         "blender": blender,
+        **({} if run is None else {"run": run}),
         "file": file,
         "status": status or ("error" if errors else "ok"),
         "frame": frame,
@@ -82,13 +85,16 @@ def document(
     }
 
 
-def failed_document(file: str, reason: str, status: str, *, blender: str | None, frame: str) -> dict[str, Any]:
-    """Return the document of a file that was not measured, with the reason as its only error."""
+def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[str, Any]:
+    """Return the document of a file that was not measured, with the reason as its only error.
+
+    values: of `document`, such as `blender` and `frame`.
+    """
     total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
     total |= {"findings": [], "warnings": [], "notes": []}
     errors = [{"name": None, "reason": reason}]
-    return document([], total, errors, file=file, blender=blender, frame=frame, status=status)
+    return document([], total, errors, file=file, status=status, **values)
 
 
 def radius_of_gyration(record: dict[str, Any]) -> float | None:

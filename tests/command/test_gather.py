@@ -15,6 +15,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from body_moments.command.supervisor import listing
 from body_moments.core.density.materials import BY_NAME
 from body_moments.core.measurement import documents
 from body_moments.core.measurement.page import to_html
@@ -149,6 +150,40 @@ def test_no_damaged_document_ends_in_a_traceback(main, tmp_path, whole):
     assert {("merge", 0), ("merge", 2), ("compare", 1), ("report", 2)} <= codes
 
 
+def part(path, options, *names):
+    """A result of a run with these options."""
+    run = {"addon": "1", "options": options}
+    return result(path, *(documents.document([], {}, [], file=name, blender="5", run=run) for name in names))
+
+
+def test_merge_refuses_parts_of_other_runs(main, tmp_path):
+    steel, first = {"--density": 7850.0}, part(tmp_path / "1", {"--density": 7850.0}, "a", "b")
+    code, out, _ = main("merge", first, part(tmp_path / "2", steel, "b", "c"))
+    assert code == 0 and [json.loads(line)["file"] for line in out.splitlines()] == ["a", "b", "c"]
+    code, out, said = main("merge", first, part(tmp_path / "2", {"--density": 1.0, "--pose": True}, "c"))
+    assert (code, out) == (2, "") and "/2 was made with other options than " in said and "--density, --pose" in said
+
+
+def test_merge_holds_parts_against_their_list(main, tmp_path):
+    names = [str(tmp_path / name) for name in "abcde"]
+    listed = tmp_path / "list"
+    listed.write_text("".join(listing.write_lines(names, 2)))
+    assert [listing.read(listed, number) for number in (1, 2)] == [names[:2], names[2:]]
+    parts = [part(tmp_path / str(number), {}, *some) for number, some in enumerate((names[:2], names[2:]), 1)]
+    code, out, _ = main("merge", *parts, "--manifest", listed)
+    assert code == 0 and len(out.splitlines()) == 5
+    (tmp_path / "f").touch()
+    for others, words in (
+        ([parts[0]], "no document of {}, {}, {}".format(*names[2:])),
+        ([*parts, part(tmp_path / "3", {}, names[4])], "several documents of " + names[4]),
+        ([*parts, part(tmp_path / "4", {}, str(tmp_path / "f"))], "not in the list: {}/f".format(tmp_path)),
+    ):
+        code, out, said = main("merge", "--manifest", listed, *others)
+        assert (code, out) == (2, "") and words in said
+    assert main("measure", "--manifest", listed, "--part", "3")[0] == 2
+    assert main("measure", "--part", "1", *names)[0] == 2
+
+
 def test_wrong_value_is_named_with_its_place(main, tmp_path, whole):
     for change, place in (
         ({"mass": "heavy"}, "line 1: objects[0].mass is a text ('heavy'), not a number or null"),
@@ -185,6 +220,9 @@ def test_results_within_their_bounds_are_the_same(main, tmp_path):
     assert main("compare", first, moved, "--tolerance", "1e-4", "--align")[0] == 0
     assert main("compare", first, result(tmp_path / "d"))[0] == 1
     assert main("compare", first)[0] == 2
+    assert main("compare", "--quiet", first, tmp_path / "b", "--tolerance", "1e-3") == (0, "", "")
+    shown = main("compare", "--quiet", first, moved)[1].splitlines()
+    assert [line[:4] for line in shown[:-1]] == ["FAIL"] * (len(shown) - 1) and len(shown) > 1
 
 
 def test_assemblies_bones_and_missing_moments_are_compared(main, tmp_path):
