@@ -17,6 +17,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
+from .documents import radius_of_gyration
 from .plain_text import counted, visible
 
 _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
@@ -110,11 +111,9 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
 def _table_rows(document: dict[str, Any]) -> Iterator[str]:
     file, status = document["file"] or "", document["status"]
     for entry in document["objects"]:
-        mass, moments = entry["mass"], entry["principal_moments"]
-        size = math.sqrt(sum(moments) / (2.0 * mass)) if mass and moments and None not in moments else None
         bounds, volume = entry["error_bound"] or {}, entry["volume"]
         known = [one for one in (bounds.get("volume"), (bounds.get("input") or {}).get("volume")) if one is not None]
-        values = {"mass": mass, "volume": volume, "area": entry["area"], "size": size}
+        values = {"mass": entry["mass"], "volume": volume, "area": entry["area"], "size": radius_of_gyration(entry)}
         values["bound"] = sum(known) / abs(volume) if known and volume else None
         yield _row(
             _picture(entry),
@@ -165,7 +164,7 @@ def _picture(entry: dict[str, Any]) -> str:
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)
     mass, moments, axes = entry["mass"], entry["principal_moments"], entry["principal_axes"]
-    if not mass or not moments or None in moments or not axes:
+    if radius_of_gyration(entry) is None or None in sum(axes, []):
         return ""
     half = sum(moments) / 2.0
     sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # Half sides of a box.
