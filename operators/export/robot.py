@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from ...blender.session.robots import SceneLinks
 
 LINKS = (
-    ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
+    ("OBJECT", "Objects", "Each object is a link; rigid-body constraints are joints, and parents hold by fixed joints"),
     ("COLLECTION", "Collections", "Each collection with all that it holds is a link, along the world's axes"),
     ("BONE", "Bones", "Each bone of a character is a link in its rest frame, with joints of the bones' limits"),
 )
@@ -55,6 +55,14 @@ class RobotExport(selection.InObjectMode, ExportHelper):
     collection: StringProperty(name="Source Collection", options={"HIDDEN"})
     links: EnumProperty(name="Links", description="What is one rigid body", items=LINKS, default="OBJECT")
     geometry: EnumProperty(name="Geometry", description="What links look like and collide as", items=GEOMETRY)
+    use_collision: BoolProperty(
+        name="Collision", description="Links collide as they look; else their geometry is only seen", default=True
+    )
+    fixed_base: BoolProperty(
+        name="Fixed Base",
+        description="Fix links without a parent to the world; else passive rigid bodies alone",
+        default=False,
+    )
     inertial_only: BoolProperty(
         name="Inertials Only", description="Write mass, center and inertia of each link and nothing else", default=False
     )
@@ -71,18 +79,20 @@ class RobotExport(selection.InObjectMode, ExportHelper):
 
     def _links(self, context: Context, objects: list[Object], name: str) -> "SceneLinks":
         if self.links == "BONE":
-            return session.robots.bone_links(context, name, objects)
+            return session.robots.bone_links(context, name, objects, fixed_base=self.fixed_base)
         if self.links == "COLLECTION":
             root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
-            return session.robots.collection_links(context, name, root, objects)
+            return session.robots.collection_links(context, name, root, objects, fixed_base=self.fixed_base)
         with reports.progress(len(objects)) as step:
-            return session.robots.object_links(context, name, objects, step)
+            return session.robots.object_links(context, name, objects, step, fixed_base=self.fixed_base)
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         robot, bare = made.robot, []
         if self.geometry != "MESH":
             robot = write.shapes.with_primitives(robot, self.geometry.lower())
-        elif not self.inertial_only:
+        if not self.use_collision:
+            robot = write.shapes.without_collision(robot)
+        if self.geometry == "MESH" and not self.inertial_only:
             try:
                 robot, bare = write.texts.with_geometry(robot, self.FORMAT, partial(made.surface, context), path)
             except OSError as error:
@@ -107,15 +117,20 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         layout.prop(self, "inertial_only")
         column = layout.column()
         column.enabled = not self.inertial_only
+        column.prop(self, "fixed_base")
         column.prop(self, "geometry")
+        column.prop(self, "use_collision")
 
 
 class GeometryExport(RobotExport):
     """Base of exporters that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
-        if self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only:
+        is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
+        # Nested prims and nodes cannot move in each other.
+        if is_own or any(joint.free for joint in made.robot.joints):
             return super()._export(context, made, path)
+        made.findings.extend(write.texts.check(made.robot, self.FORMAT))
         sheared = read.robots.sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
             made.findings.append(finding(ROBOT_SHEARED, count=len(sheared), links=sheared))
@@ -145,7 +160,6 @@ class UsdExport(GeometryExport):
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
             raise EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
-        findings += usd.check(robot)
         geometry = path.with_name(path.stem + "_geometry.usdc")
         options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + read.robots.USD_ROOT}
         self._run_exporter("wm.usd_export", geometry, options)

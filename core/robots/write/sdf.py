@@ -15,20 +15,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.rotations import quaternion
-from ...verdict.finding import Finding, finding
-from ..findings import SDF_LIMITS_LOST
+from ...verdict.finding import Finding
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
-from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_text
+from .text import (
+    add_text,
+    document,
+    inertial_element,
+    is_identity,
+    lost_values,
+    number,
+    numbers,
+    stated_values,
+    unique_names,
+    xml_name,
+)
 
 VERSION = "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
+DYNAMICS = {"damping": "damping", "friction": "friction", "stiffness": "spring_stiffness"}
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
-    lost = [joint.name for joint in robot.joints if _joint_type(joint) == "ball" and not joint.is_ball]
-    return [finding(SDF_LIMITS_LOST, count=len(lost), joints=lost)] if lost else []
+    return lost_values(robot, "SDF", _lost)
+
+
+def _lost(joint: Joint) -> set[str]:
+    """Return the names of values that SDF 1.9 cannot say: mimics, axes after a slide's, all values of a ball joint."""
+    kind, count = _joint_type(joint), len(joint.free)
+    lost = stated_values(joint) & {"mimic"}
+    if kind == "ball":
+        return stated_values(joint) if joint.is_ball else {*stated_values(joint), "limits"}
+    return {*lost, "axes"} if count > (2 if kind == "universal" else 1) else lost
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -47,16 +66,25 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             _add_shapes(element, link)
     for joint in () if inertial_only else robot.joints:
         element = SubElement(model, "joint", name=joint_names[joint.name], type=_joint_type(joint))
+        _add_pose(element, joint.pose)
         add_text(element, "parent", names[joint.parent])
         add_text(element, "child", names[joint.child])
         _add_axes(element, joint)
+    taken = {*names.values(), *joint_names.values()}
+    for link in () if inertial_only else robot.roots:
+        if link.is_fixed:
+            name = unique_names([link.name], lambda _, link=link: names[link.name] + "_joint", taken)[link.name]
+            taken.add(name)
+            element = SubElement(model, "joint", name=name, type="fixed")
+            add_text(element, "parent", "world")
+            add_text(element, "child", names[link.name])
     return document(root, "sdf", remarks)
 
 
 def _name(text: str) -> str:
     """Return a valid name: without `::`, which separates models and links, and not reserved by the format."""
-    text = xml_text(text).replace("::", "_")
-    return text + "_" if _RESERVED.fullmatch(text) or not text else text
+    text = xml_name(text).replace("::", "_")
+    return text + "_" if _RESERVED.fullmatch(text) else text
 
 
 def _add_pose(parent: Element, pose: Pose) -> None:
@@ -95,6 +123,8 @@ def _add_plain_inertial(parent: Element, inertial: Inertial) -> None:
 def _add_shapes(parent: Element, link: Link) -> None:
     for tag in ("visual", "collision"):
         for count, shape in enumerate(link.shapes, start=1):
+            if tag == "collision" and not shape.collides:
+                continue
             element = SubElement(parent, tag, name=tag if len(link.shapes) == 1 else "{}_{}".format(tag, count))
             _add_pose(element, shape.pose)
             _add_geometry(SubElement(element, "geometry"), shape)
@@ -119,17 +149,25 @@ def _joint_type(joint: Joint) -> str:
     kinds = [free.kind for free in joint.free]
     if not kinds:
         return "fixed"
-    if len(kinds) == 1:
-        return "prismatic" if kinds == ["translate"] else "revolute"
+    if len(kinds) == 1 or "translate" in kinds:
+        return "prismatic" if kinds[0] == "translate" else "revolute"
     return "universal" if kinds == ["rotate", "rotate"] else "ball"
 
 
 def _add_axes(element: Element, joint: Joint) -> None:
     if _joint_type(joint) == "ball":
         return
-    for tag, free in zip(("axis", "axis2"), joint.free):
+    for tag, free in zip(("axis", "axis2") if _joint_type(joint) == "universal" else ("axis",), joint.free):
         axis = SubElement(element, tag)
         add_text(axis, "xyz", numbers(free.axis))
         limit = SubElement(axis, "limit")
         for name, value in (("lower", free.lower), ("upper", free.upper)):
             add_text(limit, name, number(value))
+        for name in ("effort", "velocity"):
+            if name in free.values:
+                add_text(limit, name, number(free.values[name]))
+        dynamics = {tag: free.values[name] for name, tag in DYNAMICS.items() if name in free.values}
+        if dynamics:
+            element_ = SubElement(axis, "dynamics")
+            for name, value in dynamics.items():
+                add_text(element_, name, number(value))

@@ -13,7 +13,9 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model import Inertial, Pose
+from ...verdict.finding import Finding, finding
+from ..findings import JOINT_VALUES_LOST
+from ..model import Inertial, Joint, Pose, Robot
 from .marker import MARKER
 
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -33,6 +35,28 @@ def numbers(values: Iterable[float]) -> str:
 def xml_text(text: str) -> str:
     """Return the text with an underscore for each character that XML cannot hold or a reader would change."""
     return _SPACES.sub("_", _NOT_XML.sub("_", text))
+
+
+def xml_name(text: str) -> str:
+    """Return a name for XML: readers trim spaces at its ends, and refuse an empty one."""
+    text = xml_text(text)
+    inner = text.strip()
+    start = len(text) - len(text.lstrip()) if inner else 0
+    return "_" * start + inner + "_" * (len(text) - start - len(inner)) if text else "_"
+
+
+def lost_values(robot: Robot, form: str, lost: Callable[[Joint], Iterable[str]]) -> list[Finding]:
+    """Return the finding about joints for which a format loses values or freedoms, empty if it loses none."""
+    by_joint = {joint.name: [*lost(joint)] for joint in robot.joints}
+    joints = [name for name, names in by_joint.items() if names]
+    values = sorted({name for names in by_joint.values() for name in names})
+    return [finding(JOINT_VALUES_LOST, format=form, values=values, joints=joints)] if joints else []
+
+
+def stated_values(joint: Joint) -> set[str]:
+    """Return the names of the known values of a joint, with "mimic"."""
+    names = {name for free in joint.free for name in free.values}
+    return names if joint.mimic is None else {*names, "mimic"}
 
 
 def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iterable[str] = ()) -> dict[str, str]:
