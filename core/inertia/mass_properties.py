@@ -25,6 +25,7 @@ from .principal_frames import OwnMoments, PrincipalFrame, principal_frame, princ
 from .third_moment_frames import ThirdMomentFrames
 
 IDENTITY_3 = np.eye(3)
+MAX_INPUT_SHARE = 0.1  # of a volume: a larger bound for float32 coordinates leaves none
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +80,7 @@ class MassProperties:
             raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
             raise ValueError("impossible density: {!r}".format(density))
-        if not moments.raw[0] > moments.rounding_error[0]:
+        if not has_certain_total(moments):
             raise MeasureError(NO_CERTAIN_VOLUME)
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
 
@@ -181,6 +182,14 @@ class MassProperties:
             inertia=(inertia + inertia.swapaxes(-1, -2)) / 2.0,
             principal=replace(self.principal, axes=inverse @ self.principal.axes),
         )
+
+
+def has_certain_total(moments: Moments) -> PerBody:
+    """Return whether totals exceed their rounding, and volumes also ten times what float32 coordinates may change."""
+    least = moments.rounding_error[..., 0]
+    if moments.measure == Measure.VOLUME:
+        least = np.maximum(least, moments.input_error[..., 0] / MAX_INPUT_SHARE)
+    return moments.raw[..., 0] > least
 
 
 def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike | None = None) -> MassProperties:

@@ -233,8 +233,8 @@ class Moments:
         """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
 
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        the deviation of a float32 rotation from one goes into `input_error`. ValueError if the matrix is not finite (4,
-        4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
+        the deviation of a float32 rotation from one goes into `rounding_error`. ValueError if the matrix is not finite
+        (4, 4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
         number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
@@ -311,8 +311,9 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     for axis, raised in enumerate(product_indices(order) if order else ()):
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
-    moved_input = weight * (mapped_input + uneven * shifted[..., -1, :])  # a face at a time, some more and some less
-    return Moments(weight * mapped, center, moments.measure, rounding, moved_input)
+    if uneven.any():
+        rounding = rounding + weight * uneven * shifted[..., -1, :]  # a face at a time, some more and some less
+    return Moments(weight * mapped, center, moments.measure, rounding, weight * mapped_input)
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:

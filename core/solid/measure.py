@@ -19,9 +19,10 @@ import numpy as np
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
 from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
-from .duplicate_faces import copied_faces
+from .duplicate_faces import copied_faces, without_faces
 from .orientation import OrientedSolid, orient_components
 from .repair import repair_surface
+from .repaired_mesh import RepairedMesh
 from .self_intersection import find_self_intersection
 from .solid_verdict import SolidIntegrals, judge
 
@@ -64,15 +65,23 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     checked = check_surface(surface)
     given = integrate_and_prove(checked, shell, threads)
     mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
-    oriented = orient_components(checked, given, mesh, threads)
-    solid = _judge(checked, given, oriented, shell)
-    if mesh.max_displacement and mesh.max_displacement * given.area.total > MAX_WELDED_SHARE * abs(
-        oriented.volume.total
-    ):
+    solid = _measure_repaired(checked, given, mesh, shell, threads)
+    moved = mesh.max_displacement * solid.area.total
+    if moved and moved > MAX_WELDED_SHARE * abs(solid.oriented.volume.total):
         mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
-        unwelded = _judge(checked, given, orient_components(checked, given, mesh, threads), shell)
+        unwelded = _measure_repaired(checked, given, mesh, shell, threads)
         return solid if unwelded.method is Verdict.OPEN else unwelded
     return solid
+
+
+def _measure_repaired(
+    checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, shell: bool, threads: int
+) -> SolidIntegrals:
+    """Measure the body of a repaired mesh. Faces that are left out of a solid count in none of its numbers."""
+    if len(mesh.left_out) and not shell:
+        checked = replace(checked, surface=without_faces(checked.surface, mesh.left_out))
+        given = integrate_and_prove(checked, shell, threads)
+    return _judge(checked, given, orient_components(checked, given, mesh, threads), shell)
 
 
 def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:

@@ -187,8 +187,11 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume below which a component is flat: a closed sheet's rounding, or a capped flat sheet's error."""
-    return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
+    """Return the volume below which a component is flat: of a sheet, capped or closed, by rounding and float32."""
+    return (
+        np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, np.maximum(CLOSED_SHEET_VOLUME_RTOL * size, error))
+        * area
+    )
 
 
 def _oriented_surface(

@@ -94,6 +94,7 @@ class RepairedMesh:
     `report`: the input as far as the steps have seen it; its edges are pairs of the surface's vertices.
     `topology_changed`: True if the triangles, apart from their direction and from caps, differ from the input's.
     `max_displacement`: how far welding has moved a vertex at most (unit).
+    `left_out`: (k,) mesh faces that are surplus copies of others, sorted.
     `capped_edges`, `capped_component`: (k, 2) boundary edges of capped holes, and (k,) their components.
     `findings`: decisions, except for welding and caps, which depend on the volume.
     """
@@ -109,6 +110,7 @@ class RepairedMesh:
     report: MeshHealth
     topology_changed: bool = False
     max_displacement: float = 0.0
+    left_out: NDArray[np.integer] = field(default_factory=NO_INDICES.view)
     capped_edges: NDArray[np.intp] = field(default_factory=NO_EDGES.view)
     capped_component: NDArray[np.intp] = field(default_factory=NO_INDICES.view)
     findings: tuple[Finding, ...] = ()

@@ -27,7 +27,7 @@ from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, WELDING_RTOL
+from ..verdict.tolerances import WELDING_RTOL
 from .capped_stack import StackCaps, cap_stack
 from .closedness import SUM_ROUNDING
 from .orientation import zero_volume
@@ -150,9 +150,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         caps, volume = made, made.add_to(volume)
     capped, triangles, part = caps.is_capped, caps.triangles, caps.part
     is_measured = usable & (links.is_closed | capped)
-    least = np.maximum(CLOSED_SHEET_VOLUME_RTOL * size * area.raw[:, 0], volume.rounding_error[:, 0])
-    if capped.any():
-        least = np.maximum(least, zero_volume(size, area.raw[:, 0], capped, error))
+    least = np.maximum(zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0])
     is_measured &= volume.raw[:, 0] > least
     rows = np.flatnonzero(is_measured)
     is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])

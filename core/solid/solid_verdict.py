@@ -55,7 +55,7 @@ class SolidIntegrals:
     volume : Moments
         To order 3, about the middle of the bounding box.
     area : Moments
-        The area of the input's faces, without caps, to order 0, or 3 for a shell.
+        The area of the input's faces, without caps and copies left out, to order 0, or 3 for a shell.
     health : MeshHealth
         State of the input.
     method : Verdict
@@ -65,7 +65,7 @@ class SolidIntegrals:
     oriented : OrientedSolid
         The surface that was measured, and its components.
     given_surface : Surface
-        The surface that was given, without the vertices that no face uses.
+        The surface that was given, without the vertices that no face uses and the copies of faces that are left out.
 
     Examples
     --------

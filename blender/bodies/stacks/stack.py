@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.inertia.canonical_frame import MAX_ORDER
-from ....core.inertia.mass_properties import MassProperties
+from ....core.inertia.mass_properties import MassProperties, has_certain_total
 from ....core.inertia.principal_frames import OwnMoments
 from ....core.inertia.third_moment_frames import third_moment_frames
-from ....core.measurement.builder import build_measurement
+from ....core.measurement.builder import build_measurement, find_large_bounds
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
@@ -262,7 +262,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
-    certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
+    certain = has_certain_total(volume) & (density > 0.0) & (density < np.inf)
     rows = np.flatnonzero(certain)
     fixed = third_moment_frames(volume.at(rows))
     if not fixed.is_body.all():  # the others are refused by themselves
@@ -310,13 +310,13 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         rotation,
         np.array([member.location for member in members]) * unit,
         [fingerprint(numbers, key, member.digest) for numbers, key, member in zip(geometry, keys, members)],
-        [_findings(member) for member in members],
+        [_findings(*each) for each in zip(members, find_large_bounds(volume, area, properties))],
     )
 
 
-def _findings(member: StackMember) -> tuple[Finding, ...]:
-    """Return the findings about the member's shape, with the object's accepted ones marked."""
-    found = member.shape.findings
+def _findings(member: StackMember, bounds: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings about the member's shape and `bounds`, with the object's accepted ones marked."""
+    found = member.shape.findings + bounds
     return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
 
@@ -340,7 +340,9 @@ def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Mome
     regular[~even, :3, :3] = np.eye(3)
     placed = _placed(area, regular)
     for i in np.flatnonzero(~even).tolist():
-        found = area_of_images(members[i].shape.surface, matrices[i : i + 1, :3, :3])
+        shape = members[i].shape
+        surface = shape.surface if shape.alone is None else shape.alone.given_surface
+        found = area_of_images(surface, matrices[i : i + 1, :3, :3])
         for name in ("raw", "rounding_error", "input_error", "about"):
             getattr(placed, name)[i] = getattr(found, name)
     return placed
