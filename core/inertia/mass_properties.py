@@ -8,9 +8,9 @@ eigenvalues, I_1 = m(λ_2+λ_3), so that no moment exceeds the sum of the other 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import hypot
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -170,6 +170,16 @@ class MassProperties:
         """(3,) sqrt(I/m) about the principal axes."""
         return np.sqrt(self.principal.moments / self.mass)
 
+    def axes_bound(self, strain: float) -> float:
+        """Return a bound of the turn of the principal axes of different moments, in radians (Davis and Kahan 1970).
+
+        They turn with the errors of inertia, and with a `strain` of the body.
+        """
+        moments = self.principal.moments
+        off = self.rounding_error["inertia"] + self.input_error["inertia"] + 2.0 * strain * moments[2]
+        gap = float(np.diff(moments).min()) - off
+        return math.asin(off / gap) if off < gap else math.pi
+
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
         """Return the same body in the frame with the columns of a rotation as axes and with this origin."""
         rotation = rotation_array("rotation", rotation)
@@ -299,5 +309,5 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
 
 def _lengths(vectors: NDArray) -> NDArray[np.float64]:
     """Return the lengths (...,) of (..., k) vectors with squares that may underflow."""
-    lengths = [hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
+    lengths = [math.hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
     return np.array(lengths).reshape(vectors.shape[:-1])

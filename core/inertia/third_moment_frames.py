@@ -130,7 +130,9 @@ def third_moment_frames(
     is_clear = np.abs(third) > noise + error
     first = is_clear.argmax(axis=2)[:, :, None]  # zero if none is more than noise
     is_scored = fixed & is_clear.any(axis=2)
-    scores = np.where(is_scored, np.take_along_axis(third, first, 2)[:, :, 0], 0.0)
+    scores, unsure = [
+        np.where(is_scored, np.take_along_axis(values, first, 2)[:, :, 0], 0.0) for values in (third, noise + error)
+    ]
     inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
     return ThirdMomentFrames(
         is_body,
@@ -141,7 +143,7 @@ def third_moment_frames(
         step * np.sqrt(scale),
         tilts.max(axis=1),
         noise_factor * NOISE_LEVEL,
-        _allowed_signs(scores),
+        _allowed_signs(scores, unsure.max(axis=1)),
         skewness[:, :, 0],
         noise[:, :, 0] + skewness_error[:, :, 0],
     )
@@ -153,10 +155,10 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
     first = clear.argmax(axis=2)[:, :, None]
-    size, error = (np.take_along_axis(values, first, 2)[:, :, 0] for values in (size, error))
+    size, error, noise = (np.take_along_axis(values, first, 2)[:, :, 0] for values in (size, error, noise))
     last = size.argmin(axis=1)[:, None]  # the least of three scores: both others have to be clear of it
-    least, least_error = np.take_along_axis(size, last, 1), np.take_along_axis(error, last, 1)
-    apart = (size - least > 2.0 * (error + least_error)).sum(axis=1) == 2
+    least, unsure = np.take_along_axis(size, last, 1), (noise + error).max(axis=1, keepdims=True)
+    apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 
 
@@ -191,11 +193,11 @@ def _third_scores(
     return scores, score_error
 
 
-def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
+def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
+    """Return (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores; (n,) `unsure` is their noise."""
     size, counts = np.abs(scores), scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
-    weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
+    weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL) + unsure[:, None]
     last = 2 - weak[:, ::-1].argmax(axis=1)
     counts = counts & ~(counts.all(axis=1)[:, None] & (np.arange(3) == last[:, None]))
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)

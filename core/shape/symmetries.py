@@ -25,8 +25,20 @@ from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
 
 EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
+EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations, each known to noise, is the operation nearest to it
 MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
+
+# Groups by moments to sixth order, and the lower groups whose bodies have the same moments to that order.
+UNDECIDED = {
+    "Oh": "O or Oh",
+    "Ih": "I or Ih",
+    "D6h": "C6h, D6 or D6h",
+    "C6v": "C6 or C6v",
+    "D5h": "C5h or D5h",
+    "D5d": "S10 or D5d",
+    "D4d": "S8 or D4d",
+}
 
 Distance = Callable[[NDArray], NDArray]
 
@@ -151,11 +163,31 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
     if len(candidate.revolution_axes):
         axis = candidate.revolution_axes[0]
         if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
-            confirmed = [operation for operation in operations if holds(operation)]
-            return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
+            return Symmetry(_held_group(operations, holds), candidate.revolution_axes, candidate.order, tolerance)
         operations = _around_axis(points, axis, holds)
-    confirmed = np.array([operation for operation in operations if holds(operation)])
-    return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
+    return Symmetry(_held_group(operations, holds), np.empty((0, 3)), candidate.order, tolerance)
+
+
+def _held_group(operations: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
+    """Return the subgroup of the operations, a group, that hold: products of operations that do are not tested."""
+
+    def find(products: NDArray) -> NDArray[np.intp]:
+        alike = np.einsum("kij,nij->kn", products.reshape(-1, 3, 3), operations)
+        return alike.argmax(axis=1)[alike.max(axis=1) > 3.0 - EQUAL_PRODUCT_ATOL]
+
+    held = operations.trace(axis1=1, axis2=2) > 3.0 - EQUAL_OPERATION_ATOL
+    unknown = ~held
+    while unknown.any():
+        first = int(unknown.argmax())
+        if holds(operations[first]):
+            held[first], count = True, 0
+            while count < held.sum():
+                count = held.sum()
+                held[find(operations[held][:, None] @ operations[held])] = True
+            unknown &= ~held
+        else:  # nor does its coset
+            unknown[find(operations[first] @ operations[held])] = unknown[first] = False
+    return operations[held]
 
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:

@@ -19,9 +19,10 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 from numpy.typing import NDArray
 
-from ....core.inertia.axial_harmonics import axial_harmonics, axis_last, turn_by_harmonics
+from ....core.inertia.axial_harmonics import AxialHarmonics, axial_harmonics, axis_last, turn_by_harmonics
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
+from ....core.inertia.third_moment_frames import EQUAL_AXES
 from ....core.measurement.body import Body
 from ....core.measurement.findings import WALL_UNSUPPORTED
 from ....core.measurement.measurement import Measurement
@@ -31,7 +32,7 @@ from ....core.moments.moments import Moments
 from ....core.polyhedron import polyhedron_moments
 from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
-from ....core.shape.symmetries import Symmetry, confirm, symmetry
+from ....core.shape.symmetries import UNDECIDED, Symmetry, confirm, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
@@ -51,6 +52,11 @@ from ..measure_object import THREADS, Measured, measure_body
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface whose distances from another surface are found
 POINTS_PER_BATCH = 64  # points whose distances are found at once
+NOISE_FACTORS = 1.0, 0.5, 2.0  # a unique frame does not depend on the level of the noise
+MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
+MAX_POSE_BOUND = 1e-3  # radians, and relative to the size: above it a pose is not called unique
+MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
+CLEAR_NOISE = 1e-3  # moments below this do not fix axes well enough to compare surfaces
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
 
@@ -121,24 +127,64 @@ class Shape:
         return self.body.surfaces(self._sheets)
 
     def pose(self) -> dict[str, Any]:
-        """Return the pose for a record: see DESIGN.md.
+        """Return the pose for a record: see docs/shape.md.
 
         A varying density has third moments of mass alone, which cannot tell a symmetry. An apparent axis of revolution
         is tested to order 30; if it is none, the body decides its turn about it.
         """
-        body = self.measurement.mass_properties
-        axes, unique = body.principal.axes, body.principal.is_unique
+        body, constant = self.measurement.mass_properties, self.body.mass is None
+        axes, unique, is_polygonal = body.principal.axes, body.principal.is_unique, self._is_polygonal
+        moments = self.moments if constant else self.measurement.mass_moments[0]
+        alike, *others = [equivalent_frames(moments, factor * NOISE_LEVEL) for factor in NOISE_FACTORS]
         pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
-        if self.body.mass is None:
-            alike, axial = equivalent_frames(self.moments), None
-            if len(alike.revolution_axes) == 1 and self.has_surface and not is_display_mesh(self.measurement):
+        if constant:
+            axial = None
+            if len(alike.revolution_axes) == 1 and is_polygonal:
                 harmonics = axial_harmonics(self.pieces(), self.center, axis_last(alike), area=self._sheets)
                 alike, axial = turn_by_harmonics(alike, harmonics), harmonics.in_frame
                 if not alike.revolution_axes:
-                    axes, unique = nearest_frame(alike, axes), len(alike.frames) == 1
-            found = symmetry(self.moments, axial=axial)
-            pose = {"symmetry": found.group, "symmetry_order": found.order}
-        return {"matrix": pose_matrix(body.center, axes), "unique": unique, **pose}
+                    axes, unique, others = nearest_frame(alike, axes), len(alike.frames) == 1, []
+            pose = self._point_group(axial)
+        angle = alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
+        position = body.rounding_error["center"] + body.input_error["center"]
+        unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND
+        for each in others if unique else ():  # noise of half or twice the size has to leave the same frame
+            is_same = len(each.frames) == 1 and np.abs(each.frames[0] - axes).max() < MAX_FRAME_CHANGE
+            unique = unique and is_same and not each.revolution_axes
+        return {
+            "matrix": pose_matrix(body.center, axes),
+            "unique": unique,
+            "angle_bound": angle,
+            "position_bound": position,
+            **pose,
+        }
+
+    def _point_group(self, axial: Callable[[NDArray], AxialHarmonics] | None) -> dict[str, Any]:
+        """Return the body's point group and the order of the moments that it was found by.
+
+        The surface decides between the groups that the moments allow. If small moments fix the axes, and so not well,
+        more noise leaves the group of a nearly equal body with its clear axes, of which the surface keeps a part.
+        """
+        found = symmetry(self.moments, axial=axial)
+        if not self._is_polygonal:
+            return {"symmetry": UNDECIDED.get(found.group, found.group), "symmetry_order": found.order}
+        if len(found.operations) > 1 and not len(found.revolution_axes):
+            skin, groups = SurfaceDistance(self), []
+            for _ in skin.build():
+                pass
+            moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
+            candidates = found, symmetry(self.moments, CLEAR_NOISE, axial)
+            for within in (1.0, 4.0):
+                near = within * (NOISE_LEVEL * self.size + 4.0 * moved)
+                distance = partial(skin.distance, within=near)
+                kept = [confirm(each, self.center, skin.points, distance, near) for each in candidates]
+                groups.append(max(kept, key=lambda each: len(each.operations)).group)
+            return {"symmetry": " or ".join(dict.fromkeys(groups)), "symmetry_order": found.order}
+        return {"symmetry": found.group, "symmetry_order": found.order}
+
+    @property
+    def _is_polygonal(self) -> bool:
+        return self.has_surface and not self.is_display_mesh
 
     @property
     def has_surface(self) -> bool:
