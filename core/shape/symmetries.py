@@ -24,8 +24,10 @@ from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
 
-EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
-EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations, each known to noise, is the operation nearest to it
+EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
+EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations is the operation nearest to it
+REFINEMENTS = 3  # of an operation by the surface
+MAX_REFINEMENT = 1e-2  # angle by which noise may have turned an operation
 MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
@@ -145,13 +147,36 @@ def symmetry(
     return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
 
 
-def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
-    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface."""
+def confirm(
+    candidate: Symmetry,
+    center: NDArray,
+    points: NDArray,
+    distance: Distance,
+    tolerance: float,
+    nearest: Callable[[NDArray], NDArray] | None = None,
+) -> Symmetry:
+    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface.
+
+    nearest: returns the points of the surface nearest to given ones; with it, operations that noise has turned a little
+    are turned back first.
+    """
     points = points - center
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
-    def holds(operation: NDArray) -> bool:
-        return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
+    def holds(operation: NDArray, shift: NDArray | float = 0.0) -> bool:
+        return all((distance(part @ operation.T + center + shift) <= tolerance).all() for part in (some, points))
+
+    def holds_nearby(operation: NDArray) -> bool:
+        turned, shift = operation, np.zeros(3)
+        for _ in range(REFINEMENTS if nearest else 0):
+            if holds(turned, shift) or not np.isfinite(distance(some @ turned.T + center + shift)).all():
+                break
+            images = points @ turned.T + shift
+            turn, step = _motion_between(images, nearest(images + center) - center)
+            angle = float(np.linalg.norm(turn))
+            rotation = _axis_rotation(turn / (angle or 1.0), angle)
+            turned, shift = rotation @ turned, rotation @ shift + step
+        return np.abs(turned - operation).max() < MAX_REFINEMENT and holds(turned, shift)
 
     if len(candidate.revolution_axes) == 3:
         turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
@@ -163,9 +188,20 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
     if len(candidate.revolution_axes):
         axis = candidate.revolution_axes[0]
         if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
-            return Symmetry(_held_group(operations, holds), candidate.revolution_axes, candidate.order, tolerance)
+            return Symmetry(
+                _held_group(operations, holds_nearby), candidate.revolution_axes, candidate.order, tolerance
+            )
         operations = _around_axis(points, axis, holds)
-    return Symmetry(_held_group(operations, holds), np.empty((0, 3)), candidate.order, tolerance)
+    return Symmetry(_held_group(operations, holds_nearby), np.empty((0, 3)), candidate.order, tolerance)
+
+
+def _motion_between(points: NDArray, nearest: NDArray) -> tuple[NDArray, NDArray]:
+    """Return the small turn, as a vector, and shift that bring points toward the `nearest` ones of a surface."""
+    gaps, reach = points - nearest, np.abs(points).max()
+    lengths = np.linalg.norm(gaps, axis=1)
+    away = gaps / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    motion = np.linalg.lstsq(np.hstack([np.cross(points / reach, away), away]), -lengths, rcond=1e-6)[0]
+    return motion[:3] / reach, motion[3:]
 
 
 def _held_group(operations: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:

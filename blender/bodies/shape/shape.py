@@ -56,7 +56,8 @@ NOISE_FACTORS = 1.0, 0.5, 2.0  # a unique frame does not depend on the level of 
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-3  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
-CLEAR_NOISE = 1e-3  # moments below this do not fix axes well enough to compare surfaces
+CANDIDATE_NOISE = 1e-2, 1e-3, 1e-4, NOISE_LEVEL  # of moments whose symmetries the surface may have
+MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
 
@@ -162,25 +163,40 @@ class Shape:
     def _point_group(self, axial: Callable[[NDArray], AxialHarmonics] | None) -> dict[str, Any]:
         """Return the body's point group and the order of the moments that it was found by.
 
-        The surface decides between the groups that the moments allow. If small moments fix the axes, and so not well,
-        more noise leaves the group of a nearly equal body with its clear axes, of which the surface keeps a part.
+        The surface decides between the groups that the moments allow. Small moments do not fix axes well: more noise
+        leaves the group of a nearly equal body with clear axes, of which the surface keeps a part.
         """
         found = symmetry(self.moments, axial=axial)
-        if not self._is_polygonal:
-            return {"symmetry": UNDECIDED.get(found.group, found.group), "symmetry_order": found.order}
-        if len(found.operations) > 1 and not len(found.revolution_axes):
-            skin, groups = SurfaceDistance(self), []
-            for _ in skin.build():
-                pass
-            moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
-            candidates = found, symmetry(self.moments, CLEAR_NOISE, axial)
-            for within in (1.0, 4.0):
-                near = within * (NOISE_LEVEL * self.size + 4.0 * moved)
-                distance = partial(skin.distance, within=near)
-                kept = [confirm(each, self.center, skin.points, distance, near) for each in candidates]
-                groups.append(max(kept, key=lambda each: len(each.operations)).group)
-            return {"symmetry": " or ".join(dict.fromkeys(groups)), "symmetry_order": found.order}
-        return {"symmetry": found.group, "symmetry_order": found.order}
+        group = UNDECIDED.get(found.group, found.group)
+        if self._is_polygonal:
+            exact = replace(self.moments, input_error=np.zeros_like(self.moments.raw))
+            candidates = [found, *(symmetry(exact, noise, axial) for noise in CANDIDATE_NOISE)]
+            if any(len(each.operations) > 1 or len(each.revolution_axes) for each in candidates):
+                group = self._confirmed_group(candidates)
+        return {"symmetry": group, "symmetry_order": found.order}
+
+    def _confirmed_group(self, candidates: list[Symmetry]) -> str:
+        """Return the largest group of the candidates' operations that the surface has, or two that it may have."""
+        skin, groups = SurfaceDistance(self), []
+        for _ in skin.build():
+            pass
+
+        def confirm_within(candidate: Symmetry, near: float) -> Symmetry:
+            distance = partial(skin.distance, within=near)
+            return confirm(candidate, self.center, skin.points, distance, near, skin.nearest)
+
+        first = candidates[0]
+        if len(first.revolution_axes) and len(confirm_within(first, MAX_FACETS * self.size).revolution_axes):
+            return first.group
+        moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
+        finite = [each for each in candidates if len(each.revolution_axes) < 2]
+        for within in (1.0, 4.0):
+            near = within * (NOISE_LEVEL * self.size + 4.0 * moved)
+            kept = [confirm_within(each, near) for each in finite]
+            groups.append(max(kept, key=lambda each: len(each.operations)).group if kept else "C1")
+        if len(first.revolution_axes):
+            groups.append(first.group)
+        return " or ".join(dict.fromkeys(groups))
 
     @property
     def _is_polygonal(self) -> bool:
@@ -334,6 +350,12 @@ class SurfaceDistance:
         yield 0.4
         self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
         yield 1.0
+
+    def nearest(self, points: NDArray) -> NDArray[np.float64]:
+        """Return (n, 3) the points of the surface nearest to (n, 3) points, in single precision."""
+        scaled = ((points - self._center) / self._scale).tolist()
+        found = np.array([self._tree.find_nearest(row)[0] for row in scaled], np.float64)
+        return found * self._scale + self._center
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
         """Return (n,) distances of (n, 3) points from the surface.
