@@ -11,7 +11,7 @@ from .third_moment_frames import IS_FIXED, ThirdMomentFrames
 
 # Traces closer than the first always count as equal; farther apart than the second, never.
 EQUAL_TRACE_ATOL, MAX_TRACE_AMBIGUITY = 1e-6, 0.1
-MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments, and a copy's
+MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by second moments and the same axis of a copy
 
 
 def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:

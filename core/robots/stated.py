@@ -14,7 +14,7 @@ from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding
 from .model import Inertial, Shape
 
-# The tensor's entries as URDF and SDF name them.
+# The names of the tensor's entries in URDF and SDF.
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
 Angles = tuple[float, float, float]
 
