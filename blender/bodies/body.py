@@ -142,7 +142,7 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
     A mirrored shape counts as a shape of its own; so does an unevenly mapped shape, in the coordinates of its body.
     """
     is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
-    rotation = np.tile(np.eye(3), (len(which), 1, 1))
+    rotation = np.eye(3)[None].repeat(len(which), 0)
     rotation[is_even] = polar_rotation(linear[is_even])[0]
     rotation[is_mirrored & is_even] *= -1.0
     moments: list[Moments] = []

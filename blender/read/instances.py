@@ -30,10 +30,7 @@ from .findings import (
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .nurbs.splines import spline_reading
 from .reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
-from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_geometry
-
-# Blender stops here too (MAX_DUPLI_RECUR - 1).
-MAX_DEPTH = 7
+from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
 
 
 class _NeedsInstanceList(Exception):

@@ -39,6 +39,7 @@ GEOMETRY_TYPES = {
 }
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}  # objects with faces or curves that may be flat
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+MAX_DEPTH = 7  # of instances within instances: Blender stops here too (MAX_DUPLI_RECUR - 1)
 
 
 def measurable(obj) -> bool:

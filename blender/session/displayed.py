@@ -7,19 +7,16 @@ Panels of stored numbers are drawn without numpy; live numbers and sums are comp
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import bpy
 from bpy.types import Context, Object, PoseBone, Scene
 
+from ...core.measurement.trust import Trust, trust_of
 from ...core.numerics.float32 import shortest_decimal
-from ...core.solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
-from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.findings import FLIPPED_FACES
+from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Verdict
-from ...core.verdict.sentences import severity
 from ..read.fingerprint import has_transform, settings_hash
 from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
@@ -32,20 +29,8 @@ from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
-REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
-# Warnings about repairs of the surface: a body with these warnings alone counts as repaired.
-REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
 ASSEMBLY = Method(Verdict.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
-
-
-class Trust(StrEnum):
-    """Trust in displayed numbers, the best first."""
-
-    EXACT = "exact"
-    REPAIRED = "repaired"
-    DOUBTFUL = "doubtful"
-    OUT_OF_DATE = "out of date"
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,14 +164,6 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     method, findings, reason = properties.method(bone), properties.findings(armature), stale_reason(armature, scene)
     trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
     return Displayed(own, world, unit, method, findings, trust, reason)
-
-
-def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
-    """Return the trust in numbers that are up to date, by their method and findings."""
-    warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
-    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
-        return Trust.DOUBTFUL
-    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:

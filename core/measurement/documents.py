@@ -154,7 +154,7 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 _COLUMNS = (
-    "file", "frame", "name", "type", "kind", "method", "density", "mass", "volume", "area",
+    "file", "frame", "name", "type", "kind", "verdict", "method", "density", "mass", "volume", "area",
     *(f"center_of_mass_{axis}" for axis in "xyz"),
     *(f"inertia_{name}" for name, *_ in TENSOR),
     *(f"principal_moment_{number}" for number in (1, 2, 3)),

@@ -25,6 +25,7 @@ from ..verdict.finding import Finding, MeasureError, Severity
 from ..verdict.sentences import sentence, severity
 from .documents import plain
 from .measurement import UNIFORM_DENSITIES, Measurement
+from .trust import trust_of
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
 
@@ -49,6 +50,7 @@ def record(
         "name": measurement.name,
         "type": measurement.type,
         "kind": measurement.kind,
+        "verdict": str(trust_of(measurement.method, measurement.findings)),
         "method": str(measurement.method),
         "density": measurement.density,
         **({} if measurement.density_from in UNIFORM_DENSITIES else {"density_from": str(measurement.density_from)}),

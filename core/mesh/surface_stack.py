@@ -34,6 +34,8 @@ class TriangleStack:
 
     def some(self, which: NDArray[np.intp]) -> TriangleStack:
         """Return the triangles of some of the surfaces, in ascending order."""
+        if len(which) == len(self):
+            return self
         of_point, of_triangle = self.owned(which)
         return TriangleStack(
             self.points[of_point],

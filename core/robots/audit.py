@@ -16,6 +16,7 @@ from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..solid.measure import measure_solid
+from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.method import Verdict
 from .diagnosis import Reference, diagnose
@@ -100,7 +101,14 @@ class Auditor:
 
     def audit(self, description: Description) -> Audit:
         """Return the findings about each link of a description."""
-        return Audit(description, tuple(self._link(link) for link in description.links))
+        return Audit(description, tuple(map(self._link_alone, description.links)))
+
+    def _link_alone(self, link: StatedLink) -> LinkAudit:
+        """Return the findings about one link; an unforeseen error is one of them, and ends nothing else."""
+        try:
+            return self._link(link)
+        except Exception as error:
+            return LinkAudit(link, (*link.findings, internal_error.finding_of(error)))
 
     def _link(self, link: StatedLink) -> LinkAudit:
         findings = list(link.findings)
@@ -111,11 +119,12 @@ class Auditor:
         if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
             return LinkAudit(link, (*findings, finding(INERTIAL_OF_FRAME)))
         pieces, unread = self._pieces(link.shapes)
+        incomplete = bool(unread or findings)  # findings of the reader: about shapes, as there is an inertial
         findings += unread
-        found = _judge(link.inertial, pieces, bool(unread))
+        found = _judge(link.inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
-            other = _judge(link.inertial, turned, bool(unread))
+            other = _judge(link.inertial, turned, incomplete)
             if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
                 found = other
                 findings.append(finding(AUDIT_UP_AXIS))

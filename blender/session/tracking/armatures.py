@@ -14,7 +14,7 @@ from collections.abc import Iterable
 import bpy
 from bpy.types import Object
 
-from ... import read
+from ...read import rig
 from ...read.tracking import tracking_paused
 from ...write import properties
 from . import handlers, staleness
@@ -37,7 +37,7 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
         _meshes,
         armature,
         handlers.generation(),
-        lambda: tuple(obj for obj in objects if obj.type == "MESH" and read.rig.is_skin_of(obj, armature)),
+        lambda: tuple(obj for obj in objects if obj.type == "MESH" and rig.is_skin_of(obj, armature)),
     )
 
 
@@ -51,7 +51,7 @@ def subjects(objects: Iterable[Object]) -> list[Object]:
 
 def watch(armature: Object, objects: Iterable[Object]) -> None:
     """Begin to note edits of the meshes among `objects` that an armature deforms."""
-    for obj in read.rig.skinned_objects(armature, objects):
+    for obj in rig.skinned_objects(armature, objects):
         _watched[obj.session_uid] = armature
 
 

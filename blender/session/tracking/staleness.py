@@ -32,8 +32,8 @@ import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core.numerics.float32 import shortest_decimal
-from ... import bodies, read
-from ...bodies import assembly
+from ... import read
+from ...read import assembly, rig
 from ...read.fingerprint import VERSION, digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
 from ...write import properties
@@ -121,18 +121,16 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
 
 def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
     if isinstance(root, Object) and root.type == "ARMATURE":
-        return bodies.rig.rig_hash(root, bodies.rig.rig_objects(root, scene.objects), scene), ""
+        return rig.rig_hash(root, rig.rig_objects(root, scene.objects), scene), ""
     depsgraph = bpy.context.view_layer.depsgraph
     if depsgraph is None:
         return None
-    member = read.assembly.members_of(root, depsgraph)
-    measured = [
-        part.data for part in member.walk() if part.kind == read.assembly.MemberKind.OBJECT and part.is_measured
-    ]
+    member = assembly.members_of(root, depsgraph)
+    measured = [part.data for part in member.walk() if part.kind == assembly.MemberKind.OBJECT and part.is_measured]
     texts = {obj: properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) for obj in measured)
-    key = assembly.assembly.members_key(member, texts)
-    return assembly.assembly.structure_hash(member), "" if is_stale else digest(key.encode())
+    key = assembly.members_key(member, texts)
+    return assembly.structure_hash(member), "" if is_stale else digest(key.encode())
 
 
 CHECKS = {
