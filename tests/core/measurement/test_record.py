@@ -306,9 +306,7 @@ def test_csv_has_a_row_with_the_reason_of_each_failure():
 
 def test_csv_of_nothing_is_a_header():
     text = "".join(documents.to_csv([one_document()]))
-    assert text.count("\n") == 1 and text.startswith(
-        "file,frame,name,type,kind,verdict,method,density,mass,volume,area,"
-    )
+    assert text.count("\n") == 1 and text.startswith("file,frame,name,type,kind,verdict,method,density,mass,volume,area,")
 
 
 def test_csv_has_a_column_for_each_requested_moment():
