@@ -65,8 +65,8 @@ class StatedShape:
     `shape`: for a mesh, its `file` is the name in the description.
     `angles`: roll, pitch and yaw, if the pose was stated so.
     `points`, `triangles`: of a mesh in the description itself, else None.
-    ValueError, with the numbers as text, if a size is not positive (a factor of a mesh: is zero), or if a size or the
-    place is not finite, or too large or small to compute with.
+    ValueError, with the numbers as text, if a size is not positive, a factor of a mesh is zero, or a size or the place
+    is not finite, or too large or small to compute with.
     """
 
     shape: Shape
