@@ -78,7 +78,7 @@ class Total:
 
 # By object: the key of its state without its place, the number of its last move, and its last drawn numbers.
 _drawn: SessionCache[tuple[tuple, int, Displayed | None]] = SessionCache()
-_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
+_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the refused settings
 # A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 

@@ -27,7 +27,7 @@ from ..numerics.vectors import cross, dot
 from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
-MAX_TILT = 1e-2  # tilt of an axis: about one that leans by more, the harmonics say nothing of the body
+MAX_TILT = 1e-2  # rad; harmonics about an axis with a larger tilt say nothing about the body
 LEAST_HEIGHT = 1e-2  # relative to the radius: least unit of height, as float32 makes flat bodies uneven
 TRIANGLES_PER_BLOCK = 1 << 13
 

@@ -37,7 +37,7 @@ from .tensors import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
-LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
+LEAST_BOUND = 2.0**-30  # least bound; larger ones are rounded up to three binary digits, so that copies agree
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # bodies with frames that a refinement turns by more are searched one by one

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cross products and lengths of rows, ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences, Morton order."""
+"""Lengths and cross products of rows, segments, pairs in bounded pieces, hashes, first occurrences, Morton order."""
 
 from __future__ import annotations
 

@@ -149,7 +149,7 @@ class Caps:
 
     `apexes`: (l, 3) one for each loop, in the points' own type, so that it carries the same coordinate error.
     `triangles`: (k, 3) with three different vertices, the apexes after the points; a single triangle over three sides.
-    `side`: (k,) the side under each. `counts`: (o, 3) flat and curved caps, and their area, by owner.
+    `side`: (k,) the boundary side of each triangle. `counts`: (o, 3) flat and curved caps, and their area, by owner.
     """
 
     apexes: NDArray[np.floating]
@@ -204,7 +204,7 @@ class OwnedLoops:
 
 
 def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
+    """Return an (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
     a, b, c = triangles.T
     return (a != b) & (b != c) & (c != a)
 

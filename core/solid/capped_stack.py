@@ -115,7 +115,7 @@ def _capped(
     side: NDArray[np.intp],
     found: OwnedLoops,
 ) -> StackCaps:
-    """Add the caps of loops to their surfaces. part: (t,) of each triangle; side: (r,) the sides of the loops."""
+    """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides of the loops."""
     count, owner, caps = len(stack), stack.point_owners, found.caps(tolerance, is_capped)
     body, kept = owner[found.start], caps.side
     cap_counts = np.bincount(body[kept], minlength=count)

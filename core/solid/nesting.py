@@ -206,7 +206,7 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
     order = np.lexsort((outer, depth[outer]))
-    parent[inner[order]] = outer[order]  # the last one, the deepest, of equally deep ones that of the highest number
+    parent[inner[order]] = outer[order]  # the last assignment counts: the deepest container
     return parent
 
 

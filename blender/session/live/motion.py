@@ -168,7 +168,7 @@ def _measured(
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:
-    """Return whether a matrix can map the moments: none if singular, of areas and lengths only a similarity."""
+    """Return whether a matrix can map the moments: it is not singular, and a similarity for areas and lengths."""
     if are_singular(matrix[None, :3, :3])[0]:
         return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])

@@ -274,7 +274,7 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
     shape = shape or read.shapes.shape_digest(obj, depsgraph)
-    if shape is not None:  # else the shape of another object with these very numbers still holds
+    if shape is not None:  # else the digest of an equal object with the same stamp still holds
         _shapes[stamp.text] = shape
 
 
