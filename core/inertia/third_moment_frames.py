@@ -199,5 +199,5 @@ def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
     # The weakest of three is dropped; the last of equal ones.
     weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
     last = 2 - weak[:, ::-1].argmax(axis=1)
-    counts = counts & ~(counts.all(axis=1)[:, None] & (AXES == last[:, None]))
+    counts = counts & ~(counts.all(axis=1)[:, None] & (last[:, None] == AXES))
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)

@@ -117,9 +117,11 @@ def is_small(surface: Surface) -> bool:
     return len(surface.triangles) + 2 * len(surface.quads) <= MAX_SMALL_TRIANGLES
 
 
-def can_be_stacked(surface: Surface) -> bool:
-    """Return whether `measure_stack` can measure a surface."""
-    return is_small(surface) and SurfaceStack.takes(surface)
+def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
+    """Return which surfaces `measure_stack` can measure."""
+    fits = [is_small(surface) for surface in surfaces]
+    taken = iter(SurfaceStack.takes([surface for surface, is_fit in zip(surfaces, fits) if is_fit]))
+    return [is_fit and next(taken) for is_fit in fits]
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:

@@ -88,7 +88,8 @@ class MeshShape:
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
     """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
-    small = [shape for shape in shapes if can_be_stacked(shape.surface)]
+    stackable = can_be_stacked([shape.surface for shape in shapes])
+    small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
     volumes: list[Moments] = []
     areas: list[Moments] = []
     if small:
