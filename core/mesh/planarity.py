@@ -218,7 +218,7 @@ def _classify_rows(
         coordinates = np.ldexp(coordinates.astype(np.float64, order="C"), scale)
         first, second, *third = [coordinates[:, i] - coordinates[:, j] for i, j in pairs]
         across = cross(first, second)
-        vectors = np.stack([first, second, across])
+        vectors = np.array([first, second, across])
         squares = np.add.reduce(vectors * vectors, axis=1)
         bare.append(squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), off))
         if third:

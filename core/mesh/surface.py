@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import float_array, index_array, number_array
-from ..numerics.arrays import cross_rows
+from ..numerics.arrays import cross_rows, lengths
 from ..numerics.vectors import cross, dot
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
@@ -169,6 +169,11 @@ def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDA
     """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
     return cross_rows(b - a, c - a)
+
+
+def triangle_areas(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """Return (m,) areas of triangles."""
+    return 0.5 * lengths(normals(points, triangles))[:, 0]
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..mesh.boxes import overlapping_box_pairs
 from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, sort_components
-from ..numerics.arrays import segment_ranges
+from ..numerics.arrays import cross_rows, lengths, segment_ranges
 
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)
@@ -215,7 +215,7 @@ def _classify_by_samples(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one."""
     most, least, together = SAMPLES_PER_PAIR
-    number = np.clip(together // len(small), least, most)
+    number = max(least, min(together // len(small), most))
     pair = np.repeat(np.arange(len(small)), number)
     sampled = small[pair]
     place = _interior_samples(
@@ -247,8 +247,8 @@ def _interior_samples(
     weight = np.stack([0.17 + k * 0.7548776662 % 1.0, 0.11 + k * 0.5698402910 % 1.0, 0.23 + k * 0.3247179572 % 1.0])
     weight /= weight.sum(axis=0)
     place = np.einsum("kn,nkj->nj", weight, corner)
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    area = np.linalg.norm(normal, axis=1)
+    normal = cross_rows(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    area = lengths(normal)[:, 0]
     depth = 10.0 ** (-2 - k % 3) * np.sqrt(area)  # a thin shell needs less than a thick one allows
     inward = -np.sign(components.volume[component]) * np.maximum(depth, 4.0 * tolerance)
     return place + normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]

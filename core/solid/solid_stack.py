@@ -215,7 +215,7 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
     with np.errstate(over="ignore", invalid="ignore"):  # beyond float32 there is no star: it is looked at otherwise
         halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
-    total, signed, angle = np.add.reduceat(np.stack([np.abs(cones), cones, halves]), stack.first_triangle, axis=1)
+    total, signed, angle = np.add.reduceat(np.array([np.abs(cones), cones, halves]), stack.first_triangle, axis=1)
     return (total - signed <= SUM_ROUNDING * total) & (np.rint(angle / (2.0 * np.pi)) == 1.0)
 
 
