@@ -154,11 +154,17 @@ class PlanarityAccumulator:
 
 @dataclass(frozen=True, eq=False)
 class StackPlanarity:
-    """Flatness of the faces of n surfaces: `Planarity` of each, and whether it has faces without area."""
+    """Flatness of the faces of n surfaces: `Planarity` of each; (f,) the faces without area, and if it has such."""
 
     non_planar_counts: NDArray[np.intp]
     volume_spread: NDArray[np.float64]
+    is_degenerate: NDArray[np.bool_]
     has_degenerate: NDArray[np.bool_]
+
+    def at(self, i: int, faces: slice) -> Planarity:
+        """Return the planarity of one surface with these faces."""
+        degenerate = np.flatnonzero(self.is_degenerate[faces])
+        return Planarity(int(self.non_planar_counts[i]), float(self.volume_spread[i]), degenerate)
 
 
 def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
@@ -198,6 +204,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
     return StackPlanarity(
         np.add.reduceat(non_planar, first_face, dtype=np.intp),
         np.ldexp(total, 3 * exponent) / 6.0,
+        degenerate,
         np.logical_or.reduceat(degenerate, first_face),
     )
 

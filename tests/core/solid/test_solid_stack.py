@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid.measure import measure_solid
+from body_moments.core.solid.measure import measure_left_over, measure_solid
 from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
 from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict
@@ -132,6 +132,17 @@ def test_stacked_bodies_match_single_measurements(seed):
     assert 20 < np.count_nonzero(stack.caps.is_capped[measured]) < len(measured) - 20
     for i in measured.tolist():
         assert_alike(stack, i, surfaces[i])
+    assert stack.is_integrated[~stack.is_measured].any()
+    for i in np.flatnonzero(~stack.is_measured).tolist():
+        assert_same(measure_left_over(stack, i, surfaces[i]), measure_solid(surfaces[i]))
+
+
+def assert_same(first, second):
+    for name in ("raw", "about", "rounding_error", "input_error"):
+        assert np.array_equal(getattr(first.volume, name), getattr(second.volume, name))
+        assert np.array_equal(getattr(first.area, name), getattr(second.area, name))
+    assert [str(found) for found in first.findings] == [str(found) for found in second.findings]
+    assert repr(first.health) == repr(second.health) and first.method is second.method
 
 
 def open_box(points=CORNERS, faces=SIDES[:5]):
