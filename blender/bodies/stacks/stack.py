@@ -28,7 +28,7 @@ from ....core.moments.moments import Moments, image, stack_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.sheared_areas import area_of_images
-from ....core.solid.measure import SolidIntegrals, measure_solid
+from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
@@ -88,19 +88,23 @@ class MeshShape:
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
     """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
-    small = [shape for shape in shapes if can_be_stacked(shape.surface)]
+    stackable = can_be_stacked([shape.surface for shape in shapes])
+    small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
     volumes: list[Moments] = []
     areas: list[Moments] = []
     if small:
         solids = measure_stack([shape.surface for shape in small])
         volumes, areas = [solids.volume], [solids.area]
-        for i in np.flatnonzero(solids.is_measured).tolist():
-            small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
-            small[i].method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
+        for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
+            if is_measured:
+                shape.row, shape.solids, shape.findings = i, solids, solids.findings(i)
+                shape.method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
+            else:
+                shape.alone = measure_left_over(solids, i, shape.surface)
     others = []
     for shape in shapes:
         if shape.solids is None:
-            solid = shape.alone = measure_solid(shape.surface)
+            solid = shape.alone = shape.alone or measure_solid(shape.surface)
             shape.row, shape.method, shape.findings = len(small) + len(others), METHODS[solid.method], solid.findings
             others.append(solid)
     if others:
