@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
@@ -119,7 +119,7 @@ def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
     return result if source in ("", whole) else result.of_sources([source])
 
 
-def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
+def to_si(matrices: ArrayLike, unit: float) -> NDArray[np.float64]:
     """Return (k, 4, 4) world matrices in SI units; `unit` is in meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit

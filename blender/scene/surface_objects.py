@@ -40,8 +40,8 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
     """Return a surface object in no collection, and the largest effect of float32 on a point as a share of its size.
 
     patches: with the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
-    patches do. factor: Blender units for a unit of the patches.
-    The object's origin is that of the patches, or among them if they are far from it.
+    patches do. factor: Blender units for a unit of the patches. The object's origin is the origin of the patches'
+    coordinates, or a point among the patches if they are far from it.
     """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
@@ -202,10 +202,7 @@ def _shown(face: Face) -> Patch:
 
 
 class ImportedSurfaces(NamedTuple):
-    """Objects of a file of surfaces, with the number and the highest order of their patches.
-
-    findings: about what was left out or decided.
-    """
+    """Objects of a file of surfaces, with the number and the highest order of their patches, and findings."""
 
     objects: list[Object]
     patches: int

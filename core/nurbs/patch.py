@@ -102,7 +102,7 @@ class Patch:
         return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
 
     def transform(self, matrix: ArrayLike) -> Patch:
-        """Return its image under an affine map (4, 4)."""
+        """Return the image of the patch under a (4, 4) affine map."""
         matrix = float_array("matrix", matrix, 4, 4)
         return replace(self, points=self.points @ matrix[:3, :3].T + matrix[:3, 3])
 
@@ -164,7 +164,7 @@ def control_box(patches: Sequence[Face]) -> tuple[NDArray[np.float64], NDArray[n
 
 
 def patches_center(patches: Sequence[Face]) -> NDArray[np.float64]:
-    """Return (3,) the middle of the box around all control points: the reference point."""
+    """Return the (3,) middle of the box around all control points: the reference point."""
     low, high = control_box(patches)
     return low + (high - low) / 2.0
 

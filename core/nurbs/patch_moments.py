@@ -194,7 +194,7 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> NDArray[np.float64]:
-    """Return (3, k, k') the area's gradient by control points; if rational, by control points times their weights."""
+    """Return the (3, k, k') gradient of the area by control points, which are times their weights if rational."""
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
@@ -268,7 +268,7 @@ def sheet_moments(
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """Return (3,) the integral of the unit normals: exact along directions of constant weights, else estimated."""
+    """Return the (3,) integral of the unit normals: exact along directions of constant weights, else estimated."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
         s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.constant_weights))
@@ -439,7 +439,7 @@ def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
 
 @lru_cache
 def _degrees(order: int) -> NDArray[np.float64]:
-    """Return (K,) the degree of each monomial."""
+    """Return the (K,) degrees of the monomials."""
     return monomials(order).sum(axis=1).astype(np.float64)
 
 

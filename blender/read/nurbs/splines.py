@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a surface object as patches, checked against the mesh that Blender displays.
 
-If shape keys and hooks move control points, or a spline has knots that Blender keeps to itself (its OBJ importer makes
-such ones), the read patches may differ from the displayed ones. So the patches are evaluated at the parameters of the
-display mesh's vertices and compared with them. If they differ, the control points are recovered from these vertices, a
-linear problem in each direction; if a difference remains, the display mesh is measured.
+The patches that are read may differ from the displayed ones if shape keys and hooks move control points, or if a spline
+has knots that Blender's interface does not show (as from its OBJ importer). So the patches are evaluated at the
+parameters of the display mesh's vertices and compared with them. If they differ, the control points are recovered from
+these vertices, a linear problem in each direction; if a difference remains, the display mesh is measured.
 
 The splines of an object that was read from a file for a measurement are a picture of the faces of the file, which
 `keep_faces` keeps beside it.
