@@ -269,16 +269,16 @@ class _Reader:
             fields = self._text.fields(base)
             *spline, domain = _spline(fields)
             surface = placed_surface(*spline, matrix)
-            self._note_rounding(fields, surface, matrix)
+            rounding = self._note_rounding(fields, surface, matrix)
             faces = trimmed_faces(
-                surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer
+                surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer, rounding
             )
         if not self._for_blender:
             return faces
         return [patch for face in faces for patch in ([face] if not isinstance(face, FlatFace) else _cones(face))]
 
-    def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> None:
-        """Note how far the decimals of a surface's points and weights leave its points undecided."""
+    def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
+        """Note and return how far the decimals of a surface's points and weights leave its points undecided."""
         count = surface.points.size // 3
         start = 9 + sum(len(space.knots) for space in surface.spaces)
         moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[start + count : start + 4 * count])
@@ -286,6 +286,7 @@ class _Reader:
             share = decimal_rounding(fields[start : start + count]) / float(surface.weights.min())
             moved += 2.0 * share * patches_size([surface])
         self._rounding = max(self._rounding, moved)
+        return moved
 
     def _plane_normal(self, base: Entry, matrix: NDArray) -> NDArray[np.float64]:
         """Return a vector (3,) across a plane, on the side that it faces."""
