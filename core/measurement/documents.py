@@ -100,7 +100,7 @@ def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[
 def radius_of_gyration(record: dict[str, Any]) -> float | None:
     """Return the radius of gyration of a body's record in m, or None without a positive mass and known moments."""
     mass, moments = record["mass"], record["principal_moments"]
-    if not mass or None in moments:
+    if not mass or not moments or None in moments:
         return None
     square = sum(moments) / (2.0 * mass)
     return sqrt(square) if square >= 0.0 else None

@@ -155,7 +155,7 @@ def _picture(entry: dict[str, Any]) -> str:
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)
     mass, moments, axes = entry["mass"], entry["principal_moments"], entry["principal_axes"]
-    if radius_of_gyration(entry) is None or None in sum(axes, []):
+    if radius_of_gyration(entry) is None or not axes or None in sum(axes, []):
         return ""
     half = sum(moments) / 2.0
     sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # Half sides of a box.
