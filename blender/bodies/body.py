@@ -84,7 +84,7 @@ class MeshBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments from which axes are found, of a single similar image in its surface's own coordinates."""
+        """Return the moments from which axes are found, in the surface's own coordinates for one similar image."""
         if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
             solid, matrices = self.solids[0]
             if are_similarities(matrices[:, :3, :3])[0]:
@@ -108,7 +108,7 @@ class MeshBody(Body):
 
 
 def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with lower orders replaced by `known` if both are about one point; axes get equal bounds then."""
+    """Return moments with the lower orders and bounds of `known`, if both are about the same point."""
     if not np.array_equal(moments.about, known.about):
         return moments
     names = "raw", "rounding_error", "input_error"
@@ -129,7 +129,7 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def extend_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments with input bounds extended from `known` to their order: swept extent times powers of the reach."""
+    """Return moments with input bounds of every order: the bound of the `known` total times powers of the reach."""
     swept, further = known.input_error[:2].tolist()
     reach = further / swept if swept > 0.0 else 0.0
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
@@ -142,7 +142,7 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
     A mirrored shape counts as a shape of its own; so does an unevenly mapped shape, in the coordinates of its body.
     """
     is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
-    rotation = np.tile(np.eye(3), (len(which), 1, 1))
+    rotation = np.eye(3)[None].repeat(len(which), 0)
     rotation[is_even] = polar_rotation(linear[is_even])[0]
     rotation[is_mirrored & is_even] *= -1.0
     moments: list[Moments] = []

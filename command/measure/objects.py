@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import bpy
@@ -30,12 +30,12 @@ def why_nothing(left_out: int) -> Finding:
 
 
 def objects_to_measure(
-    names: list[str] | None, everything: bool
+    names: list[str] | None, everything: bool, hidden: Mapping[str, Finding]
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
     """Return the objects to measure, the objects left out, and the errors.
 
     The objects to measure come with unique names, the objects left out with a reason; each unknown name is an error.
-    everything: True to leave out nothing.
+    everything: True to leave out nothing. hidden: the reasons why the file does not show objects, by their names.
 
     Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
     """
@@ -47,7 +47,9 @@ def objects_to_measure(
         candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
         reasons = {} if everything else left_out_reasons(scene, layer)
         chosen = [(label, obj) for obj, label in labels.items() if obj in candidates and obj not in reasons]
-        left_out = [failure(labels[obj], reason) for obj, reason in reasons.items() if obj in candidates]
+        left_out = [
+            failure(labels[obj], hidden.get(obj.name, reason)) for obj, reason in reasons.items() if obj in candidates
+        ]
         return chosen, left_out, []
     chosen, errors = [], []
     for name in names:

@@ -137,7 +137,7 @@ class Run:
                 # Not set in the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if is_unitless(path) else None
                 wanted = replace(wanted, unit_scale=unit)
-                chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all)
+                chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all, opened.hidden)
                 errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
                 of_file = (
                     *opened.notes,

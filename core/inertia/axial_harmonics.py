@@ -9,8 +9,8 @@ are powers of linear forms. The mean of w^m over a triangle is a complete homoge
 
     E[w^m] = 2 m! / (m+2)! h_m(w_a, w_b, w_c),
 
-found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The first one
-that is more than noise turns the frame: there it is to be positive. The others decide between the m turns that make it
+found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The frame is
+turned so that the first harmonic above noise is positive. The other harmonics decide between the m turns that make it
 positive.
 """
 
@@ -59,7 +59,7 @@ class AxialHarmonics:
         return AxialHarmonics(frame, values * np.exp(-1j * turn * np.arange(values.shape[1])))
 
     def inverted(self) -> AxialHarmonics:
-        """Return the harmonics of the body's image in its center."""
+        """Return the harmonics of the body's point reflection in its center."""
         m = np.arange(self.values.shape[1])
         return replace(self, values=self.values * np.stack([(-1.0) ** m, (-1.0) ** (m + 1)]))
 
@@ -90,7 +90,7 @@ def axial_harmonics(
 
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
-    """Return (2, order + 1, k) the means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
+    """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
     w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
     power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)

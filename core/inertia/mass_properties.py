@@ -15,7 +15,7 @@ from math import hypot
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count, sum_moments
+from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
@@ -84,26 +84,6 @@ class MassProperties:
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
 
     @classmethod
-    def from_numbers(
-        cls,
-        mass: float,
-        center: ArrayLike,
-        inertia: ArrayLike,
-        moments: ArrayLike,
-        axes: ArrayLike,
-        rounding_error: dict[str, PerBody],
-        input_error: dict[str, PerBody],
-    ) -> MassProperties:
-        """Return the body with these numbers, as `MassProperties` and `PrincipalFrame` hold them.
-
-        Whether its axes are unique is unknown.
-        """
-        frame = PrincipalFrame(
-            np.asarray(moments, float), np.asarray(axes, float), symmetry="", is_unique=False, finding=None
-        )
-        return cls(mass, np.asarray(center, float), np.asarray(inertia, float), frame, rounding_error, input_error)
-
-    @classmethod
     def of_stack(
         cls,
         moments: Moments,
@@ -156,13 +136,6 @@ class MassProperties:
         """Return the (3, 3) tensor about another point, by the parallel-axis theorem."""
         arm = float_array("point", point, 3) - self.center
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
-
-    def as_moments(self) -> Moments:
-        """Return its mass moments about the center; the third ones are not known any more and left zero."""
-        raw = np.zeros(monomial_count(3))
-        raw[0] = self.mass
-        raw[SECOND_MOMENT_INDEX] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
-        return Moments(raw, self.center, Measure.MASS)
 
     @property
     def radii_of_gyration(self) -> NDArray[np.float64]:
@@ -222,8 +195,8 @@ def affine_image(
 ) -> MassProperties:
     """Return the mass properties of a body that is stretched, sheared and turned by the (3, 3) part of a map.
 
-    `center` and `mass` are those of the image; each principal axis points the way of a column of `preferred_axes`.
-    The bounds are those of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
+    `center` and `mass` are those of the image; each principal axis points the same way as a column of `preferred_axes`.
+    The bounds of `properties` are kept, as nothing better is known here. The frame is no choice of the canonical rule:
     second moments alone leave the signs open.
     """
     linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
@@ -245,9 +218,9 @@ def affine_image(
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return (n,) whether centers are in boxes (n, 3) to (n, 3), and second central moments can be those of a mass.
+    """Return an (n,) mask of the bodies whose center and second central moments are possible for a mass in their box.
 
-    A surface that intersects itself may violate both.
+    low, high: (n, 3) corners of the boxes. A surface that intersects itself may have an impossible center or moments.
     """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]

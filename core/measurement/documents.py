@@ -17,13 +17,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite, sqrt
 from typing import Any
 
+from ..inertia.tensors import TENSOR
+
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
-
-# The inertia tensor's six entries, in the order in which they are stored on an object.
-TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
 
 # Content of the file of a Fourier transform.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
@@ -169,7 +168,7 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 _COLUMNS = (
-    "file", "frame", "name", "type", "kind", "method", "density", "mass", "volume", "area",
+    "file", "frame", "name", "type", "kind", "verdict", "method", "density", "mass", "volume", "area",
     *(f"center_of_mass_{axis}" for axis in "xyz"),
     *(f"inertia_{name}" for name, *_ in TENSOR),
     *(f"principal_moment_{number}" for number in (1, 2, 3)),

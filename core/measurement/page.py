@@ -22,7 +22,8 @@ from .plain_text import counted, visible
 
 _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
 _COLUMNS = (
-    *(("picture", ""), ("file", "File"), ("name", "Name"), ("status", "Status"), ("method", "Method")),
+    *(("picture", ""), ("file", "File"), ("name", "Name"), ("status", "Status")),
+    *(("verdict", "Verdict"), ("method", "Method")),
     *(("mass", "Mass, kg"), ("volume", "Volume, m³"), ("area", "Area, m²"), ("size", "Gyration, m")),
     *(("bound", "Bound, of volume"), ("remarks", "Remarks")),
 )
@@ -114,11 +115,19 @@ def _table_rows(document: dict[str, Any]) -> Iterator[str]:
         known = [one for one in (bounds.get("volume"), (bounds.get("input") or {}).get("volume")) if one is not None]
         values = {"mass": entry["mass"], "volume": volume, "area": entry["area"], "size": radius_of_gyration(entry)}
         values["bound"] = sum(known) / abs(volume) if known and volume else None
-        yield _row(_picture(entry), file, entry["name"], status, entry["method"], values, _remarks(entry))
+        yield _row(
+            _picture(entry),
+            file,
+            entry["name"],
+            status,
+            (entry.get("verdict", ""), entry["method"]),
+            values,
+            _remarks(entry),
+        )
     for entry in document.get("flat", ()):
-        yield _row("", file, entry["name"], status, "flat", {"area": entry["area"]}, _remarks(entry))
+        yield _row("", file, entry["name"], status, ("", "flat"), {"area": entry["area"]}, _remarks(entry))
     for error in document["errors"]:
-        yield _row("", file, error["name"] or "", status, "", {}, [("error", error["reason"])])
+        yield _row("", file, error["name"] or "", status, ("", ""), {}, [("error", error["reason"])])
 
 
 def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:
@@ -130,13 +139,13 @@ def _row(
     file: str,
     name: str,
     status: str,
-    method: str,
+    methods: tuple[str, str],
     values: dict[str, float | None],
     remarks: Sequence[tuple[str, str]],
 ) -> str:
-    words = " ".join([file, name, method, status, *(text for _, text in remarks)]).lower()
+    words = " ".join([file, name, *methods, status, *(text for _, text in remarks)]).lower()
     cells = ["<td>{}</td>".format(picture)]
-    for text, kind in ((file, ""), (name, ""), (status, status), (method, "")):
+    for text, kind in ((file, ""), (name, ""), (status, status), *((text, "") for text in methods)):
         shown = html.escape(visible(text))
         cells.append('<td class="{}" data-key="{}">{}</td>'.format(html.escape(kind), shown, shown))
     for column in ("mass", "volume", "area", "size", "bound"):

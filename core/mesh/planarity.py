@@ -205,7 +205,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (m,) 6 times the tetrahedron on each face's corners, scaled, 0 if flat, and (m,) whether it has no area.
+    """Return the (m,) sixfold tetrahedra of faces' corners, scaled, 0 if flat, and an (m,) mask of faces without area.
 
     pairs: QUAD, or TRIANGLE for no tetrahedra. error, exponent: of the surface, or (m,) of each row.
     """

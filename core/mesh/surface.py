@@ -33,7 +33,7 @@ INDEX_SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles and quads over shared points, outward faces counter-clockwise: the input of every measurement.
+    """Triangles and quads over shared points, counter-clockwise from outside: the input of every measurement.
 
     Parameters
     ----------
@@ -87,16 +87,15 @@ class Surface:
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(3,) and (3,) the smallest and the largest coordinates of the points, used or not; NaN if any is NaN."""
+        """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if any is NaN."""
         rows = np.ascontiguousarray(self.points.T)  # along rows of three numpy is twenty times as slow
         return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(rows, axis=1).astype(np.float64)
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
-        """(3,) half an ulp of the largest float32 coordinate on each axis.
+        """The (3,) bounds of the points' shift by storing: half an ulp of the largest float32 coordinate by axis.
 
-        It is how far storing the points may have moved them. `displacement` holds it for points that were float32
-        before; otherwise it is zero for float64 points.
+        `displacement` holds it for points that were float32 before; otherwise it is zero for float64 points.
         """
         if self.displacement is not None:
             return self.displacement
@@ -128,7 +127,7 @@ class Surface:
 
     @classmethod
     def from_triangles(cls, points: ArrayLike, triangles: ArrayLike) -> Surface:
-        """Make a surface of (m, 3) triangles, outward ones counter-clockwise, over (n, 3) points, float32 or 64.
+        """Make a surface of (m, 3) triangles, counter-clockwise from outside, over (n, 3) points, float32 or float64.
 
         ValueError if the shapes or types differ, or an index has no point.
         """
@@ -179,10 +178,10 @@ def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
-    """Return (q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
+    """Return a (q,) mask of quads that Blender cuts from the second corner to the fourth, not from first to third.
 
-    Blender's rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): it flips if
-    the normals of the two triangles at the first diagonal face away from each other.
+    By Blender's rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): the
+    normals of the two triangles at the first diagonal face away from each other.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)

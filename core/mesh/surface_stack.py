@@ -34,6 +34,8 @@ class TriangleStack:
 
     def some(self, which: NDArray[np.intp]) -> TriangleStack:
         """Return the triangles of some of the surfaces, in ascending order."""
+        if len(which) == len(self):
+            return self
         of_point, of_triangle = self.owned(which)
         return TriangleStack(
             self.points[of_point],
@@ -50,22 +52,22 @@ class TriangleStack:
 
     @cached_property
     def first_point(self) -> NDArray[np.intp]:
-        """(n,) the first point of each surface."""
+        """The (n,) indices of the surfaces' first points."""
         return np.cumsum(self.point_counts) - self.point_counts
 
     @cached_property
     def first_triangle(self) -> NDArray[np.intp]:
-        """(n,) the first triangle of each surface."""
+        """The (n,) indices of the surfaces' first triangles."""
         return np.cumsum(self.triangle_counts) - self.triangle_counts
 
     @cached_property
     def point_owners(self) -> NDArray[np.intp]:
-        """(p,) the surface of each point."""
+        """The (p,) indices of the points' surfaces."""
         return np.repeat(np.arange(len(self)), self.point_counts)
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(n, 3) and (n, 3) the smallest and the largest coordinates of each surface."""
+        """The smallest and the largest coordinates of the surfaces, (n, 3) each."""
         rows, starts = np.ascontiguousarray(self.points.T), self.first_point
         low, high = np.minimum.reduceat(rows, starts, axis=1), np.maximum.reduceat(rows, starts, axis=1)
         return low.T.astype(np.float64), high.T.astype(np.float64)
@@ -165,16 +167,16 @@ class SurfaceStack(TriangleStack):
 
     @cached_property
     def first_face(self) -> NDArray[np.intp]:
-        """(n,) the first face of each surface."""
+        """The (n,) indices of the surfaces' first faces."""
         return np.cumsum(self.face_counts) - self.face_counts
 
     @cached_property
     def face_sizes(self) -> NDArray[np.intp]:
-        """(f,) the number of corners of each face, by its triangles and quads; 0 if it has none."""
+        """The (f,) corner counts of faces, found from their triangles and quads; 0 for faces without any."""
         return ring_sizes(self.triangle_faces, self.quad_faces, int(self.face_counts.sum()))
 
     def uses_all_points(self) -> NDArray[np.bool_]:
-        """Return a (n,) mask of the surfaces with all points used as corners of faces."""
+        """Return an (n,) mask of the surfaces with all points used as corners of faces."""
         used = np.zeros(len(self.points), bool)
         used[self.triangles] = True
         return np.logical_and.reduceat(used, self.first_point)

@@ -108,7 +108,7 @@ def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
 
 @lru_cache
 def tensor_index(degree: int) -> NDArray[np.int64]:
-    """Return (3, ..., 3) the indices in `Moments.raw` of the entries of the symmetric tensor of a degree; read-only."""
+    """Return the (3, ..., 3) indices in `Moments.raw` of the entries of the symmetric tensor of a degree; read-only."""
     axes = np.indices((3,) * degree)
     table = monomial_index(*((axes == axis).sum(axis=0) for axis in range(3)))
     table.flags.writeable = False

@@ -1,8 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Closedness and orientation of patches, and the caps of their holes.
+"""Closedness and orientation of patches and flat faces, and the caps of their holes.
 
-Every patch has four sides, curves that run round it with the patch on their left. A side is closed if it is a point (a
+Every patch has four sides, curves that run round it with the patch on their left; the sides of a flat face are the
+curves that bound it. A side is closed if it is a point (a
 pole) or coincides with another side: of the same patch (a cyclic direction, a seam) or of another one, run the other
 way. Sides coincide if they agree parameter by parameter, or else point by point. A vector area of zero proves nothing:
 an open cylinder's is zero too.
@@ -28,7 +29,7 @@ from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
 from .curve import Curve
 from .findings import DISCONTINUOUS_PATCH
-from .patch import Patch
+from .patch import Face, Patch
 from .patch_moments import vector_area
 from .planar_regions import self_intersects
 
@@ -38,7 +39,6 @@ PAIRS_PER_BATCH = 1 << 20  # Candidate pairs of sides at a time.
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
 MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itself.
 MAX_SIDE_PAIRS = 100_000  # Limit of closed sides compared point by point.
-SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ class PatchTopology:
     against most of their component, or against its first if as many face each way. loops: the holes. open_sides,
     non_manifold_sides: the numbers of sides that are open, or coincide with several other sides. misoriented_sides: the
     number of joined pairs that run the same way before any patch is turned. seam_gap: the sum over joined sides of
-    largest distance times length. seams: (k, 2) joined sides, four to a patch in the order of `SIDES`. unclosable:
+    largest distance times length. seams: (k, 2) joined sides, counted over all patches in turn. unclosable:
     (number,) mask of components with open sides that form no loop, or with a one-sided surface.
     """
 
@@ -81,17 +81,18 @@ class PatchTopology:
     unclosable: NDArray[np.bool_]
 
 
-def find_topology(patches: Sequence[Patch], tolerance: float) -> PatchTopology:
+def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     """Find the seams, orientation and holes of patches; MeasureError if a patch may be torn at a knot."""
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
-    curves = [patch.side(axis, end) for patch in patches for axis, end, _ in SIDES]
+    sides = [patch.sides for patch in patches]
+    curves = [curve for around in sides for curve, _ in around]
     count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
     points = np.array([curve.apply_weights(_uniform_table(curve.space, count)) for curve in curves])
     length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
     wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
-    owner = np.repeat(np.arange(len(patches)), len(SIDES))
-    forward = np.tile([forward for *_, forward in SIDES], len(patches))
+    owner = np.repeat(np.arange(len(patches)), list(map(len, sides)))
+    forward = np.array([ahead for around in sides for _, ahead in around])
     left, right, same, gap, non_manifold_sides = _pair_sides(
         _coincident_sides(curves, points, np.flatnonzero(wide), tolerance), points, owner, forward
     )
@@ -182,7 +183,9 @@ def _pair_sides(
         return patch, turn
 
     pairs, used = [], np.zeros(len(owner), bool)
-    arms = points.reshape(-1, len(SIDES), *points.shape[1:]).mean(axis=(1, 2))[owner] - points.mean(axis=1)
+    middles = points.mean(axis=1)
+    sums = np.add.reduceat(middles, np.flatnonzero(np.diff(owner, prepend=-1)), axis=0)
+    arms = (sums / np.bincount(owner)[:, None])[owner] - middles
     arms /= np.maximum(np.linalg.norm(arms, axis=1), 1e-300)[:, None]
 
     def angle(pair: tuple[float, int, int, bool]) -> float:
@@ -269,16 +272,16 @@ def _overlapping_sides(
     """Return [(distance, i, j, True if same direction)] if all points of each curve are on the other curve, else []."""
     gaps, ways = [], []
     for curve, samples, points in ((second, second_points, first_points), (first, first_points, second_points)):
-        gap, way = _nearest(curve, samples, points, tolerance)
-        gaps.append(gap)
-        ways.append(way)
-        if gap > tolerance:
+        t = nearest_parameters(curve, samples, points, tolerance)
+        gaps.append(float(np.linalg.norm(points - curve.evaluate(t), axis=1).max()))
+        ways.append(float((np.diff(points, axis=0) * curve.velocity(t[:-1])).sum()))  # negative if they run against it
+        if gaps[-1] > tolerance:
             return []
     return [(max(gaps), int(i), int(j), bool(ways[0] > 0.0))]
 
 
-def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> tuple[float, float]:
-    """Return the largest distance of points from a curve, and a number > 0 if they run along it, < 0 if against it."""
+def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> NDArray[np.float64]:
+    """Return (n,) parameters of the curve points nearest to points; samples: (m, 3) of the curve, at equal steps."""
     low, high = curve.space.domain
     steps = low + (high - low) * np.linspace(0.0, 1.0, len(samples))
     closed = np.linalg.norm(samples[-1] - samples[0]) <= 2.0 * tolerance
@@ -289,8 +292,7 @@ def _nearest(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) 
         step = ((points - curve.evaluate(t)) * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0)
         t = t + np.clip(step, steps[0] - steps[1], steps[1] - steps[0])
         t = low + (t - low) % (high - low) if closed else np.clip(t, low, high)
-    gap = float(np.linalg.norm(points - curve.evaluate(t), axis=1).max())
-    return gap, float((np.diff(points, axis=0) * curve.velocity(t[:-1])).sum())
+    return t
 
 
 def _orient_patches(

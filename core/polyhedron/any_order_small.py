@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
-from ..moments.moments import Measure, Moments, U
+from ..moments.moments import Measure, Moments, U, unchecked_moments
 from ..numerics.arrays import batches
 from ..numerics.vectors import cross, dot
 from .any_order import area_factors
@@ -51,7 +51,7 @@ def extend_small_moments(
     relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
     size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
     error = (relative * size + 2.0 * volume.rounding_error[:, :1]) * largest + 8.0 * U * np.abs(raw)
-    return Moments(
+    return unchecked_moments(
         np.concatenate([volume.raw, raw], axis=1),
         volume.about,
         Measure.VOLUME,
@@ -61,7 +61,7 @@ def extend_small_moments(
 
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K, t) the S_α of triangles with corners (3, t)."""
+    """Return the (K, t) S_α of triangles with corners (3, t)."""
     levels = np.zeros((2, 3, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
     levels[0] = 1.0
     vectors, out = np.stack([a, c, b], axis=1), np.empty((monomial_count(order), a.shape[1]))

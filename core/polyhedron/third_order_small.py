@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.exponents import monomials
-from ..moments.moments import Measure, Moments, U
+from ..moments.moments import Measure, Moments, U, unchecked_moments
 from ..numerics.arrays import batches
 from .third_order_kernel import PAIR_INDEX, TRIPLES
 
@@ -69,13 +69,14 @@ def small_moments(
     edges = lengths[:, None] * number  # bounds their sum, at the triangles' first corners
     rounding, inputs = error_bounds(reach, half_ulp, tau, edges, sizes, number, 3.0 * number, area)
     raw, cones = of_volume / DIVISORS, np.stack([sizes[:, 0], of_volume[:, 0]], axis=1)
-    volume = Moments(raw, center, Measure.VOLUME, rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw), inputs[0])
+    error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
+    volume = unchecked_moments(raw, center, Measure.VOLUME, error, inputs[0])
     if not area:
         return volume, Moments(np.zeros((len(counts), 1)), center, Measure.AREA), cones
     raw = of_area / (DIVISORS / AREA_FACTORS) if area_moments else sizes[:, 1:] / 2.0
     kept = raw.shape[1]
     error = rounding[1, :, :kept] / 2.0 + 8.0 * U * np.abs(raw)
-    return volume, Moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
+    return volume, unchecked_moments(raw, center, Measure.AREA, error, inputs[1, :, :kept]), cones
 
 
 def _segment_sums(
@@ -156,7 +157,7 @@ def error_bounds(
 
 
 def monomial_bounds(reaches: NDArray) -> NDArray[np.float64]:
-    """Return (k, 20) the largest value of each monomial within each of (k, 3) reaches."""
+    """Return the (k, 20) largest values of the monomials within (k, 3) reaches."""
     factors = np.ones((len(reaches), 4))
     factors[:, 1:] = reaches
     return np.multiply.reduce(factors.take(MONOMIAL_FACTORS, axis=1), axis=2)

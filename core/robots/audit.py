@@ -83,7 +83,7 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its relative difference from an even filling of it."""
+    """Comparison of an inertial with some geometry. apart: its relative difference from evenly filled geometry."""
 
     findings: list[Finding]
     impossible: bool

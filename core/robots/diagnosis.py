@@ -88,7 +88,8 @@ def diagnose(
 ) -> Diagnosis | None:
     """Return the one change that corrects an inertial, or a note about the place of the mass; None if it agrees.
 
-    references: candidates for the geometry, such as visual and collision shapes. otherwise: corrected ones.
+    references: candidates for the geometry, such as visual and collision shapes. otherwise: geometries with a corrected
+    fault of the description, each with its finding.
     """
     if not references:
         return None

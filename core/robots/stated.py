@@ -40,7 +40,7 @@ class StatedInertial:
 
     @property
     def inertia(self) -> NDArray[np.float64]:
-        """(3, 3) the tensor along the link's axes."""
+        """The (3, 3) tensor along the link's axes."""
         with np.errstate(invalid="ignore", over="ignore"):  # numbers of a file, not yet audited
             return self.rotation @ self.tensor @ self.rotation.T
 

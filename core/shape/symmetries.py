@@ -195,7 +195,7 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
 
 
 def _finite_operations(operations: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return the operations that stand for all of a body of revolution: the identity, and perhaps a reflection."""
+    """Return the finite operations of a body of revolution, for all others: the identity and perhaps a reflection."""
     if not _reverses_axis(operations, axis).any():
         return np.eye(3)[None]
     return np.array([np.eye(3), np.eye(3) - 2.0 * np.outer(axis, axis)])
@@ -206,7 +206,7 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
 
 
 def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
-    """Return (3, 3) the rotation about an axis, by Rodrigues' formula."""
+    """Return the (3, 3) rotation about an axis, by Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross

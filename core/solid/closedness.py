@@ -131,7 +131,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
 
 def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
-    """Return whether numbers with the sum `signed`, and `total` for their sizes, have one sign but for rounding."""
+    """Return whether numbers have one sign, to rounding. total: the sum of their sizes; signed: their own sum."""
     return total - abs(signed) <= SUM_ROUNDING * total
 
 

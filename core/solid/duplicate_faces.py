@@ -65,7 +65,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
-    """Return (k,) the mesh faces on the same vertices as an earlier one, sorted.
+    """Return the (k,) mesh faces on the same vertices as an earlier one, sorted.
 
     In a solid two such faces bound nothing, and their edges close, so that no repair looks for them; in a sheet their
     area counts twice.
@@ -75,7 +75,7 @@ def copied_faces(surface: Surface) -> NDArray[np.integer]:
 
 
 def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles of faces on another face's vertices. group: from `same_vertices_groups`."""
+    """Return an (m,) mask of triangles of faces on another face's vertices. group: from `same_vertices_groups`."""
     copied = np.zeros(int(face.max()) + 1, bool)
     copied[group[group != face]] = True
     return copied[group]
@@ -84,7 +84,7 @@ def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDAr
 def _regions_of_one_layer(
     edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles in regions to be reduced to one layer.
+    """Return an (m,) mask of triangles in regions to be reduced to one layer.
 
     later, copied: masks of later copies, and of faces with copies; agree: positive if a face runs as its first copy.
     """

@@ -95,8 +95,8 @@ def _breakthrough(
 ) -> NDArray[np.float64]:
     """Return (k,) how far the components of each pair (inner, outer) reach out of each other, at least `tolerance`.
 
-    It is the largest distance, from the other surface, of places on edges of the inner one outside the outer one, and
-    of the outer one in the inner one.
+    The value is the largest distance from the other surface: of places on edges of the inner component that are outside
+    the outer one, and of places on edges of the outer component that are inside the inner one.
     """
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
@@ -187,7 +187,7 @@ def orient_nested_components(
 
 
 def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Return (c,) the component that each cavity is cut from, the innermost one not yet cut; itself if no cavity."""
+    """Return (c,) hosts: for a cavity the innermost component around it that is not cut yet, else itself."""
     host = np.arange(len(cavity))
     parent = _innermost_container(relations, len(cavity))
     pending = np.flatnonzero(cavity)
@@ -201,7 +201,7 @@ def cavity_host(relations: ComponentRelations, cavity: NDArray[np.bool_]) -> NDA
 
 
 def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[np.intp]:
-    """Return (number,) the innermost component around each, -1 for none."""
+    """Return the (number,) innermost components around the components, -1 for none."""
     inner, outer = relations.containers()
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
@@ -238,7 +238,7 @@ def _interior_samples(
     number: int | NDArray[np.integer],
     tolerance: float,
 ) -> NDArray[np.float64]:
-    """Return (n, 3) the `k`-th of `number` points under the skin of each `component`, about the tree's origin."""
+    """Return the `k`-th of `number` points under the skin of each `component`, (n, 3) about the tree's origin."""
     triangle = (
         components.start[component] + k * (components.start[component + 1] - components.start[component]) // number
     )

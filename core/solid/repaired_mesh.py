@@ -140,9 +140,7 @@ class RepairedMesh:
         )
 
     def with_caps(self, caps: NDArray[np.integer], owner: NDArray[np.integer]) -> RepairedMesh:
-        """Return the mesh with caps added, except degenerate ones. owner: (k,) a triangle of each cap's component."""
-        useful = has_distinct_vertices(caps)
-        caps, owner = caps[useful], owner[useful]
+        """Return the mesh with caps added. owner: (k,) a triangle of each cap's component."""
         return replace(
             self,
             triangles=np.concatenate([self.triangles, caps]),
@@ -152,7 +150,7 @@ class RepairedMesh:
         )
 
     def oriented_ends(self, sides: NDArray[np.integer]) -> tuple[NDArray, NDArray]:
-        """Return the vertices from which and to which sides run once the faces are turned."""
+        """Return the start vertices and the end vertices of sides once the faces are turned."""
         start, stop = side_ends(self.triangles, sides)
         flipped = self.flipped[sides // 3]
         return np.where(flipped, stop, start), np.where(flipped, start, stop)
@@ -160,9 +158,3 @@ class RepairedMesh:
     def faces_of(self, components: NDArray[np.bool_]) -> NDArray[np.integer]:
         """Return the mesh faces of some components, sorted."""
         return np.unique(self.face[components[self.component] & (self.face >= 0)])
-
-
-def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
-    a, b, c = triangles.T
-    return (a != b) & (b != c) & (c != a)

@@ -8,7 +8,8 @@ show this on the way; for the others a pass over the faces, which ends early if 
 
 Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
 faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. Every region
-as wide as these distances is found, and their number follows from that of the faces, so that looking costs little.
+as wide as these distances is found. The number of lines follows from the number of faces, so that the search costs
+little.
 """
 
 from __future__ import annotations
@@ -129,7 +130,7 @@ def measure_excess(
 ) -> Excess:
     """Measure along lines the volume that a closed part counts more than once, or as negative.
 
-    tolerance: (b,) shorter lengths do not count (unit). part: (t,) of each triangle; by default a body is one part.
+    tolerance: (b,) lengths below which nothing counts (unit). part: (t,) parts of the triangles, by default one a body.
     """
     bodies = len(grids.cell)
     if not len(crossings.row):

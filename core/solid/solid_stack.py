@@ -189,7 +189,7 @@ def _stand_apart(
     capped: NDArray[np.bool_],
     error: NDArray[np.float64],
 ) -> NDArray[np.bool_]:
-    """Return a (k,) mask of bodies `rows` with outward parts of certain volume and boxes that do not touch."""
+    """Return a (k,) mask of the bodies `rows` whose parts face outward, surely have a volume, and stand apart."""
     chosen = stack.owned(rows)[1]
     part = _renumbered(part[chosen])
     body = np.repeat(np.arange(len(rows)), counts[rows])  # The body of each part; parts are numbered body by body.
@@ -204,7 +204,11 @@ def _stand_apart(
 
 
 def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
-    """Return (n,) whether cones from points, (n, 3), agree and surround them once (van Oosterom and Strackee 1983)."""
+    """Return an (n,) mask of the bodies that are star-shaped about their (n, 3) points.
+
+    All cones from the point over the faces have one sign, and their solid angles (van Oosterom and Strackee 1983)
+    surround the point once.
+    """
     places = points.take(np.repeat(np.arange(len(stack)), stack.triangle_counts), 0).T[:, None]
     corners = stack.points.T.take(stack.triangles.T, 1) - places
     after, before = corners.take(NEXT_AXIS, 0), corners.take(PREVIOUS_AXIS, 0)
@@ -218,7 +222,7 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
 
 
 def _search_self_intersections(stack: TriangleStack, tolerance: NDArray, part: NDArray[np.intp]) -> NDArray[np.object_]:
-    """Return (k,) the `Intersection` of each body, like `find_self_intersection`. part: (t,) triangles' components."""
+    """Return the (k,) `Intersection` of each body, like `find_self_intersection`. part: (t,) triangles' components."""
     low, high = stack.box
     body = np.repeat(np.arange(len(tolerance)), stack.point_counts)
     grids = LineGrids.over_boxes(low, high, line_counts(stack.triangle_counts))

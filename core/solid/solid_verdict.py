@@ -96,8 +96,8 @@ class SolidIntegrals:
     ) -> tuple[Moments, Moments | None]:
         """Return the body's volume moments to an order; and area moments of the given faces, as in ``area``, or None.
 
-        They are about the middle of the given points' bounding box, the point of ``volume``, unless `about` says
-        otherwise. For open bodies they depend on it. MeasureError if a moment is beyond the range of numbers.
+        The moments are about the middle of the given points' bounding box, the point of ``volume``, unless `about` is
+        given. The moments of open bodies depend on this point. MeasureError if a moment is beyond the range of numbers.
         """
         reference = self.volume.about
         volume, area = polyhedron_moments(

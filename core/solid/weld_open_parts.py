@@ -17,9 +17,9 @@ from ..mesh.surface import Surface
 from ..mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups, vertex_tolerance
 from ..numerics.graph import connected_components
 from ..verdict.health import MeshHealth
-from .boundary_loops import side_ends
+from .boundary_loops import has_distinct_vertices, side_ends
 from .duplicate_faces import is_duplicated
-from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, has_distinct_vertices
+from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:

@@ -174,7 +174,7 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
 
 
 def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
-    """Return (count,) the largest of the (k,) values in each group, zero for empty groups."""
+    """Return the (count,) largest of the (k,) values in each group, zero for empty groups."""
     order = np.argsort(values)
     maximum = np.zeros(count)
     maximum[group[order]] = values[order]  # The last of equal indices wins.

@@ -289,8 +289,8 @@ DRIVE = """
 const rows=()=>[...document.querySelectorAll("tbody tr")].filter(row=>!row.hidden);
 const names=()=>rows().map(row=>row.cells[2].textContent);
 const told=[document.title,rows().length];
-document.querySelectorAll("th button")[4].click();told.push(names());
-document.querySelectorAll("th button")[4].click();told.push(names());
+document.querySelectorAll("th button")[5].click();told.push(names());
+document.querySelectorAll("th button")[5].click();told.push(names());
 const text=document.getElementById("text");text.value="sphere";text.dispatchEvent(new Event("input"));
 told.push(names());text.value="";text.dispatchEvent(new Event("input"));
 const status=document.getElementById("status");status.value="timeout";status.dispatchEvent(new Event("change"));

@@ -121,10 +121,10 @@ class Shape:
         return self.body.surfaces(self._sheets)
 
     def pose(self) -> dict[str, Any]:
-        """Return the pose for a record: see DESIGN.md.
+        """Return the pose for a record (`docs/shape.md`): matrix, uniqueness and symmetry.
 
-        A varying density has third moments of mass alone, which cannot tell a symmetry. An apparent axis of revolution
-        is tested to order 30; if it is none, the body decides its turn about it.
+        A varying density has mass moments to third order only, which cannot tell a symmetry. An apparent axis of
+        revolution is tested by harmonics to order 30; if the body is not round, they fix its turn about this axis.
         """
         body = self.measurement.mass_properties
         axes, unique = body.principal.axes, body.principal.is_unique

@@ -243,7 +243,7 @@ class Stacked:
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
-    """Return a stack of the members with certain shapes and numbers, or None; all members must have the same unit."""
+    """Return a stack of the members whose volume and mass are certain, or None; all members have the same unit."""
     unit, axes = members[0].settings.unit, members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
@@ -277,25 +277,24 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     rotation = rotation_matrix([member.quaternion for member in members])
 
     def higher(left: NDArray[np.intp]) -> OwnMoments:
-        needed, first, shape = np.unique(which[left], return_index=True, return_inverse=True)
-        shapes = [members[left[i]].shape for i in first.tolist()]
-        sixth = [own.at(0)] * len(shapes)
-        together = [i for i, each in enumerate(shapes) if each.alone is None]
+        found = {members[i].shape.row: members[i].shape for i in left.tolist()}
+        rows = sorted(found)
+        sixth: dict[int, Moments] = {}
+        together = [row for row in rows if found[row].alone is None]
         if together:
-            solids = shapes[together[0]].solids
+            solids = found[together[0]].solids
             assert solids is not None
-            found = solids.to_order(needed[together], MAX_ORDER)
-            for row, i in enumerate(together):
-                sixth[i] = found.at(row)
-        alone = {i: each.alone for i, each in enumerate(shapes) if each.alone is not None}
-        small = [i for i, solid in alone.items() if is_small(solid.repaired_surface)]
+            higher_order = solids.to_order(np.array(together), MAX_ORDER)
+            sixth.update((row, higher_order.at(i)) for i, row in enumerate(together))
+        alone = {row: each.alone for row, each in found.items() if each.alone is not None}
+        small = [row for row, solid in alone.items() if is_small(solid.repaired_surface)]
         if small:
-            found = small_moments_to_order([alone[i] for i in small], MAX_ORDER)
-            for row, i in enumerate(small):
-                sixth[i] = found.at(row)
-        for i in alone.keys() - small:
-            sixth[i] = shapes[i].sixth_order()
-        return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
+            higher_order = small_moments_to_order([alone[row] for row in small], MAX_ORDER)
+            sixth.update((row, higher_order.at(i)) for i, row in enumerate(small))
+        sixth.update((row, found[row].sixth_order()) for row in alone.keys() - small)
+        number = {row: i for i, row in enumerate(rows)}
+        shape = np.array([number[row] for row in which[left].tolist()])
+        return own_moments([sixth[row] for row in rows], shape, matrices[left, :3, :3])
 
     properties = MassProperties.of_stack(volume, density, rotation, fixed, higher if axes else None)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))

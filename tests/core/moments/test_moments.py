@@ -10,7 +10,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.inertia import MassProperties, pose_matrix
-from body_moments.core.inertia.reference import Reference
 from body_moments.core.moments.affine_maps import are_similarities
 from body_moments.core.moments.images import sum_of_images
 from body_moments.core.moments.moments import (
@@ -414,7 +413,6 @@ def test_frames_other_than_rotations_are_refused(matrix):
         lambda: moments.in_frame(matrix, np.zeros(3)),
         lambda: properties.in_frame(matrix, np.zeros(3)),
         lambda: pose_matrix(np.zeros(3), matrix),
-        lambda: Reference(np.zeros(3), matrix),
     ):
         with pytest.raises(ValueError, match="(rotation|axes) must be (a rotation|finite)"):
             turn()
