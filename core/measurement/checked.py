@@ -46,7 +46,7 @@ _FLAT = {
 }
 _REASONS = [{"name": (str,), "reason": str}]
 _DOCUMENT = {
-    **{"run?": {"addon": str, "options": dict}, "blender": (str,)},
+    **{"run?": {"addon": str, "options": dict}, "blender": (str,), "total?": {"findings?": _FINDINGS["findings"]}},
     **{"file": (str,), "status": str, "frame": str, "objects": [_RECORD], "flat?": [_FLAT], "assemblies?": [_RECORD]},
     **{"bones?": [{"armature": str, **_RECORD}], "left_out": _REASONS, "errors": _REASONS},
 }

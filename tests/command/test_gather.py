@@ -279,6 +279,7 @@ def test_report_is_one_page_with_escaped_names(tmp_path):
     text = page(tmp_path).read_text(encoding="utf-8")
     assert text.count("<script>") == 1 and "data:image/png;base64," in text and "<svg" in text
     assert "&lt;script&gt;" in text and r"\u202e" in text and "It &lt;b&gt;failed" in text
+    assert re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", text) and "×" in text and "; --thumbnails" in text
     assert not re.search(r"(src|href)=[\"']?(http|//|file)", text)
 
 
