@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite
 from typing import Any
 
-from ..inertia.tensors import TENSOR
+from ..inertia.plain_body import TENSOR
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
