@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sub-panel of rarely needed numbers: error bounds, the display mesh, the Fourier transform.
 
-The moments to a chosen order, sections and shapes are sub-panels of it.
+It has sub-panels for the moments to a chosen order, sections and shapes.
 """
 
 from __future__ import annotations

@@ -156,7 +156,7 @@ class InstanceCollector:
         self._add_instances(geometry, matrices)
 
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
-        """Add the geometry set's instances at every place of it; return whether there were any."""
+        """Add the instances in a geometry set, for each place of the set; return whether there were any."""
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # there are no instances
             return False

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
 from ...core.nurbs.curve import Curve
-from ...core.nurbs.patch import Patch
+from ...core.nurbs.patch import Face
 from ...core.verdict.finding import Finding
 
 NO_SLOTS = np.empty(0, np.intp)
@@ -34,13 +34,13 @@ class FaceAttributes:
 
 @dataclass(frozen=True, eq=False)
 class SplineReading:
-    """Patches of a surface object.
+    """Faces of a surface object.
 
-    patches: of the splines that show a surface, each facing as Blender's faces do. stored: largest effect of float32 on
-    their points. findings: the decisions.
+    patches: of the splines that show a surface, each facing as Blender's faces do, or faces of a file. stored: largest
+    effect of rounding in storage on their points. findings: the decisions.
     """
 
-    patches: tuple[Patch, ...]
+    patches: tuple[Face, ...]
     stored: float
     findings: tuple[Finding, ...]
 

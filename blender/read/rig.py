@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A skinned character: the meshes that an armature deforms, and the objects parented to bones.
 
-Panels and handlers ask for them: without numpy.
+Panels and handlers ask for them, so numpy is not loaded.
 """
 
 from __future__ import annotations

@@ -111,7 +111,7 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError about `reader`."""
+    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError that names the object `reader`."""
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
         reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)

@@ -12,7 +12,7 @@ same. Otherwise all is put back. Other users of the data keep it as it is; the o
 changed get a copy of their own, shared among them.
 
 Meshes that one object alone shows unmodified need no trial: see `reframe_meshes`. Other unrelated objects are changed
-side by side. One that is refused so is tried again alone, in case another's change was the reason.
+side by side. An object that is refused is tried again alone, in case the change of another object was the reason.
 """
 
 from __future__ import annotations

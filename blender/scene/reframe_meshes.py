@@ -64,7 +64,7 @@ def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
 
 
 def largest_move(difference: NDArray, reach: float) -> NDArray[np.float64]:
-    """Return (...,) how far points up to `reach` move at most by (..., 4, 4) differences of maps."""
+    """Return the (...,) largest moves of points up to `reach` by (..., 4, 4) differences of maps."""
     off = np.abs(difference)
     return off[..., :3, :3].sum(axis=(-2, -1)) * reach + off[..., :3, 3].max(axis=-1)
 
@@ -179,7 +179,7 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 
 def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
-    """Return the indices of changes in groups that move no point farther apart than `within`."""
+    """Return groups of indices of changes that move any point within `reach` to almost the same place, to `within`."""
     # Equal changes have nearly equal weighted sums, so that only neighbors after a sort by sums are compared.
     limit, weights = np.array(within), np.cos(np.arange(12.0)).reshape(3, 4)  # for entries no larger than 1
     weights[:, :3] *= reach.min()

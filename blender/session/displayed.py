@@ -79,7 +79,7 @@ class Total:
 _drawn: dict[int, Displayed] = {}  # session uid → drawn numbers, of objects that depend on no other
 _drawn_in: tuple = ()  # the scene's part in them
 _moved: set[int] = set()  # session uids of objects that have only moved since
-_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
+_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the refused settings
 # A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
@@ -120,7 +120,7 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]:
-    """Return `drawn` of many objects. Answers are kept until a report about their object: a thousand take 0.1 s."""
+    """Return `drawn` of many objects. An answer is kept until there is a report about its object."""
     global _drawn_in
     settings = scene.body_moments
     key = scene.session_uid, scene.unit_settings.scale_length, settings.default_material, settings.default_density

@@ -35,7 +35,7 @@ NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times t
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
 FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: along an axis of less, a body is a lamina and has no skewness
-MAX_EQUAL_SHARE = 0.25  # share of the range over directions: at most that much counts as equal
+MAX_EQUAL_SHARE = 0.25  # share of the range over all directions: larger differences never count as equal
 START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
 MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
 ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them
@@ -212,7 +212,7 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
 ) -> tuple[NDArray, float, float, bool]:
-    """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
+    """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
 
     Return also 1 for the largest or -1 for the least; the angle by which noise may have turned the directions; and
     whether they are isolated: for a circle of directions its poles are returned. There are none, (0, 3), if the moment
@@ -288,7 +288,7 @@ def _sphere_directions() -> NDArray[np.float64]:
 
 
 def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:
-    """Return (k, n) the normalized moments in the frames, and (n,) their noise."""
+    """Return the (k, n) normalized moments in the frames, and (n,) their noise."""
     values, noises = [], []
     for degree in range(3, central.order + 1):
         unit, noise = _normalization(central, spread, degree)

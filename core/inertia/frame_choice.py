@@ -13,7 +13,7 @@ from .third_moment_frames import AXES, IS_FIXED, ThirdMomentFrames
 
 MAX_TRACE_AMBIGUITY = 0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always
 AXIS_RANK = np.array([4, 2, 1])  # axes that point along the preferred ones count in this order
-MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments, and a copy's
+MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by second moments and the same axis of a copy
 
 
 def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:
@@ -64,15 +64,16 @@ def complete_free_axes(frames: NDArray, free: tuple[int, ...], preferred_axes: N
 
 
 def _across(vectors: NDArray, axis: NDArray) -> NDArray[np.float64]:
-    """Return (..., 3) the parts of vectors perpendicular to unit vectors."""
+    """Return the (..., 3) parts of vectors perpendicular to unit vectors."""
     return vectors - axis * np.einsum("...a,...a->...", axis, vectors)[..., None]
 
 
 def nearest_frames(candidates: NDArray, preferred_axes: NDArray, tilt: ArrayLike) -> NDArray[np.float64]:
-    """Return (m, 3, 3) the frame of each (m, k, 3, 3) with the smallest turn from the preferred ones, (m, 3, 3).
+    """Return (m, 3, 3) frames, one of each row of (m, k, 3, 3) candidates, nearest to the (m, 3, 3) preferred axes.
 
-    If several are equally near, take the one with axes that, in order, point along rather than against the preferred
-    ones, so that noise cannot flip it. tilt: the angle by which noise may have turned the candidates, one or (m,).
+    Among equally near frames the choice is the frame whose axes, in order, point along the preferred axes rather than
+    against them, so that noise cannot flip it. tilt: the angle by which noise may have turned the candidates, one or
+    (m,).
     """
     if candidates.shape[1] == 1:
         return candidates[:, 0] + 0.0

@@ -5,7 +5,7 @@
 The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
 inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
 every body with a mirror plane, because M_300 is noise, so it is made robust (see `third_moment_frames`). Moments to
-sixth order decide if equal moments or a want of skewness leave a choice (see `canonical_frame`). Any further freedom is
+sixth order decide if equal moments or a lack of skewness leave a choice (see `canonical_frame`). Any further freedom is
 the body's own: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
 
 Moments to sixth order may be given in coordinates of the body's own, with the rotation from there: then bodies that are

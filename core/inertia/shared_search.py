@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments.exponents import monomial_count, monomial_values, monomials
 from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import tensor_index
 from ..numerics.arrays import cross_rows, lengths
@@ -37,7 +37,7 @@ from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
-LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
+LEAST_BOUND = 2.0**-30  # least bound; larger ones are rounded up to three binary digits, so that copies agree
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # bodies with frames that a refinement turns by more are searched one by one
@@ -112,7 +112,7 @@ def _frames_alike(
 def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
-    """Return the frames of a body with these rounded moments; ways: its fixed axis points ahead (1), back (2), both."""
+    """Return the frames of a body with these rounded moments. ways: of its fixed axis, coded as by `_ways`."""
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -136,7 +136,7 @@ def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
-    """Return (n,) the ways that the fixed axes of bodies may point, in the code of `_search`."""
+    """Return (n,) codes of the directions in which the bodies' fixed axes may point: 1 ahead, 2 back, 3 both."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
@@ -144,7 +144,7 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) central moments along (n, 3, 3) axes, by total and extents; bounds by degree; (n, 3) extents."""
+    """Return (n, K) central moments along (n, 3, 3) axes, over total and extents; bounds by degree; (n, 3) extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -155,7 +155,7 @@ def _whitened(
         turned = basis.transpose(0, 2, 1)
         raw, error = rotate_moments(raw, MAX_ORDER, turned), rotate_moments(error, MAX_ORDER, np.abs(turned))
     with np.errstate(all="ignore"):
-        unit = np.multiply.reduce(extent[:, None] ** POWERS, axis=2)
+        unit = monomial_values(extent, MAX_ORDER)
         raw, error = raw / unit, error / unit
     starts = [monomial_count(degree - 1) for degree in range(1, MAX_ORDER + 1)]
     bound = np.maximum.reduceat(error, [0, *starts], axis=1)

@@ -30,7 +30,7 @@ from .findings import (
     INERTIAL_TRIANGLE_SLIGHTLY,
 )
 from .model import Pose, Shape
-from .plausibility import Hull, impossible, spread_directions
+from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
 from .read.meshes import read_mesh
 from .read.paths import Roots
 from .stated import Description, StatedInertial, StatedLink, StatedShape, rotation_of_angles
@@ -83,7 +83,7 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its relative difference from an even filling of it."""
+    """Comparison of an inertial with some geometry. apart: its relative difference from evenly filled geometry."""
 
     findings: list[Finding]
     impossible: bool
@@ -166,7 +166,7 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
         for one, piece in several
     ]
     findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
-    if not stated.mass > 0.0 or any(one.code == INERTIAL_NOT_FINITE for one in findings):
+    if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in findings):
         return _Judgment(findings, True)
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))

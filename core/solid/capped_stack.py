@@ -76,7 +76,7 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) nearer points touch."""
+    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) distances of touch."""
     can = usable & links.is_open
     start, stop = links.open_sides
     owner, total = stack.point_owners, len(stack.points)
@@ -115,7 +115,7 @@ def _capped(
     side: NDArray[np.intp],
     found: OwnedLoops,
 ) -> StackCaps:
-    """Add the caps of loops to their surfaces. part: (t,) of each triangle; side: (r,) the sides of the loops."""
+    """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides of the loops."""
     count, owner, caps = len(stack), stack.point_owners, found.caps(tolerance, is_capped)
     body, kept = owner[found.start], caps.side
     cap_counts = np.bincount(body[kept], minlength=count)

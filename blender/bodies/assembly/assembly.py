@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Assemblies: each member is measured once, and their masses add up, with exact parallel-axis terms.
 
-Mass moments are kept apart by the power of an instance's scale that the mass grows with: 3 for solids, 2 for shells,
-1 for wires and 0 for given masses. So a collection instance scales the mass of its members without measuring again.
+A scaled instance multiplies masses by a power of its scale: 3 for solids, 2 for shells, 1 for wires, 0 for given
+masses. Mass moments are stored by this power, so that a collection instance is not measured again.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ Results = dict[Object, Measured | Stacked | Finding]
 class MemberBody:
     """Moments of a member of an assembly, in SI units along the world's axes.
 
-    `masses`: mass moments to third order, by the power of an instance's scale that they grow with; empty if no mass.
+    `masses`: mass moments to third order, by the power of an instance's scale (see the module); empty if no mass.
     `volume`, m³, and `area`, m²: with their bounds.
     `measured`: the result of an object, with its `measurement`; `refusal`: the reason why it could not be measured.
     `parts`: the members of this member. `findings`: about this member alone, without its parts.

@@ -50,7 +50,7 @@ from ..findings import (
 from ..wire import curves_in_world
 
 FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
-# codes of refusals: the object is no body; it is not flat either, so that the first refusal is shown
+# Codes of refusals: that an object is no body; and that it is not flat either, so that the first refusal is shown.
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
@@ -121,9 +121,9 @@ def flat_region(
 ) -> FlatRegion:
     """Return an object as a region of a plane, in SI units.
 
-    `selected` reads only the selected faces in Edit Mode; `resolution` replaces that of curves and text; `exact` reads
-    the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if the object is
-    not flat, is extruded, or has outlines that cross.
+    `selected` reads only the selected faces in Edit Mode; `resolution` replaces the resolution of curves and text;
+    `exact` reads the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if
+    the object is not flat, is extruded, or has outlines that cross.
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)

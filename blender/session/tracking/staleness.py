@@ -161,7 +161,7 @@ def is_edited(obj: Object) -> bool:
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Mark freshly stored results of objects as up to date; evaluate the data that storing itself has tagged.
+    """Mark freshly stored results of objects as up to date; evaluate the data that Blender tagged at storing.
 
     objects: objects of the context's view layer with results stored or removed.
     shapes: the `surface_digest` of freshly read objects.
@@ -274,7 +274,7 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
     shape = shape or read.shapes.shape_digest(obj, depsgraph)
-    if shape is not None:  # else the shape of another object with these very numbers still holds
+    if shape is not None:  # else the digest of an equal object with the same stamp still holds
         _shapes[stamp.text] = shape
 
 
@@ -291,7 +291,7 @@ def forget_file() -> None:
 
 
 def write_notes() -> None:
-    """Make the notes part of the stored stamps."""
+    """Write the noted edits into the stamps stored on the objects."""
     note_all_edits()
     for obj in bpy.data.objects if len(_edited) else ():
         edited = _edited.get(obj)

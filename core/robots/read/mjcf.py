@@ -20,6 +20,7 @@ from ..model import Pose, Shape
 from ..stated import Angles, Description, StatedInertial, StatedLink, StatedShape, rotation_about
 from .xml import NOWHERE, Node, attempt, number, numbers
 
+LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
@@ -125,7 +126,8 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
     if "xyaxes" in attributes:
         values = numbers(attributes["xyaxes"], 6, ())
         x = _direction(values[:3], attributes["xyaxes"])
-        y = _direction(values[3:] - (values[3:] @ x) * x, attributes["xyaxes"])
+        y = _direction(values[3:], attributes["xyaxes"])
+        y = _direction(y - (y @ x) * x, attributes["xyaxes"])
         return np.column_stack([x, y, np.cross(x, y)]), None, None
     if "zaxis" in attributes:
         z = _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
@@ -136,7 +138,7 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
 
 def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
     length = np.linalg.norm(vector)
-    if not 0.0 < length < inf:
+    if not LEAST_LENGTH < length < inf:
         raise ValueError(text)
     return vector / length
 

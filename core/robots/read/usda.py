@@ -157,7 +157,8 @@ def read(data: bytes) -> Description:
     except UnicodeDecodeError as error:
         raise _invalid("", 0) from error
     try:
-        return _description(text, data)
+        with np.errstate(all="ignore"):  # what becomes of wrong numbers is refused
+            return _description(text, data)
     except (IndexError, KeyError, ValueError, RecursionError) as error:
         place = text.find(str(error)) if isinstance(error, ValueError) else -1
         raise _invalid(text, place if place >= 0 else len(text)) from error
@@ -326,8 +327,7 @@ def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | 
         if not (np.abs(values) <= MOST).all() or name == "points" and len(points) % 3:
             raise ValueError(prim.values[name][:80])
     points = points.reshape(-1, 3)
-    with np.errstate(invalid="ignore"):
-        sizes, corners = counts.astype(np.int64), corners.astype(np.int64)
+    sizes, corners = counts.astype(np.int64), corners.astype(np.int64)
     if sizes.min(initial=0) < 0 or sizes.sum() != len(corners):
         raise ValueError(prim.values["faceVertexCounts"][:80])
     if not len(corners) or corners.min() < 0 or corners.max() >= len(points):

@@ -258,13 +258,14 @@ def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
         *('def Cylinder "a" { uniform token axis = "{}"'.replace("{}", axis) for axis in ("X", "Y", "Z", "W")),
         *('def Capsule "a" { token axis = "X"', 'def Capsule "a" {', 'def Cone "a" {'),
     ]
-    sizes = [(4, 6, 10), (2, 3, 5), (2, 3, 5), (3, 4), (5, 6), (2, 10), (2, 10), (1.5, 2), (1, 5)]
-    turns = [np.eye(3)] * 3 + [np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])]
+    sizes = [(4, 6, 10), (2, 3, 5), (3, 4), (5, 6), (2, 10), (2, 10), (1.5, 2), (1, 5)]
+    turns = [np.eye(3)] * 2 + [np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])]
     turns += [np.eye(3)[:, [1, 2, 0]], np.eye(3)]
     for signs, turn in (((1, 1, 1), np.eye(3)), ((-1, 1, 1), np.diag([1, -1, -1]))):  # a mirrored one is turned
         text = scale.format(", ".join(map(str, np.multiply(signs, (2, 3, 5)).tolist())))
         inside = "".join("{}\n{}}}\n".format(prim, text) for prim in prims)
         (link,) = bodies(tmp_path, BODY.format("b", inside), "(\nmetersPerUnit = 1\n)\n")
+        assert [one.values["text"] for one in link.findings] == ["(3, 4)"]  # not the default in its place
         for stated, size, own in zip(link.shapes, sizes, turns, strict=True):
             assert near(np.array(stated.shape.size), np.array(size, float), 1e-15)
             assert near(stated.shape.pose.rotation, turn @ own, 1e-15)
