@@ -85,6 +85,8 @@ def cap_stack(
     for chosen, reach in ((start, tolerance), (np.flatnonzero(can[owner]), np.zeros(len(can)))):
         of = owner[chosen]
         can[of[may_have_neighbor(stack.points[chosen], reach[of], of)]] = False
+    if not can.any():
+        return None
     onto = np.full(total, -1)
     onto[start] = stop
     begins, ends = side_ends(stack.triangles, np.arange(stack.triangles.size))
