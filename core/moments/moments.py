@@ -274,11 +274,19 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
     """Stack moments of one measure, each about its own point, along a leading axis, to the lowest of their orders."""
-    count = min([part.raw.shape[-1] for part in parts])
-    raw, rounding, inputs = (
-        np.array([getattr(part, name)[:count] for part in parts]) for name in ("raw", "rounding_error", "input_error")
+    order = min([part.order for part in parts])
+    return join_moments([part.truncate(order).at(None) for part in parts])
+
+
+def join_moments(stacks: Sequence[Moments]) -> Moments:
+    """Join stacks of one measure and order into one stack."""
+    if len(stacks) == 1:
+        return stacks[0]
+    raw, about, rounding, inputs = (
+        np.concatenate([getattr(stack, name) for stack in stacks])
+        for name in ("raw", "about", "rounding_error", "input_error")
     )
-    return unchecked_moments(raw, np.array([part.about for part in parts]), parts[0].measure, rounding, inputs)
+    return unchecked_moments(raw, about, stacks[0].measure, rounding, inputs)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # callers check for overflow
