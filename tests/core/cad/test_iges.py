@@ -243,9 +243,7 @@ def test_plane_within_curves_is_a_face(tmp_path, given, way):
     read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
     found = [area_moments([face], 0)[0].total for face in read.bodies[0].patches]
     assert read.refused == () and np.allclose(found, [3.75 * np.pi, 36.0 - 0.25 * np.pi], rtol=1e-14)
-    plate_with(file, [arcs(2.0, center=(0.5, 0.0))])
-    read = read_surfaces(file.write(tmp_path / "a.igs"))  # Blender holds faces that are cones without overlap
-    assert read.unread == 2 and close(area_moments(read.bodies[0].patches, 0)[0].total, 4.0 * np.pi, 1e-11)
+    assert refusal(tmp_path / "a.igs").values["causes"][0]["code"] == "surface_trimmed"  # for Blender
 
 
 @pytest.mark.parametrize(
