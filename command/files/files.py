@@ -33,6 +33,7 @@ from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from .finite import check_numbers
 from .import_3mf import import_3mf
 from .import_gltf import import_gltf
+from .import_mesh import import_mesh
 from .import_surfaces import import_iges, import_obj
 from .import_usd import import_usd
 from .references import Opened
@@ -47,9 +48,8 @@ _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
 _IMPORTERS: dict[str, Callable[[str], object]] = {
-    ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
+    **dict.fromkeys((".stl", ".ply"), import_mesh),
     ".obj": import_obj,
-    ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
     ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
     ".3mf": import_3mf,
     **dict.fromkeys((".igs", ".iges"), import_iges),

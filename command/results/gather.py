@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ...core.measurement.checked import check_document, check_journal_line, parse_json
-from ...core.measurement.documents import to_csv, to_json_lines
+from ...core.measurement.documents import count_findings, to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
@@ -162,9 +162,9 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             failed.append("{}  {}: {}".format(document["status"], file, reason))
         if about.get("seconds") is not None:
             slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[:_LISTED]
+        codes += count_findings(document)
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
-            codes.update({(one["severity"], one["code"]) for one in entry["findings"]})
             bound, size = _bound(entry), entry.get("volume") or entry["area"]
             if bound is not None and size:
                 share = bound / abs(size), "{}: {}".format(file, entry["name"])
@@ -174,7 +174,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
     lines += ["", "Not measured:", *failed[:_LISTED], *more] if failed else []
     if codes:
-        lines += ["", "Findings, by how many objects have them:"]
+        lines += ["", "Findings, by how many objects or files have them:"]
         lines += ["{:>8}  {:<8} {}".format(count, *one) for one, count in codes.most_common()]
     if slowest:
         lines += ["", "Slowest, in seconds:", *("{:>10.3f}  {}".format(*one) for one in slowest)]

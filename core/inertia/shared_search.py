@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments.exponents import monomial_count, monomial_values, monomials
 from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import tensor_index
 from ..numerics.arrays import cross_rows, lengths
@@ -33,7 +33,7 @@ from .canonical_frame import (
     canonical_frames,
 )
 from .findings import MOMENTS_OVERFLOW
-from .tensors import EQUAL_AXES, SYMMETRIES
+from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
@@ -155,7 +155,7 @@ def _whitened(
         turned = basis.transpose(0, 2, 1)
         raw, error = rotate_moments(raw, MAX_ORDER, turned), rotate_moments(error, MAX_ORDER, np.abs(turned))
     with np.errstate(all="ignore"):
-        unit = np.multiply.reduce(extent[:, None] ** POWERS, axis=2)
+        unit = monomial_values(extent, MAX_ORDER)
         raw, error = raw / unit, error / unit
     starts = [monomial_count(degree - 1) for degree in range(1, MAX_ORDER + 1)]
     bound = np.maximum.reduceat(error, [0, *starts], axis=1)

@@ -16,11 +16,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import float_array, index_array, number_array
+from ..numerics.arrays import cross_rows, lengths
 from ..numerics.vectors import cross, dot
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
+NEXT_CORNER = [1, 2, 3, 0]
 HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
+POINT_TYPES, INDEX_TYPES = {np.dtype(np.float32), np.dtype(np.float64)}, {np.dtype(np.int32), np.dtype(np.int64)}
 INDEX_SHAPES = {
     "triangles": ("m", 3),
     "quads": ("q", 4),
@@ -71,6 +74,8 @@ class Surface:
     displacement: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
+        if self._is_ready():
+            return
         points = number_array("points", self.points, "n", 3)
         # Files have float32 in either byte order: it must be known as such; other numbers become float64.
         kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
@@ -84,6 +89,17 @@ class Surface:
                 object.__setattr__(self, name, indices.astype(kind, copy=False))
         if self.displacement is not None:
             object.__setattr__(self, "displacement", float_array("displacement", self.displacement, 3))
+
+    def _is_ready(self) -> bool:
+        """Return whether all arrays have their types and shapes, as those read from Blender do."""
+        columns = self.triangle_faces, self.quad_faces, self.corner_vertices, self.corner_edges
+        return (
+            self.displacement is None
+            and _is_array(self.points, POINT_TYPES, (3,))
+            and _is_array(self.triangles, INDEX_TYPES, (3,))
+            and _is_array(self.quads, INDEX_TYPES, (4,))
+            and all([column is None or _is_array(column, INDEX_TYPES, ()) for column in columns])
+        )
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -144,10 +160,19 @@ class Surface:
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
 
 
+def _is_array(values: object, types: set[np.dtype], row: tuple[int, ...]) -> bool:
+    return type(values) is np.ndarray and values.dtype in types and values.ndim > 0 and values.shape[1:] == row
+
+
 def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
     """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
-    return np.cross(b - a, c - a)
+    return cross_rows(b - a, c - a)
+
+
+def triangle_areas(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """Return (m,) areas of triangles."""
+    return 0.5 * lengths(normals(points, triangles))[:, 0]
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
@@ -174,7 +199,7 @@ def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
     """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third: into `HALVES`."""
-    return np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
+    return np.where(flipped_quads(points, quads)[:, None], quads.take(NEXT_CORNER, 1), quads)
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:

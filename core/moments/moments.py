@@ -230,8 +230,8 @@ class Moments:
         """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
 
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        the deviation of a float32 rotation from one goes into `input_error`. ValueError if the matrix is not finite (4,
-        4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
+        the deviation of a float32 rotation from one goes into `rounding_error`. ValueError if the matrix is not finite
+        (4, 4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
         number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
@@ -299,12 +299,9 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     factors = measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())
     weight, weight_error, uneven = [factor.reshape(*lead, 1) for factor in factors]
     # The images of the reference point are rounded, and the body moves with them.
-    stretch = np.abs(linear).sum(axis=-1).max(axis=-1)
-    tolerance = (
-        6
-        * U
-        * (np.abs(offsets).max(axis=-1) + np.abs(center).max(axis=-1) + stretch * np.abs(about).max(axis=-1))[..., None]
-    )
+    stretch = np.add.reduce(np.abs(linear), axis=-1).max(axis=-1, keepdims=True)
+    reach = np.abs(offsets).max(axis=-1, keepdims=True) + np.abs(center).max(axis=-1, keepdims=True)
+    tolerance = 6 * U * (reach + stretch * np.abs(about).max(axis=-1, keepdims=True))
     weight_error = weight_error + (1 + 6 * order + 8) * U * weight
     away = np.abs(offset)
     rows = [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
@@ -312,14 +309,18 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     if uneven.any():
         rows.append(absolute_moments(moments.raw, order) + moments.rounding_error + moments.input_error)
         shifts.append(away + tolerance)
-    shifted = apply_translation(apply_linear(np.stack(rows, axis=-2), order, linear), order, np.stack(shifts, axis=-2))
+    shifted = np.concatenate([row[..., None, :] for row in rows], axis=-2)
+    if order:
+        shift = np.concatenate([row[..., None, :] for row in shifts], axis=-2)
+        shifted = apply_translation(apply_linear(shifted, order, linear), order, shift)
     mapped, error, mapped_input, size = [shifted[..., i, :] for i in range(4)]
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
     for axis, raised in enumerate(product_indices(order) if order else ()):
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
-    moved_input = weight * (mapped_input + uneven * shifted[..., -1, :])  # a face at a time, some more and some less
-    return unchecked_moments(weight * mapped, center, moments.measure, rounding, moved_input)
+    if uneven.any():
+        rounding = rounding + weight * uneven * shifted[..., -1, :]  # a face at a time, some more and some less
+    return unchecked_moments(weight * mapped, center, moments.measure, rounding, weight * mapped_input)
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:

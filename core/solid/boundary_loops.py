@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_ranges, unique_pairs
+from ..numerics.arrays import cross_rows, lengths, segment_ranges, unique_pairs
 from ..numerics.graph import connected_components
 
 MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
@@ -53,12 +53,14 @@ def join_sides(
     count = len(start)
     vertex = np.concatenate([start, stop])
     direction = end - begin
-    length = np.linalg.norm(direction, axis=1)[:, None]
+    length = lengths(direction)
     direction = np.divide(direction, length, out=np.zeros_like(direction), where=length > 0.0)
     direction = np.concatenate([direction, -direction])  # both seen from the vertex
     order = np.argsort(vertex, kind="stable")
-    first = np.flatnonzero(np.concatenate([[True], np.diff(vertex[order]) != 0]))
-    degree = np.diff(np.append(first, len(order)))
+    in_order = vertex[order]
+    stops = np.flatnonzero(np.concatenate([in_order[1:] != in_order[:-1], [True]])) + 1
+    first = np.concatenate([[0], stops[:-1]])
+    degree = stops - first
 
     simple = first[degree == 2]
     left, right = [order[simple]], [order[simple + 1]]
@@ -219,17 +221,17 @@ def find_loops(
     origin = np.empty((number, 3))
     origin[of_side[::-1]] = begin[::-1]  # about the loop's first vertex: a coordinate that all share stays exact
     a, b = begin - origin[of_side], end - origin[of_side]
-    length = np.linalg.norm(b - a, axis=1)
+    length = lengths(b - a)[:, 0]
     perimeter = np.asarray(np.bincount(of_side, length), np.float64)
     middle = (a + b) * (0.5 * length)[:, None]
     divisor = np.where(perimeter > 0.0, perimeter, 1.0)
-    center = np.stack([np.bincount(of_side, middle[:, k]) / divisor for k in range(3)], axis=1)
+    center = np.array([np.bincount(of_side, middle[:, k]) / divisor for k in range(3)]).T
     a -= center[of_side]
     b -= center[of_side]
-    wedge = np.cross(a, b) / 2.0
-    vector = np.stack([np.bincount(of_side, wedge[:, k]) for k in range(3)], axis=1)
-    flat = np.linalg.norm(vector, axis=1)
-    cone = np.asarray(np.bincount(of_side, np.linalg.norm(wedge, axis=1)), np.float64)
+    wedge = cross_rows(a, b) / 2.0
+    vector = np.array([np.bincount(of_side, wedge[:, k]) for k in range(3)]).T
+    flat = lengths(vector)[:, 0]
+    cone = np.asarray(np.bincount(of_side, lengths(wedge)[:, 0]), np.float64)
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = vector / flat[:, None]
         height = np.zeros(number)

@@ -16,12 +16,13 @@ from .findings import STL_CUT_SHORT
 from .misread import SHORT, SHORT_OR_NAN, Data, Fault, find_number_fault, refuse_line, shorten
 
 BY_COUNT, BY_WORD = "where its number of triangles does", "with “endsolid”"  # words for the end of a file
+SOLID = re.compile(rb"(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
 _LOWER, _ANY_CASE = (
     re.compile(
-        rb"(?:\s*+(?:(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+(?!\S)|facet\s++normal%b\s++outer\s++loop"
-        rb"(?:\s++%b%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+" % (_NORMAL, vertex, _CORNER),
+        rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop"
+        rb"(?:\s++%b%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+" % (SOLID.pattern, _NORMAL, vertex, _CORNER),
         re.IGNORECASE,
     )
     for vertex in (rb"(?-i:vertex)", rb"vertex")
