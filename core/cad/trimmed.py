@@ -134,7 +134,9 @@ def _follow_sides(
     else:
         domain = (0.0, 1.0), (0.0, 1.0)
         for boundary in boundaries:
-            for curve in boundary.curves or ():
+            if boundary.curves is None:
+                return False
+            for curve in boundary.curves:
                 points = curve.evaluate(np.linspace(*curve.space.domain, SAMPLES))
                 if _is_point(points, tolerance):
                     continue

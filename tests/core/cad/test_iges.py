@@ -258,9 +258,16 @@ def test_curves_that_bound_no_region_are_refused(tmp_path, loop):
 
 
 def test_a_hole_is_refused(tmp_path):
-    file = IgesFile()
+    file, ball = IgesFile(), Patch(unrolled(sphere()).spaces, unrolled(sphere()).points)
     trimmed(file, [line(A, B), line(B, C), line(C, D), line(D, A)], holes=(1,))
-    assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_trimmed"
+    around = [curve if ahead else curve.reverse() for curve, ahead in ball.sides]
+    base = file.surface(ball, status="00010000")
+    outer = file.add(142, [0, base, 0, chain(file, around), 3], status="00010000")
+    file.add(144, [base, 1, 1, outer, 1])
+    causes = refusal(file.write(tmp_path / "a.igs")).values["causes"]
+    assert [(cause["code"], len(cause["values"]["names"])) for cause in causes] == [("surface_trimmed", 2)]
+    file.add(144, [base, 1, 0, outer])
+    assert len(read_surfaces(file.write(tmp_path / "a.igs")).bodies[0].patches) == 1
 
 
 def test_part_of_the_domain_and_unclamped_knots_are_read(tmp_path):
