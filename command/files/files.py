@@ -139,21 +139,21 @@ def check_file(path: str) -> None:
         raise FileError(FILE_NOT_REGULAR)
     try:
         with open(path, "rb") as file:
-            size = file.seek(0, os.SEEK_END)
+            is_empty = not file.read(1)
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    if not size:
+    if is_empty:
         raise FileError(FILE_UNREADABLE, error="it is empty")
     if kind == ".usdz":
-        _check_usdz(Path(path), size)
+        _check_usdz(Path(path))
 
 
-def _check_usdz(path: Path, size: int) -> None:
+def _check_usdz(path: Path) -> None:
     """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
     try:
         with zipfile.ZipFile(path) as archive:
             stored = [entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED]
-            if sum(entry.file_size for entry in stored) > size:
+            if sum(entry.file_size for entry in stored) > path.stat().st_size:
                 raise zipfile.BadZipFile("overlapping entries")
             for entry in stored:
                 with archive.open(entry) as file:
