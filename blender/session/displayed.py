@@ -2,50 +2,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The displayed numbers of objects, and the trust in them: panels, list and overlay ask here.
 
-Panels of stored numbers are drawn without numpy; live numbers and sums are computed by other modules.
+Panels of stored numbers are drawn without numpy; live numbers are computed by other modules.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import bpy
-from bpy.types import Context, Object, PoseBone, Scene
+from bpy.types import ID, Context, Object, PoseBone, Scene
 
+from ...core.inertia.plain_body import PlainBody, add_bodies
+from ...core.measurement.trust import Trust, trust_of
 from ...core.numerics.float32 import shortest_decimal
-from ...core.solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
-from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.findings import FLIPPED_FACES
+from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Verdict
-from ...core.verdict.sentences import severity
+from .. import read
 from ..read.fingerprint import has_transform, settings_hash
-from ..read.total_caveats import open_body_caveats, total_caveats
 from ..write import properties
-from ..write.properties import StoredProperties
-from . import live, stored
+from . import live
 from .live import following
 from .live.following import Lag, LiveResult
-from .tracking import armatures, handlers, updates
+from .tracking import armatures, handlers
 from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
-REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
-# Warnings about repairs of the surface: a body with these warnings alone counts as repaired.
-REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
 ASSEMBLY = Method(Verdict.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
-
-
-class Trust(StrEnum):
-    """Trust in displayed numbers, the best first."""
-
-    EXACT = "exact"
-    REPAIRED = "repaired"
-    DOUBTFUL = "doubtful"
-    OUT_OF_DATE = "out of date"
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,8 +42,8 @@ class Displayed:
     whether the numbers are a sum of parts in the present pose.
     """
 
-    numbers: StoredProperties
-    world: StoredProperties
+    numbers: PlainBody
+    world: PlainBody
     unit: float
     method: Method | None
     findings: Sequence[Finding]
@@ -68,7 +53,7 @@ class Displayed:
     lag: Lag = Lag.NONE
     is_posed: bool = False
 
-    def in_frame(self, frame: str) -> StoredProperties:
+    def in_frame(self, frame: str) -> PlainBody:
         """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
         return self.numbers if frame == "OBJECT" else self.world
 
@@ -84,16 +69,17 @@ class Total:
     count: int
     volume: float
     area: float
-    numbers: StoredProperties | None
+    numbers: PlainBody | None
     missing: tuple[str, ...]
     stale: tuple[str, ...]
     doubtful: tuple[str, ...]
     findings: tuple[Finding, ...]
 
 
-# By object: the key of its state without its place, the number of its last move, and its last drawn numbers.
-_drawn: SessionCache[tuple[tuple, int, Displayed | None]] = SessionCache()
-_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
+_drawn: dict[int, Displayed] = {}  # session uid → drawn numbers, of objects that depend on no other
+_drawn_in: tuple = ()  # the scene's part in them
+_moved: set[int] = set()  # session uids of objects that have only moved since
+_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the refused settings
 # A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
@@ -104,7 +90,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     scene: sets the unit scale.
     """
     is_posed = obj.type == "ARMATURE" and armatures.stands_for_meshes(obj)
-    if is_posed and (total := stored.sums.of_meshes(obj, scene)) is not None:
+    if is_posed and (total := _sum_of_meshes(obj, scene)) is not None:
         return total
     current = following.followed.get(obj)
     now = None if current is None else current.result
@@ -130,43 +116,60 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
 
     None if there are no numbers, or the mass is 0.
     """
-    if obj.type == "ARMATURE" or obj in following.followed or obj.body_moments.density_from in BY_OTHERS:
+    return all_drawn([obj], scene)[0]
+
+
+def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]:
+    """Return `drawn` of many objects. An answer is kept until there is a report about its object."""
+    global _drawn_in
+    settings = scene.body_moments
+    key = scene.session_uid, scene.unit_settings.scale_length, settings.default_material, settings.default_density
+    if key != _drawn_in:
+        _drawn.clear()
+        _drawn_in = key
+    found = []
+    for obj in objects:
+        uid = obj.session_uid
+        known = _drawn.get(uid)
+        found.append(known if known is not None and uid not in _moved else _draw(obj, scene, known))
+    return found
+
+
+def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
+    """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
+    if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
-        if obj.type == "ARMATURE" and shown is not None and not shown.is_posed:
-            shown = stored.sums.of_bones(obj, scene)
+        shown = _sum_of_bones(obj, scene) if shown is not None and not shown.is_posed else shown
     else:
-        shown = _known_displayed(obj, scene) if "body_mass" in obj else None
-    return shown if shown is not None and shown.world.mass > 0.0 else None
-
-
-def _known_displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an object that depends on no other; compute them anew only after its changes.
-
-    The numbers of a thousand objects take 0.1 s.
-    """
-    change, move = updates.last_change_and_move(obj)
-    settings, known = scene.body_moments, _drawn.get(obj)
-    key = (
-        change,
-        obj.get("body_fingerprint"),
-        obj.get("body_findings"),
-        scene.session_uid,
-        scene.unit_settings.scale_length,
-        settings.default_material,
-        settings.default_density,
-    )
-    if known is None or known[0] != key:
-        shown = displayed(obj, scene)
-    elif known[1] == move:
-        return known[2]
-    else:
-        shown, stamp = known[2], of_results(obj)
-        if shown is None or stamp is None or shown.reason is not None or not has_transform(obj, stamp.transform):
-            shown = displayed(obj, scene)
+        stamp = None if before is None or before.reason is not None else of_results(obj)
+        if before is not None and stamp is not None and has_transform(obj, stamp.transform):
+            shown = replace(before, world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
-            shown = replace(shown, world=shown.numbers.in_world(obj.matrix_world, shown.unit))
-    _drawn[obj] = key, move, shown
+            shown = displayed(obj, scene) if "body_mass" in obj or obj in following.followed else None
+    if shown is None or not shown.world.mass > 0.0:
+        return None
+    shows_others = obj.instance_type != "NONE" or len(obj.particle_systems)
+    depends = obj.type == "ARMATURE" or shown.method == ASSEMBLY or obj.body_moments.density_from in BY_OTHERS
+    if not (shows_others or depends or shown.live is not None):
+        _drawn[obj.session_uid] = shown
+        _moved.discard(obj.session_uid)
     return shown
+
+
+def note_updates(events: handlers.Updates) -> None:
+    """Forget the drawn numbers of objects that Blender has evaluated anew; mere moves leave all but the place."""
+    for uid in (*events.reshaped, *events.others):
+        _drawn.pop(uid, None)
+    _moved.update(_drawn.keys() & events.moved)
+
+
+def forget_drawn(data: ID | None = None) -> None:
+    """Forget the drawn numbers of an object, or of all."""
+    if data is None:
+        _drawn.clear()
+        _moved.clear()
+    else:
+        _drawn.pop(data.session_uid, None)
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
@@ -184,12 +187,26 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     return Displayed(own, world, unit, method, findings, trust, reason)
 
 
-def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
-    """Return the trust in numbers that are up to date, by their method and findings."""
-    warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
-    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
-        return Trust.DOUBTFUL
-    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
+def _sum_of_meshes(armature: Object, scene: Scene) -> Displayed | None:
+    """Return the sum of the meshes that an armature deforms and that have numbers; None if they have no mass."""
+    meshes = armatures.deformed_meshes(armature)
+    return _as_one(armature, scene, [shown for mesh in meshes if (shown := displayed(mesh, scene)) is not None])
+
+
+def _sum_of_bones(armature: Object, scene: Scene) -> Displayed | None:
+    """Return the sum of a character's parts in its current pose; its own stored numbers are of the rest pose."""
+    bones = armature.pose.bones
+    return _as_one(armature, scene, [shown for bone in bones if (shown := drawn_bone(bone, scene)) is not None])
+
+
+def _as_one(armature: Object, scene: Scene, parts: Sequence[Displayed]) -> Displayed | None:
+    world = add_bodies([part.world for part in parts])
+    if world is None:
+        return None
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    own = world.in_object(armature.matrix_world, unit)
+    worst = max(parts, key=lambda part: tuple(Trust).index(part.trust))
+    return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:
@@ -212,11 +229,16 @@ def total(context: Context) -> Total:
     return current_value(_totals, context.scene, key, lambda: _sum(context))
 
 
+def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
+    """Return the members of an assembly or character: its descendants, and the `objects` that it deforms."""
+    return [*obj.children_recursive, *read.rig.skinned_objects(obj, objects)]
+
+
 def _sum(context: Context) -> Total:
     chosen = armatures.subjects(context.view_layer.objects.selected)
     selected, parts, missing = set(chosen), {}, []
     for obj in chosen:
-        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(stored.sums.members(obj, selected)):
+        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_members(obj, selected)):
             continue  # its members count by themselves
         shown = displayed(obj, context.scene)
         if shown is None:
@@ -224,21 +246,21 @@ def _sum(context: Context) -> Total:
         else:
             parts[obj] = shown
     worlds = [shown.world for shown in parts.values()]
-    alone = next((numbers for numbers in worlds if numbers.mass > 0.0), None)
+    alone = next((world for world in worlds if world.mass > 0.0), None)
     stale, doubtful = (
         tuple(obj.name for obj, shown in parts.items() if shown.trust == trust)
         for trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
     )
     return Total(
         len(parts),
-        sum(numbers.volume for numbers in worlds),
-        sum(numbers.area for numbers in worlds),
-        stored.sums.add(worlds) if len(worlds) > 1 else alone,
+        sum(world.volume for world in worlds),
+        sum(world.area for world in worlds),
+        add_bodies(worlds) if len(worlds) > 1 else alone,
         tuple(missing),
         stale,
         doubtful,
         (
-            *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
-            *total_caveats(parts, context.view_layer),
+            *read.total_caveats.open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
+            *read.total_caveats.total_caveats(parts, context.view_layer),
         ),
     )
