@@ -2,11 +2,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Body Moments: exact mass properties of objects, and snapping to them.
 
-This file registers the add-on and does nothing else. Blender is imported inside `register`, so that
-`body_moments.core` can be imported, tested and used without Blender.
+This file registers the add-on, and offers the public names of `core` (`body_moments.mass_properties`), which are
+imported when they are first used. Blender is imported inside `register`, so that the core works without Blender.
 """
 
 from contextlib import ExitStack
+from importlib import import_module
+from typing import Any
+
+
+def __getattr__(name: str) -> Any:
+    """Return `describe`, which needs Blender, or a public name of the core."""
+    if name == "describe":
+        return import_module(__name__ + ".blender.session.describe").describe
+    core = None if name.startswith("_") else import_module(__name__ + ".core")
+    if core is None or name not in core.__all__:
+        raise AttributeError("module {!r} has no attribute {!r}".format(__name__, name))
+    return getattr(core, name)
+
+
+def __dir__() -> list[str]:
+    """Return the public names of the package."""
+    return [*import_module(__name__ + ".core").__all__, "core", "describe", "register", "unregister"]
 
 
 def register() -> None:

@@ -27,6 +27,12 @@ MISSING_REFERENCES = error(
     "missing_references",
     "The file refers to what cannot be found: {names}. Restore these files, or make linked data local.",
 )
+FILE_HIDES = note("file_hides", "The file does not show it: {cause:word}. Use --all to measure it.")
+USD_CAGE = warning(
+    "usd_cage",
+    "By the file, the mesh is the cage of a subdivision surface ({scheme}), and the cage was measured. Export it "
+    "subdivided, or with the subdivisionScheme “none”.",
+)
 DRIVER_BLOCKED = warning(
     "driver_blocked",
     "Drivers did not run, as the scripts of files are disabled: {drivers}. Bake what they drive, or save the file "

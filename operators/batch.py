@@ -5,11 +5,12 @@
     blender -b FILE.blend --python operators/batch.py -- measure [options]
     blender -b -c body_moments measure [options] [FILE ...]
     python operators/batch.py measure [options] FILE ...
+    body-moments measure [options] FILE ...
 
 and `similar LIBRARY --to NAME` in the place of `measure` compares measurements. The first and the
 third (with the bpy module) need no installation: run as a script, this file loads the add-on's
-folder as a package and registers nothing but the settings that objects carry. All three reach
-`main`.
+folder as a package and registers nothing but the settings that objects carry. The fourth is the
+command of the package that pip installs. All of them reach `main`.
 """
 
 from __future__ import annotations
@@ -170,10 +171,10 @@ def unregister() -> None:
     _command = None
 
 
-def _run_script() -> None:
-    """Run as `__main__`, outside of any package, in Blender or in a Python that has the bpy module.
+def run_process() -> None:
+    """Run the command line of this process, in Blender or in Python, and end the process.
 
-    Ends the process.
+    The command `body-moments` of the installed package calls this function; as a script, this file does.
     """
     try:
         code = _run()
@@ -199,8 +200,9 @@ def _run_script() -> None:
 
 
 def _run() -> int:
-    """Load the add-on from its folder and run the command line of this process."""
-    _load_package()
+    """Run the command line of this process, and return the exit code."""
+    if __name__ == "__main__":
+        _load_package()
     output = importlib.import_module(PACKAGE + ".command.files.output")
     channel = output.claim_stdout()  # first of all: importing bpy may print
     words = sys.argv
@@ -222,4 +224,4 @@ def _load_package() -> None:
 
 
 if __name__ == "__main__":
-    _run_script()
+    run_process()

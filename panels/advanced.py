@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sub-panel of rarely needed numbers: error bounds, the display mesh, the Fourier transform.
 
-The moments to a chosen order, sections and shapes are sub-panels of it.
+It has sub-panels for the moments to a chosen order, sections and shapes.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from ..blender.session import stored
 from ..blender.session.displayed import displayed
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
+from ..blender.write.numbers import StoredProperties
 from ..blender.write.units import Units
 from ..core.lazy import loaded_module
 from . import rows
@@ -52,7 +53,7 @@ class AdvancedPanel:
         )
 
 
-def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: properties.StoredProperties) -> None:
+def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: StoredProperties) -> None:
     display = properties.optional(obj, "body_display_volume")
     if display is None:
         return
@@ -63,7 +64,7 @@ def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: properties
         rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
 
 
-def _bounds(layout: UILayout, obj: Object, units: Units, shown: properties.StoredProperties) -> None:
+def _bounds(layout: UILayout, obj: Object, units: Units, shown: StoredProperties) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return

@@ -8,7 +8,6 @@ from bpy.types import Context
 
 from ..blender.session import stored
 from ..blender.session.displayed import displayed
-from ..blender.write.properties import tensor_entries
 from ..blender.write.units import Units
 from ..core.verdict.finding import Finding
 from . import rows
@@ -92,10 +91,9 @@ class ReferencePanel:
             rows.values(column, units, ("Radius of Gyration", "Distance of Center"), "length", distances)
         center, reach = result.center, max(map(abs, result.center))
         rows.group(layout, units, "Center of Mass from There", rows.AXIS_LABELS, "length", center, reach)
-        entries = tensor_entries(result.inertia)
-        rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", entries)
+        rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", result.inertia)
         sources = ("Rounding, at Most", result.rounding_error), ("Float32, at Most", result.input_error)
-        size = max(map(abs, entries))
+        size = max(map(abs, result.inertia))
         bounds = [(label, "inertia", error["inertia"], size) for label, error in sources]
         rows.bounds(layout.column(align=True), units, bounds)
         row = layout.row(align=True)

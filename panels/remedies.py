@@ -12,55 +12,23 @@ from collections.abc import Sequence
 from bpy.types import Context, UILayout
 
 from ..blender.session.stored import outcome
-from ..blender.write.properties import StoredProperties
+from ..blender.write.numbers import StoredProperties
+from ..blender.write.remedies import DEFECTS, OUTSIDE, SHELL, UNION, remedies_of
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
-from ..core.inertia.findings import NEGATIVE_INERTIA
-from ..core.measurement.findings import NO_VOLUME
-from ..core.solid.findings import (
-    COMPONENTS_NESTED,
-    COMPONENTS_OVERLAP,
-    DUPLICATE_FACES_COUNTED,
-    DUPLICATE_FACES_IGNORED,
-    FLAT_COMPONENTS,
-    FLAT_SURFACE,
-    HOLES_CAPPED,
-    INVERTED_COMPONENTS,
-    NON_MANIFOLD_COMPONENTS,
-    ONE_SIDED_COMPONENTS,
-    SELF_INTERSECTING,
-    VERTICES_WELDED,
-)
 from ..core.verdict.finding import Finding, Severity, truncate
-from ..core.verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
 from ..core.verdict.sentences import of_severity, severity
 from ..operators.findings import RIGID_BODY_CENTER_ELSEWHERE
 from . import rows
 
-UNION = ("object.body_moments_count_as_union", "MOD_BOOLEAN")
-OUTSIDE = ("object.body_moments_recalculate_outside", "NORMALS_FACE")
-DEFECTS = ("object.body_moments_select_faults", "ZOOM_SELECTED")
-SHELL = ("object.body_moments_measure_as_shell", "MOD_SOLIDIFY")
-REMEDIES = {
-    COMPONENTS_NESTED: (UNION,),
-    COMPONENTS_OVERLAP: (UNION,),
-    SELF_INTERSECTING: (UNION,),
-    SELF_INTERSECTION: (UNION,),
-    FLIPPED_FACES: (OUTSIDE, DEFECTS),
-    INVERTED_COMPONENTS: (OUTSIDE,),
-    HOLES_CAPPED: (DEFECTS, SHELL),
-    DUPLICATE_FACES_IGNORED: (DEFECTS,),
-    DUPLICATE_FACES_COUNTED: (DEFECTS,),
-    VERTICES_WELDED: (DEFECTS,),
-    ONE_SIDED_COMPONENTS: (SHELL,),
-    NON_MANIFOLD_COMPONENTS: (DEFECTS, SHELL),
-    FLAT_COMPONENTS: (SHELL,),
-    FLAT_SURFACE: (SHELL,),
-    NO_VOLUME: (SHELL,),
-    NEGATIVE_INERTIA: (UNION, SHELL),
-    RIGID_BODY_CENTER_ELSEWHERE: (("object.body_moments_axes_to_principal", "EMPTY_AXIS"),),
+AXES = "object.body_moments_axes_to_principal"
+ICONS = {
+    UNION: "MOD_BOOLEAN",
+    OUTSIDE: "NORMALS_FACE",
+    DEFECTS: "ZOOM_SELECTED",
+    SHELL: "MOD_SOLIDIFY",
+    AXES: "EMPTY_AXIS",
 }
-MESH_ONLY = (OUTSIDE, DEFECTS)
 MAX_SHOWN = 8  # limit for refusals of the last action
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
@@ -100,9 +68,9 @@ def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Fi
 
 def remedies(layout: UILayout, context: Context, shown: Finding) -> None:
     """Draw the buttons that carry out the advice of a finding."""
-    for idname, icon in REMEDIES.get(shown.code, ()):
-        if context.object.type == "MESH" or (idname, icon) not in MESH_ONLY:
-            rows.button(layout, context, idname, icon)
+    idnames = (AXES,) if shown.code == RIGID_BODY_CENTER_ELSEWHERE else remedies_of(shown.code, context.object.type)
+    for idname in idnames:
+        rows.button(layout, context, idname, ICONS[idname])
 
 
 def _accept(layout: UILayout, context: Context, shown: Finding, accepted: bool) -> None:

@@ -15,7 +15,7 @@ import blf
 import bpy
 from bpy.types import Context, PropertyGroup, UILayout
 
-from ..blender.write.properties import ENTRIES, StoredProperties
+from ..blender.write.numbers import ENTRIES, StoredProperties
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.measurement.documents import plain

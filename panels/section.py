@@ -90,7 +90,7 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
     if body is not None:
         column = body.column(align=True)
         rows.filled(column, "x is nearest to the object's {:s} axis", section.plane.x_axis_name)
-        for label, axis in zip(("x", "y", "n"), section.plane.axes.T):
+        for label, axis in zip(("x", "y", "n"), zip(*section.plane.axes)):
             rows.direction(column, label, axis)
         column = rows.group(
             body, units, "Centroid from Object Origin", ("x", "y"), "length", section.centroid, section.area**0.5

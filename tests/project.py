@@ -6,7 +6,7 @@
     python3 tests/project.py test         pass the tests, on every Blender there is
     python3 tests/project.py test solid   pass those of one subject on one Blender, in seconds
     python3 tests/project.py test core/solid   pass those of one folder of the core, with numpy alone
-    python3 tests/project.py build        build the extension's zip into dist/
+    python3 tests/project.py build        build the extension's zip, and the wheel for Python, into dist/
     python3 tests/project.py benchmark    times and ratios against trimesh and libigl
     python3 tests/project.py tables       the tables of Soldea, Elber and Rivlin beside ours
     python3 tests/project.py lint         check the rules, the format and the types
@@ -536,7 +536,9 @@ def demo(options: argparse.Namespace) -> int:
 
 def build(options: argparse.Namespace) -> int:
     python = prepare_blender(any_blender())
-    return show([python, "-P", TESTS / "package" / "extension.py", ROOT / "dist"])
+    builder = prepare("build", sys.executable, RUNNING, ["requirements-build.txt"])
+    zipped = show([python, "-P", TESTS / "package" / "extension.py", ROOT / "dist"])
+    return show([builder, "-P", "-m", "build", "--wheel", "--no-isolation", "--outdir", ROOT / "dist", ROOT]) or zipped
 
 
 def benchmark(options: argparse.Namespace) -> int:
@@ -572,7 +574,7 @@ def parse(words: list[str]) -> argparse.Namespace:
     for function, text in (
         (demo, "measure a real body"),
         (test, "pass the tests"),
-        (build, "build the extension's zip"),
+        (build, "build the extension's zip and the wheel"),
         (benchmark, "times and ratios against trimesh and libigl; --quick, --stream M"),
         (tables, "the paper's tables of trivariate densities beside ours"),
         (soak, "what takes long: hostile files, kills, random damage; --minutes N, --seed S, names"),

@@ -32,14 +32,12 @@ class MeshBody(Body):
     """A body bounded by polygons, or the sheets of these polygons.
 
     `solids`: the measured surfaces, each with the (k, 4, 4) maps to its places.
-    `sheets`: the surface of each solid before repair.
     """
 
     any_order: ClassVar[bool] = True
     has_surface: ClassVar[bool] = True
 
     solids: tuple[tuple[SolidIntegrals, NDArray[np.float64]], ...] = ()
-    sheets: tuple[Surface, ...] = ()
     threads: int = field(kw_only=True)
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
@@ -62,7 +60,8 @@ class MeshBody(Body):
                 surface, order, area_order=order, exact=True, threads=self.threads, allow_open=True
             )[1]
 
-        for (solid, matrices), surface in zip(self.solids, self.sheets):
+        for solid, matrices in self.solids:
+            surface = solid.given_surface
             same = (
                 solid.method in (Verdict.EXACT, Verdict.REORIENTED)
                 and not solid.health.duplicate_faces
@@ -84,7 +83,7 @@ class MeshBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments from which axes are found, of a single similar image in its surface's own coordinates."""
+        """Return the moments from which axes are found, in the surface's own coordinates for one similar image."""
         if len(self.solids) == 1 and len(self.solids[0][1]) == 1:
             solid, matrices = self.solids[0]
             if are_similarities(matrices[:, :3, :3])[0]:
@@ -102,13 +101,13 @@ class MeshBody(Body):
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
         """Yield the surfaces in world coordinates, repaired, or with `sheets` as they were before repair."""
-        for (solid, matrices), surface in zip(self.solids, self.sheets):
-            piece = surface if sheets else solid.repaired_surface
+        for solid, matrices in self.solids:
+            piece = solid.given_surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
 
 
 def with_known(moments: Moments, known: Moments) -> Moments:
-    """Return moments with lower orders replaced by `known` if both are about one point; axes get equal bounds then."""
+    """Return moments with the lower orders and bounds of `known`, if both are about the same point."""
     if not np.array_equal(moments.about, known.about):
         return moments
     names = "raw", "rounding_error", "input_error"
@@ -129,7 +128,7 @@ def with_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def extend_input_error(moments: Moments, known: Moments) -> Moments:
-    """Return moments with input bounds extended from `known` to their order: swept extent times powers of the reach."""
+    """Return moments with input bounds of every order: the bound of the `known` total times powers of the reach."""
     swept, further = known.input_error[:2].tolist()
     reach = further / swept if swept > 0.0 else 0.0
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
@@ -142,7 +141,7 @@ def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDAr
     A mirrored shape counts as a shape of its own; so does an unevenly mapped shape, in the coordinates of its body.
     """
     is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
-    rotation = np.tile(np.eye(3), (len(which), 1, 1))
+    rotation = np.eye(3)[None].repeat(len(which), 0)
     rotation[is_even] = polar_rotation(linear[is_even])[0]
     rotation[is_mirrored & is_even] *= -1.0
     moments: list[Moments] = []

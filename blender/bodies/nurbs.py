@@ -24,7 +24,7 @@ from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
 from ...core.nurbs.creases import sharpest_crease
 from ...core.nurbs.findings import ERROR_ESTIMATE_LARGE
-from ...core.nurbs.patch import Patch
+from ...core.nurbs.patch import Face
 from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volume_moments
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
@@ -110,7 +110,7 @@ class PatchSheetBody(Body):
         return Moments(np.zeros(monomial_count(order)), self.area.about, Measure.VOLUME), sum_moments(areas)
 
 
-def _patches(part: Part) -> tuple[Patch, ...]:
+def _patches(part: Part) -> tuple[Face, ...]:
     """Return the patches of a part that has some."""
     return cast(SplineReading, part.splines).patches
 
@@ -289,7 +289,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
     return PatchSheetBody(*common, estimated=True, unit=unit, parts=tuple(patch_parts), polygons=polygons)
 
 
-def _distinct_images(patches: Sequence[Patch], matrices: NDArray) -> Iterator[tuple[list[Patch], NDArray]]:
+def _distinct_images(patches: Sequence[Face], matrices: NDArray) -> Iterator[tuple[list[Face], NDArray]]:
     """Yield the patches under each different linear map, facing as before, and (k, 4, 4) translations to the places."""
     for linear, members in distinct_linear_parts(matrices):
         turn = np.eye(4)

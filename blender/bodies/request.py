@@ -52,7 +52,7 @@ class Request:
 
     @property
     def scene(self) -> bpy.types.Scene:
-        """The scene with the defaults."""
+        """The scene, whose defaults apply to the object."""
         return _scene(self.depsgraph)
 
     @property

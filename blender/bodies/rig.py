@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -26,10 +26,11 @@ from ...core.solid.measure import measure_solid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Verdict, least_trusted
-from ..read.fingerprint import digest, fingerprint, matrix_hash, settings_hash
+from ..read.bones import RestBones, vertex_weights
+from ..read.fingerprint import digest, fingerprint, matrix_hash
 from ..read.objects import locate, read_object
 from ..read.reading import Part, to_si
-from ..read.rig import RestBones, hanging_objects, pose_bone_of, rest_pose, skinned_objects, vertex_weights
+from ..read.rig import hanging_objects, pose_bone_of, rest_pose, rig_hash, rig_objects, skinned_objects
 from ..settings.density import is_density_unset, unset_density
 from .findings import (
     BONE_MISSING,
@@ -98,26 +99,6 @@ def measure_rig(context: Context, armature: Object) -> Rig:
     """Measure the parts of all bones of a character, or raise MeasureError if none has a mass."""
     with rest_pose(context, armature) as depsgraph:
         return _Measuring(armature, depsgraph).rig()
-
-
-def rig_hash(armature: Object, objects: Iterable[Object], scene) -> str:
-    """Return a digest of the bones, the armature's scale and the objects' settings, without the shapes of meshes."""
-    keys = []
-    for bone in armature.data.bones:
-        settings = armature.pose.bones[bone.name].body_moments
-        given = {"MESH": None, "DENSITY": settings.density, "MASS": settings.mass}[settings.mass_from]
-        rest = np.array(bone.matrix_local, np.float32).tobytes().hex()
-        keys.append(repr((bone.name, bone.use_deform, round(bone.length, 7), rest, settings.mass_from, given)))
-    for obj in objects:
-        keys.append(repr((obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups))))
-    keys.append(repr(np.array(armature.matrix_world.to_scale(), np.float32).tolist()))
-    return digest("\n".join(keys).encode())
-
-
-def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
-    """Return the objects that a character consists of: skinned objects, then objects parented to bones."""
-    skinned = skinned_objects(armature, objects)
-    return skinned + [obj for obj, _ in hanging_objects(armature, skinned)]
 
 
 class _Measuring:

@@ -3,28 +3,27 @@
 """The members of an assembly: a collection with its nested collections, or an empty with its children.
 
 An object counts once, in its first place. An instance of a collection is an assembly of its own, with the members' own
-densities, unless the instancer's own density or mass is set.
+densities, unless the instancer's own density or mass is set. Panels ask for changes of members, so numpy is not loaded.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import bpy
-import numpy as np
 from bpy.types import Depsgraph, Object
-from numpy.typing import NDArray
+from mathutils import Matrix
 
+from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from ..settings.assembly import Root, is_assembly, settings_of
-from ..settings.given import is_point_mass, shows_collection
+from ..settings.given import GivenPart, is_point_mass, shows_collection
 from .findings import BOOLEAN_OPERAND, HIDDEN_IN_VIEWPORT, MEMBER_COUNTED_BEFORE, NOT_RENDERED
-from .instances import MAX_DEPTH
-from .reading import float64_matrix
+from .fingerprint import digest, matrix_bytes, matrix_hash
 from .total_caveats import left_out_reasons, operands_of
-from .visibility import hidden_reason, instanced_by_parent, measurable
+from .visibility import MAX_DEPTH, hidden_reason, instanced_by_parent, measurable
 
 
 class MemberKind(StrEnum):
@@ -43,14 +42,15 @@ class Member:
 
     `data`: an object or collection; the instancer of an instance.
     `members`: of a collection or an instance, or the children of an object.
-    `matrix`: (4, 4), of an instance, from its collection's members to their displayed places, Blender units.
+    `matrix`: the rows, float64, of an instance's matrix, from its collection's members to their displayed places, in
+    Blender units.
     `left_out`: the reason why the member is not counted.
     """
 
     data: Root
     kind: MemberKind
     members: tuple[Member, ...] = ()
-    matrix: NDArray[np.float64] | None = None
+    matrix: tuple[tuple[float, ...], ...] | None = None
     left_out: Finding | None = None
 
     @property
@@ -75,6 +75,34 @@ def members_of(root: Root, depsgraph: Depsgraph) -> Member:
     if isinstance(root, bpy.types.Collection):
         return _Walk(root.all_objects, depsgraph).collection(root)
     return _Walk((), depsgraph).empty(root)
+
+
+def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
+    """Return a key of all measured members: their results' fingerprints, their transforms and the point masses."""
+    keys = []
+    for member in root.walk():
+        if member.kind == MemberKind.POINT:  # an empty with children stores the results of its assembly
+            settings = member.data.body_moments
+            keys.append(GivenPart.from_settings(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
+        elif member.is_measured:
+            # moving leaves fingerprints unchanged
+            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))
+    return "\n".join(keys)
+
+
+def structure_hash(root: Member) -> str:
+    """Return a digest of the members, the places of instances and the masses given for assemblies."""
+    keys = []
+    for member in root.walk():
+        key = [member.kind.value, member.name, member.left_out.code if member.left_out else ""]
+        if member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY):
+            settings = settings_of(member.data)
+            if settings.mass_from == "MASS":
+                key.append(repr((shortest_decimal(settings.mass), GivenPart.from_settings(settings, 1.0).key)))
+        if member.matrix is not None:
+            key.append(matrix_bytes(Matrix(member.matrix)).hex())
+        keys.append("|".join(key))
+    return digest("\n".join(keys).encode())
 
 
 class _Walk:
@@ -137,10 +165,10 @@ class _Walk:
             return [Member(obj, kind, left_out=reason)]
         if _shows_members(obj) and depth < MAX_DEPTH:
             source = obj.instance_collection
-            offset = np.eye(4)
-            offset[:3, 3] = -np.array(source.instance_offset, np.float64)
+            x, y, z = source.instance_offset
             inside = _Walk(source.all_objects, self.depsgraph, inside=True).collection(source, depth + 1)
-            return [Member(obj, MemberKind.INSTANCE, (inside,), float64_matrix(obj.matrix_world) @ offset)]
+            matrix = tuple((a, b, c, d - (a * x + b * y + c * z)) for a, b, c, d in obj.matrix_world)
+            return [Member(obj, MemberKind.INSTANCE, (inside,), matrix)]
         return [Member(obj, kind)]
 
     def _left_out(self, obj: Object) -> Finding | None:

@@ -14,6 +14,7 @@ import math
 import struct
 
 import bpy
+from mathutils import Matrix
 
 from ...core.measurement.settings import Settings
 from ..settings.density import density_key
@@ -31,7 +32,12 @@ def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
 
 def matrix_hash(obj: bpy.types.Object) -> str:
     """Return a digest of the object's place, rotation, scale and shear."""
-    return digest(struct.pack("<16f", *[entry for row in obj.matrix_world for entry in row]))
+    return digest(matrix_bytes(obj.matrix_world))
+
+
+def matrix_bytes(matrix: Matrix) -> bytes:
+    """Return the entries of a matrix of four rows as float32, row by row."""
+    return struct.pack("<16f", *[entry for row in matrix for entry in row])
 
 
 def transform_key(obj: bpy.types.Object) -> str:

@@ -30,10 +30,7 @@ from .findings import (
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .nurbs.splines import spline_reading
 from .reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
-from .visibility import GEOMETRY_TYPES, blends_keys, edit_modifiers, evaluated_geometry
-
-# Blender stops here too (MAX_DUPLI_RECUR - 1).
-MAX_DEPTH = 7
+from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
 
 
 class _NeedsInstanceList(Exception):
@@ -159,7 +156,7 @@ class InstanceCollector:
         self._add_instances(geometry, matrices)
 
     def _add_instances(self, geometry, matrices: NDArray) -> bool:
-        """Add the geometry set's instances at every place of it; return whether there were any."""
+        """Add the instances in a geometry set, for each place of the set; return whether there were any."""
         cloud = geometry.instances_pointcloud()
         if cloud is None:  # there are no instances
             return False

@@ -7,12 +7,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.moments.affine_maps import are_singular
 from ...core.nurbs.curve import Curve
-from ...core.nurbs.patch import Patch
+from ...core.nurbs.patch import Face
 from ...core.verdict.finding import Finding
 
 NO_SLOTS = np.empty(0, np.intp)
@@ -34,13 +34,13 @@ class FaceAttributes:
 
 @dataclass(frozen=True, eq=False)
 class SplineReading:
-    """Patches of a surface object.
+    """Faces of a surface object.
 
-    patches: of the splines that show a surface, each facing as Blender's faces do. stored: largest effect of float32 on
-    their points. findings: the decisions.
+    patches: of the splines that show a surface, each facing as Blender's faces do, or faces of a file. stored: largest
+    effect of rounding in storage on their points. findings: the decisions.
     """
 
-    patches: tuple[Patch, ...]
+    patches: tuple[Face, ...]
     stored: float
     findings: tuple[Finding, ...]
 
@@ -119,7 +119,7 @@ def attribute_to_source(result: Finding, source: str, whole: str) -> Finding:
     return result if source in ("", whole) else result.of_sources([source])
 
 
-def to_si(matrices: NDArray, unit: float) -> NDArray[np.float64]:
+def to_si(matrices: ArrayLike, unit: float) -> NDArray[np.float64]:
     """Return (k, 4, 4) world matrices in SI units; `unit` is in meters per Blender unit."""
     scaled = np.array(matrices, np.float64)
     scaled[:, :3] *= unit

@@ -5,16 +5,16 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
-import numpy as np
 from bpy.types import Object, PropertyGroup, Scene
-from numpy.typing import NDArray
+from mathutils import Matrix
 
 from ...core.inertia.reference import Reference
+from ...core.inertia.tensors import rotation_axes
 from ...core.numerics.float32 import shortest_decimal
-from ...core.numerics.rotations import rotation_matrix
 from ...core.verdict.finding import QueryError
 from .findings import REFERENCE_OBJECT_MISSING
 
@@ -62,11 +62,11 @@ class ReferenceChoice:
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             return None
 
-    def resolve(self, owner: bpy.types.ID, scene: Scene, center: NDArray) -> Reference:
+    def resolve(self, owner: bpy.types.ID, scene: Scene, center: Sequence[float]) -> Reference:
         """Return the reference frame (SI, world axes) for an owner with this center of mass, or raise QueryError."""
         unit = shortest_decimal(scene.unit_settings.scale_length)
         if self.about == "CENTER":
-            return Reference(np.asarray(center, np.float64))
+            return Reference(center)
         if self.about == "ORIGIN" and isinstance(owner, Object):
             return _frame(owner.matrix_world, unit)
         if self.about == "CURSOR":
@@ -77,11 +77,10 @@ class ReferenceChoice:
                 raise QueryError(REFERENCE_OBJECT_MISSING)
             return _frame(other.matrix_world, unit)
         if self.about == "AXIS" and len(self.points) == 2:
-            first, second = np.array(self.points) * unit
-            return Reference.through_points(first, second)
-        return Reference(np.zeros(3))
+            return Reference.through_points(*[[unit * along for along in point] for point in self.points])
+        return Reference((0.0, 0.0, 0.0))
 
 
-def _frame(matrix, unit: float) -> Reference:
+def _frame(matrix: Matrix, unit: float) -> Reference:
     location, turn, _scale = matrix.decompose()
-    return Reference(np.array(location[:], np.float64) * unit, rotation_matrix(turn))
+    return Reference([unit * along for along in location], rotation_axes(turn))

@@ -1,58 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skinned character: its bones at rest, the meshes that an armature deforms, and the objects parented to bones."""
+"""A skinned character: the meshes that an armature deforms, and the objects parented to bones.
+
+Panels and handlers ask for them, so numpy is not loaded.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 
 import bpy
-import numpy as np
-from bpy.types import Context, Depsgraph, Object
-from numpy.typing import NDArray
+from bpy.types import Context, Depsgraph, Object, Scene
 
-from ...core.numerics.rotations import rotation_matrix
-from ...core.rig.dominance import VertexWeights
 from ...core.verdict.finding import ReadError
 from .findings import ARMATURE_IN_EDIT_MODE, NO_ACTIVE_ARMATURE
-from .reading import Part, float64_matrix
+from .fingerprint import digest, matrix_bytes, settings_hash
 from .tracking import tracking_paused
-from .visibility import evaluated_geometry, measurable
-
-
-@dataclass(frozen=True, eq=False)
-class RestBones:
-    """The bones of an armature object in their rest pose.
-
-    `names`: of all bones; `deforming`: of the bones that deform meshes, numbered in this order.
-    `segments`: (b, 2, 3), head and tail of the deforming bones in the world, Blender units.
-    `frames`: rest frame of each bone in the world: rotation (3, 3), and head (3,), Blender units.
-    """
-
-    names: tuple[str, ...]
-    deforming: tuple[str, ...]
-    segments: NDArray[np.float64]
-    frames: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]
-
-    @classmethod
-    def read(cls, armature: Object) -> RestBones:
-        """Read the bones of an armature object."""
-        place = float64_matrix(armature.matrix_world)
-        bones = list(armature.data.bones)
-        deforming = [bone for bone in bones if bone.use_deform]
-        ends = np.array([[bone.head_local[:], bone.tail_local[:]] for bone in deforming], np.float64).reshape(-1, 2, 3)
-        frames = {}
-        for bone in bones:
-            location, turn, _scale = (armature.matrix_world @ bone.matrix_local).decompose()
-            frames[bone.name] = rotation_matrix(turn), np.array(location[:], np.float64)
-        return cls(
-            tuple(bone.name for bone in bones),
-            tuple(bone.name for bone in deforming),
-            ends @ place[:3, :3].T + place[:3, 3],
-            frames,
-        )
+from .visibility import measurable
 
 
 @contextmanager
@@ -97,26 +62,24 @@ def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[O
     return found
 
 
-def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgraph) -> VertexWeights:
-    """Return the weights of the deforming bones on the vertices of an object's own surface.
+def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
+    """Return a digest of the bones, the armature's scale and the objects' settings, without the shapes of meshes."""
+    keys = []
+    for bone in armature.data.bones:
+        settings = armature.pose.bones[bone.name].body_moments
+        given = {"MESH": None, "DENSITY": settings.density, "MASS": settings.mass}[settings.mass_from]
+        rest = matrix_bytes(bone.matrix_local).hex()
+        keys.append(repr((bone.name, bone.use_deform, round(bone.length, 7), rest, settings.mass_from, given)))
+    for obj in objects:
+        keys.append(repr((obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups))))
+    keys.append(repr(list(armature.matrix_world.to_scale())))
+    return digest("\n".join(keys).encode())
 
-    There are none for another object's surface, or if its vertices are not the evaluated mesh's.
 
-    Blender gives the groups of vertices one by one only, in 0.3 s for 100,000 vertices.
-    """
-    number = {name: k for k, name in enumerate(bones.deforming)}
-    groups = [number.get(group.name) for group in obj.vertex_groups]
-    geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
-    vertices = [] if geometry.mesh is None else geometry.mesh.vertices
-    is_own = part.source_object_name in ("", obj.name) and len(vertices) == len(part.surface.points)
-    vertex, bone, weight = [], [], []
-    for index, one in enumerate(vertices if is_own else []):
-        for entry in one.groups:
-            if groups[entry.group] is not None:
-                vertex.append(index)
-                bone.append(groups[entry.group])
-                weight.append(entry.weight)
-    return VertexWeights(np.array(vertex, np.intp), np.array(bone, np.intp), np.array(weight, np.float64))
+def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
+    """Return the objects that a character consists of: skinned objects, then objects parented to bones."""
+    skinned = skinned_objects(armature, objects)
+    return skinned + [obj for obj, _ in hanging_objects(armature, skinned)]
 
 
 def require_armature(obj: Object | None) -> Object:

@@ -50,10 +50,10 @@ class SectionReading:
     """Faces or outlines as arrays, in the world, Blender units.
 
     description: of the object or part, in words. points: (n, 3). triangles: (m, 3), facing as drawn, and faces: (m,)
-    the face of each; for outlines fans that give the plane, with loops: the points of each closed outline, in order.
-    facing: (3,) front of the plane, None if the triangles decide. error: largest effect of float32 storage on a point.
-    drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object frame, or, if a zero
-    scale leaves `decompose()` without a rotation, the right-angled axes that are left.
+    the face of each; of outlines, the triangles are fans that give the plane, and loops has the points of each closed
+    outline in order. facing: (3,) front of the plane, None if the triangles decide. error: largest effect of float32
+    storage on a point. drawn_area: the area that Blender fills, of outlines in a plane. rotation, location: the object
+    frame, or, if a zero scale leaves `decompose()` without a rotation, the right-angled axes that are left.
     """
 
     name: str

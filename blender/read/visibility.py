@@ -39,6 +39,7 @@ GEOMETRY_TYPES = {
 }
 SECTION_TYPES = {"MESH", "CURVE", "FONT"}  # objects with faces or curves that may be flat
 SURFACE_TYPES = {"MESH", "CURVE", "SURFACE", "META", "FONT"}
+MAX_DEPTH = 7  # of instances within instances: Blender stops here too (MAX_DUPLI_RECUR - 1)
 
 
 def measurable(obj) -> bool:
@@ -110,7 +111,7 @@ def require_kind(obj) -> None:
 
 
 def evaluated_geometry(obj, depsgraph, reader):
-    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError about `reader`."""
+    """Return the object's `GeometrySet`, which owns its meshes, or raise ReadError that names the object `reader`."""
     reason = _sculpt_mode_reason(obj) if obj.mode == "SCULPT" else None
     if obj.type in {"CURVE", "SURFACE"} and not _shape_keys_fit(obj.data):
         reason = finding(SHAPE_KEYS_OF_OTHER_POINTS)

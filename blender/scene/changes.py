@@ -105,7 +105,7 @@ def dependents(objects: Iterable[Object]) -> dict[Object, set[Object]]:
 
 
 def users_of(objects: Iterable[Object], through: set[str]) -> dict[ID, set[ID]]:
-    """Return, by data-block, the users of the objects, of those users whose types are in `through`, and so on."""
+    """Return the users of each object, and of each user, direct or indirect, whose type is in `through`."""
     users: dict[ID, set[ID]] = {}
     new: set[ID] = set(objects)
     while new:

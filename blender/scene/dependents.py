@@ -85,7 +85,7 @@ def same_shape(before: Shape | None, after: Shape | None, size: float) -> bool:
 
 
 def _sample_instances(shape: Shape) -> dict[int, NDArray[np.float64]]:
-    """Return (k, s, 3) sample points of k instances by their number of points, sorted by center along a line."""
+    """Return a dict from numbers of points to (k, s, 3) samples of k instances, sorted by center along a line."""
     by_count: dict[int, list[NDArray[np.float64]]] = {}
     for first, rest in shape:
         sample_index = np.linspace(0, len(first) - 1, rest.shape[1]).astype(int)

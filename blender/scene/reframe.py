@@ -12,7 +12,7 @@ same. Otherwise all is put back. Other users of the data keep it as it is; the o
 changed get a copy of their own, shared among them.
 
 Meshes that one object alone shows unmodified need no trial: see `reframe_meshes`. Other unrelated objects are changed
-side by side. One that is refused so is tried again alone, in case another's change was the reason.
+side by side. An object that is refused is tried again alone, in case the change of another object was the reason.
 """
 
 from __future__ import annotations
@@ -43,7 +43,15 @@ from .findings import (
     SHOWS_INSTANCES,
     TRANSFORM_CONSTRAINED,
 )
-from .reframe_meshes import Plan, data_change, location_tolerance, reframe_own_meshes, shows_own_mesh
+from .reframe_meshes import (
+    Plan,
+    data_change,
+    largest_move,
+    location_tolerance,
+    reframe_own_meshes,
+    shows_own_mesh,
+    transform_meshes,
+)
 from .transforms import (
     FLOAT32,
     MAX_SHEAR,
@@ -147,7 +155,7 @@ def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
         for group_change, members in data_groups:
             if (
                 not above & {member.obj for member in members}
-                and _largest_move(change, group_change, reach) <= SAME_SHAPE_RTOL * plan.size
+                and largest_move(change - group_change, reach) <= SAME_SHAPE_RTOL * plan.size
             ):
                 members.append(plan)
                 break
@@ -155,11 +163,6 @@ def _groups(plans: Iterable[Plan]) -> list[list[Plan]]:
             data_groups.append((change, [plan]))
             groups.append(data_groups[-1][1])
     return groups
-
-
-def _largest_move(first: Matrix4, second: Matrix4, reach: float) -> float:
-    difference = np.abs(first - second)
-    return difference[:3, :3].sum() * reach + difference[:3, 3].max()
 
 
 def _reframe_group(group: list[Plan], users: dict[Object, set[Object]]) -> SceneChange:
@@ -281,7 +284,8 @@ def _parent_matrix(obj: Object) -> Matrix4:
 def transform_data(data: ID, change: Matrix4) -> None:
     """Map every control point of the data and its shape keys, p → change · p, or raise EditRefusedError."""
     if isinstance(data, bpy.types.Mesh):
-        _transform_mesh(data, change)
+        if data.vertices:
+            _transform_mesh(data, change)
     elif isinstance(data, bpy.types.TextCurve):
         _translate_text(data, change)
     elif isinstance(data, bpy.types.Curve):
@@ -291,24 +295,16 @@ def transform_data(data: ID, change: Matrix4) -> None:
 
 
 def _transform_mesh(mesh: bpy.types.Mesh, change: Matrix4) -> None:
-    exact = _transform_points(mesh.attributes["position"].data, "vector", change) if mesh.vertices else None
     keys = [block.data for block in mesh.shape_keys.key_blocks] if mesh.shape_keys else []
-    exact_keys = [_transform_points(key, "co", change) for key in keys]
-    # Blender's own transform also turns custom normals; its float32 coordinates are replaced by the
-    # exact ones.
-    mesh.transform(Matrix(change))
-    if exact is not None:
-        mesh.attributes["position"].data.foreach_set("vector", exact)
+    exact_keys = [_transform_points(key, change) for key in keys]
+    transform_meshes([mesh], change[None])
     for key, points in zip(keys, exact_keys):
         key.foreach_set("co", points)
-    if np.linalg.det(change[:3, :3]) < 0.0:
-        mesh.flip_normals()
-    mesh.update()
 
 
-def _transform_points(collection, name: str, change: Matrix4) -> NDArray[np.float32]:
-    points = np.empty(3 * len(collection), np.float32)
-    collection.foreach_get(name, points)
+def _transform_points(key, change: Matrix4) -> NDArray[np.float32]:
+    points = np.empty(3 * len(key), np.float32)
+    key.foreach_get("co", points)
     points = points.reshape(-1, 3).astype(np.float64) @ change[:3, :3].T + change[:3, 3]
     return np.ascontiguousarray(points, np.float32).ravel()
 

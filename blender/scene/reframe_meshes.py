@@ -19,6 +19,7 @@ from bpy.types import Context, Mesh, Object
 from mathutils import Matrix
 from numpy.typing import NDArray
 
+from ...core.numerics.arrays import PerBody
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, finding
 from .changes import ancestors
@@ -54,8 +55,18 @@ class Plan:
 
 def location_tolerance(obj: Object, size: float) -> float:
     """Return the tolerance of an origin's location, by float32 rounding of the size and of all ancestors' locations."""
-    reach = max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj))
+    return rounding_of_locations(size, max(np.abs(world(ancestor)[:3, 3]).max() for ancestor in ancestors(obj)))
+
+
+def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
+    """Return the tolerance of origins with locations up to `reach`, of bodies of a size."""
     return 4e-7 * size + 4.0 * FLOAT32 * reach
+
+
+def largest_move(difference: NDArray, reach: float) -> NDArray[np.float64]:
+    """Return the (...,) largest moves of points up to `reach` by (..., 4, 4) differences of maps."""
+    off = np.abs(difference)
+    return off[..., :3, :3].sum(axis=(-2, -1)) * reach + off[..., :3, 3].max(axis=-1)
 
 
 def data_change(was: NDArray, now: NDArray, move_only: bool) -> NDArray[np.float64]:
@@ -132,7 +143,7 @@ def _reframe_alike(
     change = data_change(was, now, move_only)
     size = np.array([plan.size for plan in plans])
     off = np.abs(now - targets)
-    fits &= off[:, :3, 3].max(axis=1) <= 4e-7 * size + 4.0 * FLOAT32 * np.abs(now[:, :3, 3]).max(axis=1)
+    fits &= off[:, :3, 3].max(axis=1) <= rounding_of_locations(size, np.abs(now[:, :3, 3]).max(axis=1))
     fits &= off[:, :3, :3].max(axis=(1, 2)) <= MAX_SHEAR * np.abs(targets[:, :3, :3]).max(axis=(1, 2))
     # Rounding may move points far from their origin by as much.
     boxes = np.array([obj.bound_box for obj in objects]) @ change[:, :3, :3].swapaxes(1, 2) + change[:, None, :3, 3]
@@ -143,7 +154,7 @@ def _reframe_alike(
     chosen = np.flatnonzero(fits)
     wanted = data_change(was, targets, move_only)  # free of the rounding of places far from the origin
     owners = _give_meshes([plans[i] for i in chosen.tolist()], wanted[chosen], np.abs(boxes[chosen]).max(axis=(1, 2)))
-    _transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
+    transform_meshes([objects[chosen[i]].data for i in owners], change[chosen[owners]])
     context.view_layer.update()
     return [objects[i] for i in chosen.tolist()]
 
@@ -168,7 +179,7 @@ def _give_meshes(plans: Sequence[Plan], changes: NDArray, reach: NDArray) -> lis
 
 
 def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) -> list[list[int]]:
-    """Return the indices of changes in groups that move no point farther apart than `within`."""
+    """Return groups of indices of changes that move any point within `reach` to almost the same place, to `within`."""
     # Equal changes have nearly equal weighted sums, so that only neighbors after a sort by sums are compared.
     limit, weights = np.array(within), np.cos(np.arange(12.0)).reshape(3, 4)  # for entries no larger than 1
     weights[:, :3] *= reach.min()
@@ -187,8 +198,7 @@ def _group_changes(changes: NDArray, reach: NDArray, within: Sequence[float]) ->
         near = order[start:end]
         near = np.sort(near[is_left[near]])
         if len(near) > 1:
-            off = np.abs(changes[near] - changes[first])
-            far = off[:, :3, :3].sum(axis=(1, 2)) * reach[first] + off[:, :3, 3].max(axis=1)
+            far = largest_move(changes[near] - changes[first], reach[first])
             near = near[(far <= limit[first]) | (near == first)]
         is_left[near] = False
         groups.append(near.tolist())
@@ -214,7 +224,7 @@ def _set_rotations_and_scales(objects: Sequence[Object], linear: NDArray) -> NDA
     return fits
 
 
-def _transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
+def transform_meshes(meshes: Sequence[Mesh], changes: NDArray) -> None:
     """Map the points of each mesh, p → change · p, in float64."""
     flips = np.linalg.det(changes[:, :3, :3]) < 0.0
     counts = [len(mesh.vertices) for mesh in meshes]

@@ -68,7 +68,7 @@ def read_placed(
         if row is not None:  # Blender's voxels are even: the first and the last are where they belong
             matrix[:3, axis] *= row[-1] / (len(row) - 1)
     target = path.with_name(path.name[: -len(scan_suffix(path))] + ".vdb")
-    return PlacedScan(scan, matrix, positions, findings, target)
+    return PlacedScan(scan, matrix, positions, (*scan.findings, *findings), target)
 
 
 def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:

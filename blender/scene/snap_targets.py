@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Targets of snapping operators: the place of a body, in Blender units, and the new frames for its object.
 
-Directions of nearly equal moments are not fixed by a body whose coordinates are float32: measured again they turn, by
-about rounding over the gap between the moments. Whether axes are principal is therefore decided by the tensor, which
-must be diagonal in them to rounding, not from the angle between two measured frames.
+Coordinates in float32 do not fix the directions of nearly equal moments: when a body is measured again, they turn by
+about the rounding divided by the gap between the moments. Whether axes are principal is therefore decided by the
+tensor, which must be diagonal in them to rounding, not from the angle between two measured frames.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ...core.inertia.mass_properties import MassProperties
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
-from ...core.inertia.third_moment_frames import EQUAL_AXES
+from ...core.inertia.tensors import EQUAL_AXES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Verdict

@@ -20,15 +20,19 @@ from bpy.types import Context, Curve, Object, Scene
 from numpy.typing import NDArray
 
 from ...core.cad.surface_file import read_surfaces
-from ...core.cad.surfaces import SurfaceBody
+from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.numerics.float32 import shortest_decimal
-from ...core.nurbs.patch import Patch
+from ...core.nurbs.bezier_form import bezier_space
+from ...core.nurbs.flat_face import FlatFace
+from ...core.nurbs.patch import Face, Patch
 from ...core.scans.limits import Limits
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
+from ..read.nurbs.splines import keep_faces
 from .findings import SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
+SHOWN_SAMPLES = 16  # per span, of surfaces that Blender's splines cannot be
 MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
 
 
@@ -36,8 +40,8 @@ def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> 
     """Return a surface object in no collection, and the largest effect of float32 on a point as a share of its size.
 
     patches: with the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
-    patches do. factor: Blender units for a unit of the patches.
-    The object's origin is that of the patches, or among them if they are far from it.
+    patches do. factor: Blender units for a unit of the patches. The object's origin is the origin of the patches'
+    coordinates, or a point among the patches if they are far from it.
     """
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
@@ -158,20 +162,47 @@ def _grid(scene: Scene, shape: tuple[int, int]) -> Curve:
 def import_bodies(
     bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float
 ) -> list[tuple[Object, float]]:
-    """Add an object of each body to a collection; return the pairs of `surface_object`."""
+    """Add an object of each body, of patches alone, to a collection; return the pairs of `surface_object`."""
     made = []
     for body in bodies:
-        obj, moved = surface_object(body.name, body.patches, factor)
+        obj, moved = surface_object(body.name, [patch for patch in body.patches if isinstance(patch, Patch)], factor)
         collection.objects.link(obj)
         made.append((obj, moved))
     return made
 
 
-class ImportedSurfaces(NamedTuple):
-    """Objects of a file of surfaces, with the number and the highest order of their patches.
+def show_bodies(bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float) -> list[Object]:
+    """Add an object of each body, with any faces, to a collection; it shows them and is measured by them."""
+    made = []
+    for body in bodies:
+        obj, _ = surface_object(body.name, list(map(_shown, body.patches)), factor)
+        for spline in obj.data.splines:
+            if spline.order_u == spline.order_v == 2:
+                spline.resolution_u = spline.resolution_v = 1
+        matrix = np.diag([factor, factor, factor, 1.0])
+        matrix[:3, 3] -= obj.location
+        keep_faces(obj.data, tuple(face.transform(matrix) for face in body.patches), factor * body.rounding)
+        collection.objects.link(obj)
+        made.append(obj)
+    return made
 
-    findings: about what was left out or decided.
-    """
+
+def _shown(face: Face) -> Patch:
+    """Return a patch that Blender can hold and that looks like a face: the patch itself, or one through samples."""
+    if isinstance(face, FlatFace):
+        a, b, c, d = np.moveaxis(face.quads(SHOWN_SAMPLES), 1, 0)
+        # A band along all trapezoids, with folds of no width between them.
+        points = np.stack([np.stack([a, b, c, d], axis=1), np.stack([a, a, d, d], axis=1)], axis=2).reshape(-1, 2, 3)
+    else:
+        assert isinstance(face, Patch)
+        if max(space.order for space in face.spaces) <= MAX_ORDER and is_storable(face):
+            return face
+        points = face.samples(SHOWN_SAMPLES)
+    return Patch((bezier_space(len(points), 2), bezier_space(points.shape[1], 2)), points)
+
+
+class ImportedSurfaces(NamedTuple):
+    """Objects of a file of surfaces, with the number and the highest order of their patches, and findings."""
 
     objects: list[Object]
     patches: int

@@ -116,7 +116,7 @@ def set_location(obj: Object, location: NDArray, tolerance: float) -> None:
 
 
 def rotation_and_scale(linear: NDArray, scale: NDArray) -> tuple[NDArray[np.float64], NDArray, NDArray[np.bool_]]:
-    """Return rotations and scales (signs of `scale`) of (..., 3, 3) maps, and a mask of maps without shear or zeros."""
+    """Return rotations and scales, signed as `scale`, of (..., 3, 3) maps, and a mask of maps without shear or zero."""
     length = np.linalg.norm(linear, axis=-2)
     sign = np.where(scale < 0.0, -1.0, 1.0)
     sign[..., 0] *= np.where(np.prod(sign, axis=-1) * np.linalg.det(linear) < 0.0, -1.0, 1.0)

@@ -2,29 +2,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The displayed numbers of objects, and the trust in them: panels, list and overlay ask here.
 
-Panels of stored numbers are drawn without numpy; live numbers and sums are computed by other modules.
+Panels of stored numbers are drawn without numpy; live numbers are computed by other modules.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import bpy
 from bpy.types import Context, Object, PoseBone, Scene
 
+from ...core.measurement.trust import Trust, trust_of
 from ...core.numerics.float32 import shortest_decimal
-from ...core.solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
-from ...core.verdict.finding import Finding, Severity
-from ...core.verdict.findings import FLIPPED_FACES
+from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Verdict
-from ...core.verdict.sentences import severity
+from .. import read
 from ..read.fingerprint import has_transform, settings_hash
-from ..read.total_caveats import open_body_caveats, total_caveats
-from ..write import properties
-from ..write.properties import StoredProperties
-from . import live, stored
+from ..write import numbers, properties
+from ..write.numbers import StoredProperties
+from . import live
 from .live import following
 from .live.following import Lag, LiveResult
 from .tracking import armatures, handlers, updates
@@ -32,20 +29,8 @@ from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
 
-REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
-# Warnings about repairs of the surface: a body with these warnings alone counts as repaired.
-REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
 ASSEMBLY = Method(Verdict.ASSEMBLY)
 BY_OTHERS = ("MATERIALS", "VOLUME")  # densities that change without an update of the object
-
-
-class Trust(StrEnum):
-    """Trust in displayed numbers, the best first."""
-
-    EXACT = "exact"
-    REPAIRED = "repaired"
-    DOUBTFUL = "doubtful"
-    OUT_OF_DATE = "out of date"
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,7 +78,7 @@ class Total:
 
 # By object: the key of its state without its place, the number of its last move, and its last drawn numbers.
 _drawn: SessionCache[tuple[tuple, int, Displayed | None]] = SessionCache()
-_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
+_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the refused settings
 # A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
@@ -104,7 +89,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
     scene: sets the unit scale.
     """
     is_posed = obj.type == "ARMATURE" and armatures.stands_for_meshes(obj)
-    if is_posed and (total := stored.sums.of_meshes(obj, scene)) is not None:
+    if is_posed and (total := _sum_of_meshes(obj, scene)) is not None:
         return total
     current = following.followed.get(obj)
     now = None if current is None else current.result
@@ -133,17 +118,14 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
     if obj.type == "ARMATURE" or obj in following.followed or obj.body_moments.density_from in BY_OTHERS:
         shown = displayed(obj, scene)
         if obj.type == "ARMATURE" and shown is not None and not shown.is_posed:
-            shown = stored.sums.of_bones(obj, scene)
+            shown = _sum_of_bones(obj, scene)
     else:
         shown = _known_displayed(obj, scene) if "body_mass" in obj else None
     return shown if shown is not None and shown.world.mass > 0.0 else None
 
 
 def _known_displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an object that depends on no other; compute them anew only after its changes.
-
-    The numbers of a thousand objects take 0.1 s.
-    """
+    """Return the displayed numbers of an object that depends on no other; compute them anew only after its changes."""
     change, move = updates.last_change_and_move(obj)
     settings, known = scene.body_moments, _drawn.get(obj)
     key = (
@@ -184,12 +166,26 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     return Displayed(own, world, unit, method, findings, trust, reason)
 
 
-def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
-    """Return the trust in numbers that are up to date, by their method and findings."""
-    warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
-    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
-        return Trust.DOUBTFUL
-    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
+def _sum_of_meshes(armature: Object, scene: Scene) -> Displayed | None:
+    """Return the sum of the meshes that an armature deforms and that have numbers; None if they have no mass."""
+    meshes = armatures.deformed_meshes(armature)
+    return _as_one(armature, scene, [shown for mesh in meshes if (shown := displayed(mesh, scene)) is not None])
+
+
+def _sum_of_bones(armature: Object, scene: Scene) -> Displayed | None:
+    """Return the sum of a character's parts in its current pose; its own stored numbers are of the rest pose."""
+    bones = armature.pose.bones
+    return _as_one(armature, scene, [shown for bone in bones if (shown := drawn_bone(bone, scene)) is not None])
+
+
+def _as_one(armature: Object, scene: Scene, parts: Sequence[Displayed]) -> Displayed | None:
+    world = numbers.add([part.world for part in parts])
+    if world is None:
+        return None
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    own = world.in_object(armature.matrix_world, unit)
+    worst = max(parts, key=lambda part: tuple(Trust).index(part.trust))
+    return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
 
 
 def remember_failure(obj: Object, reason: Finding | None) -> None:
@@ -212,11 +208,16 @@ def total(context: Context) -> Total:
     return current_value(_totals, context.scene, key, lambda: _sum(context))
 
 
+def _members(obj: Object, objects: Iterable[Object]) -> list[Object]:
+    """Return the members of an assembly or character: its descendants, and the `objects` that it deforms."""
+    return [*obj.children_recursive, *read.rig.skinned_objects(obj, objects)]
+
+
 def _sum(context: Context) -> Total:
     chosen = armatures.subjects(context.view_layer.objects.selected)
     selected, parts, missing = set(chosen), {}, []
     for obj in chosen:
-        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(stored.sums.members(obj, selected)):
+        if properties.method(obj) == ASSEMBLY and not selected.isdisjoint(_members(obj, selected)):
             continue  # its members count by themselves
         shown = displayed(obj, context.scene)
         if shown is None:
@@ -224,21 +225,21 @@ def _sum(context: Context) -> Total:
         else:
             parts[obj] = shown
     worlds = [shown.world for shown in parts.values()]
-    alone = next((numbers for numbers in worlds if numbers.mass > 0.0), None)
+    alone = next((world for world in worlds if world.mass > 0.0), None)
     stale, doubtful = (
         tuple(obj.name for obj, shown in parts.items() if shown.trust == trust)
         for trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
     )
     return Total(
         len(parts),
-        sum(numbers.volume for numbers in worlds),
-        sum(numbers.area for numbers in worlds),
-        stored.sums.add(worlds) if len(worlds) > 1 else alone,
+        sum(world.volume for world in worlds),
+        sum(world.area for world in worlds),
+        numbers.add(worlds) if len(worlds) > 1 else alone,
         tuple(missing),
         stale,
         doubtful,
         (
-            *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
-            *total_caveats(parts, context.view_layer),
+            *read.total_caveats.open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
+            *read.total_caveats.total_caveats(parts, context.view_layer),
         ),
     )

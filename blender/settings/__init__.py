@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Property groups, the options that override them, and their digests.
-
-Its modules are imported at their first use.
-"""
+"""Property groups, the options that override them, and their digests."""
 
 from typing import TYPE_CHECKING
 

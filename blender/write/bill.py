@@ -8,7 +8,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ...core.inertia.mass_properties import MassProperties
-from ...core.measurement.documents import TENSOR, table
+from ...core.inertia.tensors import TENSOR
+from ...core.measurement.documents import table
 from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.sentences import of_severity, sentence
 

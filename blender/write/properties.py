@@ -11,18 +11,19 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
-from math import hypot, isfinite, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from math import isfinite
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...core import inertia
-from ...core.measurement.documents import TENSOR, plain
+from ...core.inertia.tensors import rotation_axes
+from ...core.measurement.documents import plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.sentences import of_severity, sentence
+from .numbers import BOUND_KEYS, COLUMNS, ROWS, StoredProperties
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -82,95 +83,6 @@ LENGTHS = {
 }
 OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies measured without their display mesh
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
-BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
-ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
-IDENTITY = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-Vector = tuple[float, ...]
-
-
-class StoredProperties(NamedTuple):
-    """Stored results of an object as plain numbers, SI, in the object frame, or in the world after `in_world`.
-
-    center: (3,). inertia: (6,) in the order of ENTRIES. moments, axes: the (3,) principal moments, and the axes as
-    three vectors. error_bound: as in `Measurement`.
-    """
-
-    mass: float
-    density: float
-    volume: float
-    area: float
-    center: Vector
-    inertia: Vector
-    moments: Vector
-    axes: tuple[Vector, ...]
-    error_bound: dict[str, Any]
-
-    @classmethod
-    def of_body(
-        cls, body: MassProperties, density: float, volume: float, area: float, error_bound: dict[str, Any]
-    ) -> StoredProperties:
-        """Return mass properties as plain numbers, with density, volume, area and error bound."""
-        center, entries, moments = body.center.tolist(), body.inertia[ROWS, COLUMNS].tolist(), body.principal.moments
-        axes = tuple(map(tuple, body.principal.axes.T.tolist()))
-        return cls(
-            body.mass, density, volume, area, tuple(center), tuple(entries), tuple(moments.tolist()), axes, error_bound
-        )
-
-    @property
-    def gyration(self) -> Vector:
-        """(3,) radii of gyration about the principal axes."""
-        return tuple(sqrt(max(moment, 0.0) / self.mass) if self.mass > 0.0 else 0.0 for moment in self.moments)
-
-    @property
-    def body(self) -> MassProperties:
-        """The same numbers as MassProperties, for computing."""
-        xx, yy, zz, xy, xz, yz = self.inertia
-        error, moved = (
-            {"mass": bound["volume"] * self.density, "center": bound["center_of_mass"], "inertia": bound["inertia"]}
-            for bound in (self.error_bound, self.error_bound["input"])
-        )
-        return inertia.MassProperties.from_numbers(
-            self.mass,
-            self.center,
-            ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)),
-            self.moments,
-            tuple(zip(*self.axes)),
-            error,
-            moved,
-        )
-
-    def in_world(self, matrix_world: Any, unit: float) -> StoredProperties:
-        """Return the results in the world frame.
-
-        matrix_world: of the object; unit: meters per Blender unit.
-        """
-        location, turn, _ = matrix_world.decompose()
-        columns = rotation_axes(turn)
-        xx, yy, zz, xy, xz, yz = self.inertia
-        rows = tuple(zip(*columns))
-        half = [[_dot(row, column) for column in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))] for row in rows]
-        return self._replace(
-            center=tuple(_dot(row, self.center) + unit * along for row, along in zip(rows, location)),
-            inertia=tuple(_dot(half[i], rows[j]) for _, i, j in TENSOR),
-            axes=tuple(tuple(_dot(row, axis) for row in rows) for axis in self.axes),
-        )
-
-
-def _dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def rotation_axes(turn: Sequence[float]) -> tuple[Vector, ...]:
-    """Return the axes of a rotation, the columns of its matrix, from a quaternion of any length."""
-    length = hypot(*turn)
-    if not length > 0.0:
-        return IDENTITY
-    w, x, y, z = (value / length for value in turn)
-    return (
-        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
-        (2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)),
-        (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)),
-    )
 
 
 def store(obj: Owner, measurement: Measurement) -> None:

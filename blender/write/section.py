@@ -21,7 +21,7 @@ from .properties import findings_in, findings_text, warning_lines
 from .units import clean, report_line, report_number, report_vector, rounded_up
 
 if TYPE_CHECKING:
-    from ...core.flat.section import Section
+    from ...core.flat.section_properties import Section
 
 KEY = "body_section"
 BOUND_KEYS = ("area", "perimeter", "centroid", "second")
@@ -107,7 +107,9 @@ def stored(obj: bpy.types.Object) -> StoredSection | None:
         return None
     if tuple(map(len, numbers)) != tuple(LENGTHS.values()):
         return None
-    return _from_keys(numbers, words)
+    values = dict(zip(LENGTHS, numbers))
+    positive = *values["area"], *values["second"][:2], *values["reach"]
+    return _from_keys(numbers, words) if all([value > 0.0 for value in positive]) else None
 
 
 def clear(obj: bpy.types.Object) -> bool:
@@ -121,14 +123,17 @@ def clear(obj: bpy.types.Object) -> bool:
 @lru_cache(maxsize=64)
 def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -> StoredSection:
     values, (what, named, findings, fingerprint) = dict(zip(LENGTHS, numbers)), words
-    axes = values["axes"]
-    section = core.flat.Section.from_numbers(
-        (values["origin"], (axes[0::3], axes[1::3], axes[2::3]), values["off"][0], named),
+    axes, (off,), (outlines, holes) = values["axes"], values["off"], values["counts"]
+    loaded = core.flat.section_properties  # when there is a section to read
+    section = loaded.Section(
+        loaded.Plane(values["origin"], (axes[0::3], axes[1::3], axes[2::3]), off, named),
         values["area"][0],
         values["perimeter"][0],
-        (values["centroid"], values["second"], values["reach"]),
-        int(values["counts"][0]),
-        int(values["counts"][1]),
+        values["centroid"],
+        values["second"],
+        values["reach"],
+        int(outlines),
+        int(holes),
         dict(zip(BOUND_KEYS, values["error"])),
         dict(zip(BOUND_KEYS, values["input"])),
     )
@@ -145,7 +150,7 @@ def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
 
 def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> Iterator[str]:
     section, plane = stored_section.section, stored_section.section.plane
-    x, y, normal = plane.axes.T
+    x, y, normal = zip(*plane.axes)
     yield "Section properties, SI units, world frame"
     yield ""
     yield name
@@ -157,7 +162,7 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     )
     yield report_line("Area", "{} m²".format(report_number(section.area)))
     yield report_line("Perimeter", "{} m".format(report_number(section.perimeter)))
-    yield report_line("Centroid", "{} m".format(report_vector(section.center.tolist(), section.area**0.5)))
+    yield report_line("Centroid", "{} m".format(report_vector(section.center, section.area**0.5)))
     yield report_line(
         "Plane",
         "normal {}, x {}, y {}; x nearest to the object's {} axis".format(
@@ -166,12 +171,10 @@ def _lines(name: str, stored_section: StoredSection, outdated: str | None) -> It
     )
     yield report_line(
         "Centroid in plane",
-        "{} m, from the foot of the object's origin".format(
-            report_vector(section.centroid.tolist(), section.area**0.5)
-        ),
+        "{} m, from the foot of the object's origin".format(report_vector(section.centroid, section.area**0.5)),
     )
     yield report_line("Second moments", "about the centroid, along x and y of the plane, m⁴ (Ixy = +∫xy dA)")
-    for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second.tolist(), section.polar)):
+    for label, value in zip(("Ix", "Iy", "Ixy"), clean(section.second, section.polar)):
         yield report_line("  " + label, report_number(value))
     yield report_line("  Polar Jp", "{} = Ix + Iy; not the torsion constant".format(report_number(section.polar)))
     first, second = section.principal

@@ -28,11 +28,11 @@ def save(
     check: Callable[[Path], None] | None = None,
     plane: Mapping[str, Any] | None = None,
 ) -> None:
-    """Write an .npz file, whole or not at all.
+    """Write a spectrum as an .npz file, whole or not at all.
 
-    It has q (M, 3) in rad/m, F (M,) complex in m³ or m², error (M,) and input, bounds of rounding and of storing
-    coordinates as float32, method and frame. check: as in `whole_file`. plane: `FLAT_SPECTRUM_ARRAYS` of a flat shape
-    with q (M, 2). Raises OSError.
+    The arrays are q, (M, 3) in rad/m; F, (M,) complex in m³ or m²; error, (M,) bounds of the rounding; input, a bound
+    of the error by float32 coordinates; method; frame. check: as in `whole_file`. plane: the further
+    `FLAT_SPECTRUM_ARRAYS` of a flat shape, for which q is (M, 2). Raises OSError.
     """
     with whole_file(path, check) as file:
         arrays = spectrum.q, spectrum.values, spectrum.error, spectrum.input_error, spectrum.method, frame

@@ -9,21 +9,21 @@ that the report can state everything that JSON states. Entries missing in a docu
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-from contextlib import suppress
 from math import sqrt
 from typing import Any
 
-from ...core.inertia.mass_properties import MassProperties, combine
-from ...core.measurement.documents import TENSOR, document, plain
+from ...core.inertia.tensors import TENSOR, principal_axes, tensor_rows
+from ...core.measurement.documents import document, plain
 from ...core.measurement.plain_text import visible
 from ...core.measurement.record import described
 from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from ...core.verdict.finding import Finding, ReadError, finding
 from ...core.verdict.method import Method, Verdict
 from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS
+from .numbers import StoredProperties, add
 from .units import INDENT, clean, report_line, report_number, report_vector, rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
@@ -60,7 +60,7 @@ def stored_document(
             errors.append({"name": obj.name, "reason": ReadError(NO_STORED_RESULTS).reason})
             continue
         world = stored.in_world(obj.matrix_world, unit)
-        bodies.append(world.body)
+        bodies.append(world)
         entries.append(_stored_record(obj, world if frame == "world" else stored, obj.name in outdated))
     total = _stored_total(entries, bodies) | described(caveats)
     return document(entries, total, errors, file=file, blender=blender, frame=frame)
@@ -173,7 +173,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
             yield report_line(label, ", ".join(parts))
 
 
-def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool) -> dict[str, Any]:
+def _stored_record(obj: Any, stored: StoredProperties, outdated: bool) -> dict[str, Any]:
     """Return the record of an object's stored results; its health is empty, because it is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
@@ -191,7 +191,7 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
         "volume": stored.volume,
         "area": stored.area,
         "center_of_mass": stored.center,
-        "inertia": stored.body.inertia,
+        "inertia": tensor_rows(stored.inertia),
         "principal_moments": stored.moments,
         "principal_axes": tuple(zip(*stored.axes)),
         "symmetry": None,
@@ -207,17 +207,15 @@ def _stored_record(obj: Any, stored: properties.StoredProperties, outdated: bool
     return plain(entry)
 
 
-def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[MassProperties]) -> dict[str, Any]:
+def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[StoredProperties]) -> dict[str, Any]:
     """Return the sum of all stored results as one body, world frame.
 
     Principal axes are left out: their signs need third moments, which are not stored.
     """
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
-    if bodies:
-        with suppress(MeasureError):  # together they have no mass
-            whole = combine([(body.as_moments(), 1.0) for body in bodies])
-            total |= {"center_of_mass": whole.center, "inertia": whole.inertia}
-            total |= {"principal_moments": whole.principal.moments}
-            total |= {"symmetry": whole.principal.symmetry}
+    whole = add(bodies)
+    if whole is not None:
+        total |= {"center_of_mass": whole.center, "inertia": tensor_rows(whole.inertia)}
+        total |= {"principal_moments": whole.moments, "symmetry": principal_axes(whole.inertia)[2]}
     return plain(total)

@@ -120,7 +120,7 @@ class Units(NamedTuple):
         return ["{:s} {:s}".format(text, name).rstrip() for text in column(shown, self.digits, self.grouping)]
 
     def bound(self, quantity: str, bound: float, beside: float) -> str:
-        """Return an SI error bound, to two digits, upward, in the unit of its value: "± 4.5e-15 m³"."""
+        """Return an SI error bound, rounded up to two digits, in the unit of its value: "± 4.5e-15 m³"."""
         factor, name = self.unit(quantity, abs(beside))
         return "± {:s} {:s}".format(number(rounded_up(bound / factor), 2, self.grouping), name).rstrip()
 
@@ -171,7 +171,7 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
 
 
 def rounded_up(bound: float) -> float:
-    """Return a bound rounded up to two digits: a bound that is rounded down is none."""
+    """Return a bound rounded up to two digits, as rounding down would make it wrong."""
     text = "{:.1e}".format(bound)
     if not float(text) < bound:
         return float(text)

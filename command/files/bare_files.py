@@ -36,8 +36,8 @@ _NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
 class BareFile:
     """A file measured without Blender.
 
-    options: those of the command line. objects, errors: entries of the document. measured: name, None for the object,
-    and measurement. refusal: the error if there is no measurement.
+    options: those of the command line. objects, errors: entries of the document. measured: the name, None in place of
+    an object, and the measurement. refusal: the error if there is no measurement.
     """
 
     path: str

@@ -21,7 +21,6 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
-import addon_utils
 import bpy
 
 from ...core.scans import formats as scans
@@ -33,8 +32,10 @@ from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from .finite import check_numbers
 from .import_3mf import import_3mf
+from .import_gltf import import_gltf
 from .import_surfaces import import_iges, import_obj
-from .references import Opened, import_usd
+from .import_usd import import_usd
+from .references import Opened
 
 BLEND = ".blend"
 _OLDEST = (2, 50)  # reading files of older versions can damage their content
@@ -45,7 +46,6 @@ STREAMED = (".stl", ".ply")  # formats that can be measured without an import
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
-# Without disable_bone_shape, the importer of glTF adds objects that would be measured.
 _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
     ".obj": import_obj,
@@ -53,10 +53,7 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
     ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
     ".3mf": import_3mf,
     **dict.fromkeys((".igs", ".iges"), import_iges),
-    **dict.fromkeys(
-        (".glb", ".gltf"),
-        lambda path: bpy.ops.import_scene.gltf(filepath=path, disable_bone_shape=True),
-    ),
+    **dict.fromkeys((".glb", ".gltf"), import_gltf),
     **dict.fromkeys(USD, import_usd),
 }
 
@@ -84,9 +81,6 @@ def _opened(path: str) -> Opened:
         return Opened()
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     try:
-        if kind in (".glb", ".gltf"):
-            # An add-on that comes with Blender, and may be switched off.
-            addon_utils.enable("io_scene_gltf2")
         found = _IMPORTERS[kind](absolute)
     except AttributeError as error:
         raise FileError(FILE_UNREADABLE, error="it has no importer for {} files".format(kind)) from error

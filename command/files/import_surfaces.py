@@ -11,9 +11,9 @@ import re
 
 import bpy
 
-from ...blender.scene.findings import SURFACES_ROUNDED
-from ...blender.scene.surface_objects import import_bodies
+from ...blender.scene.surface_objects import show_bodies
 from ...blender.settings.limits import scan_limits
+from ...core.cad.findings import FACES_NOT_READ
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
@@ -25,7 +25,7 @@ _MESH = re.compile(rb"[ \t]*(?:f|l|curv)[ \t]")  # the elements that Blender's i
 
 def import_iges(path: str) -> Opened:
     """Add the surfaces of a file to the scene, in meters. Raises FileError and OSError."""
-    return _added(read_surfaces(path, scan_limits()))
+    return _added(read_surfaces(path, scan_limits(), for_blender=False))
 
 
 def import_obj(path: str) -> Opened:
@@ -39,7 +39,7 @@ def import_obj(path: str) -> Opened:
     with open(path, "rb") as file:
         has_faces = any(_MESH.match(line) for line in file)
     try:
-        opened = _added(read_surfaces(path, scan_limits()))
+        opened = _added(read_surfaces(path, scan_limits(), for_blender=False))
     except FileError as error:
         if not has_faces:
             raise
@@ -51,9 +51,8 @@ def import_obj(path: str) -> Opened:
 
 def _added(file: SurfaceFile) -> Opened:
     unit = 1.0 if file.unit is None else file.unit
-    made = import_bodies(file.bodies, bpy.context.scene.collection, unit)
+    made = show_bodies(file.bodies, bpy.context.scene.collection, unit)
     bpy.context.view_layer.update()
-    by_object: dict[str, tuple[Finding, ...]] = {
-        obj.name: (finding(SURFACES_ROUNDED, share=moved),) if moved else () for obj, moved in made
-    }
+    unread = (finding(FACES_NOT_READ, count=file.unread),) if file.unread else ()
+    by_object: dict[str, tuple[Finding, ...]] = {obj.name: unread for obj in made}
     return Opened(file.refused, file.notes, by_object)

@@ -8,9 +8,8 @@ import os
 import re
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import partial
 
 import bpy
 
@@ -27,27 +26,26 @@ class Opened:
     """Findings about an opened file.
 
     errors: parts of the file, or references, that are missing now. notes: about the whole file. by_object: about one
-    object, by its name.
+    object, by its name. hidden: the reasons why the file does not show objects, by their names.
     """
 
     errors: tuple[Finding, ...] = ()
     notes: tuple[Finding, ...] = ()
     by_object: Mapping[str, tuple[Finding, ...]] = field(default_factory=dict)
+    hidden: Mapping[str, Finding] = field(default_factory=dict)
 
 
-def import_usd(path: str) -> Opened:
-    """Import a USD file, and return errors about layers, references and payloads that USD reports as missing.
+def reported_references(import_file: Callable[[], object]) -> tuple[Finding, ...]:
+    """Run an import, and return an error about layers, references and payloads that USD reports as missing.
 
     Output to the standard error meanwhile appears there afterwards.
     """
-    # Invisible prims are imported hidden, and hidden objects are reported; left out, they would be missed in silence.
-    import_file = partial(bpy.ops.wm.usd_import, filepath=path, import_visible_only=False)
     sys.stderr.flush()
     try:
         standard_error = os.dup(2)
     except OSError:  # it is closed
         import_file()
-        return Opened()
+        return ()
     with tempfile.TemporaryFile() as printed:
         os.dup2(printed.fileno(), 2)
         try:
@@ -64,7 +62,7 @@ def import_usd(path: str) -> Opened:
     for report in _REPORT.findall(text.decode("utf-8", "replace")):
         asset = _ASSET.search(report)
         names.add("".join(part or "" for part in asset.groups()) if asset else report)
-    return Opened((finding(MISSING_REFERENCES, names=sorted(names)),) if names else ())
+    return (finding(MISSING_REFERENCES, names=sorted(names)),) if names else ()
 
 
 def missing_links() -> Iterator[Finding]:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import bpy
@@ -15,7 +15,7 @@ from ...blender.read.visibility import measurable, measurable_objects
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
 from ...core.scans.findings import OTHERS_LEFT_OUT
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict.finding import Finding, finding, unique
 from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED
 
 
@@ -24,18 +24,29 @@ def failure(name: str | None, reason: Finding) -> dict[str, Any]:
     return {"name": name, "reason": str(reason)}
 
 
+def said_once(entries: Sequence[dict[str, Any]], code: str) -> Iterator[Finding]:
+    """Yield the finding with a code, to be said once of a file, if several records all have it; it leaves them."""
+    found = [(entry, one) for entry in entries for one in entry["findings"] if one["code"] == code]
+    if len(found) < len(entries) or len(entries) < 2:
+        return
+    for entry, one in found:
+        entry["findings"].remove(one)
+        entry["warnings"].remove(one["message"])
+    yield from unique(finding(code, **one["values"]) for _, one in found)
+
+
 def why_nothing(left_out: int) -> Finding:
     """Return the reason why a file without errors has no records."""
     return finding(NOTHING_RENDERED, count=left_out) if left_out else finding(NO_MEASURABLE_OBJECT)
 
 
 def objects_to_measure(
-    names: list[str] | None, everything: bool
+    names: list[str] | None, everything: bool, hidden: Mapping[str, Finding]
 ) -> tuple[list[tuple[str, bpy.types.Object]], list[dict[str, Any]], list[dict[str, Any]]]:
     """Return the objects to measure, the objects left out, and the errors.
 
     The objects to measure come with unique names, the objects left out with a reason; each unknown name is an error.
-    everything: True to leave out nothing.
+    everything: True to leave out nothing. hidden: the reasons why the file does not show objects, by their names.
 
     Objects that the view layer excludes are included if another one renders them: reading them reports the reason.
     """
@@ -47,7 +58,9 @@ def objects_to_measure(
         candidates = {*measurable_objects(layer), *_excluded(scene, layer)}
         reasons = {} if everything else left_out_reasons(scene, layer)
         chosen = [(label, obj) for obj, label in labels.items() if obj in candidates and obj not in reasons]
-        left_out = [failure(labels[obj], reason) for obj, reason in reasons.items() if obj in candidates]
+        left_out = [
+            failure(labels[obj], hidden.get(obj.name, reason)) for obj, reason in reasons.items() if obj in candidates
+        ]
         return chosen, left_out, []
     chosen, errors = [], []
     for name in names:

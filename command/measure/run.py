@@ -50,11 +50,12 @@ from ..findings import (
 )
 from ..interruption import Progress, check_interruption
 from ..options import density as density_options
+from ..options.arguments import run_of
 from ..options.file import body_findings, file_findings, is_unitless
 from . import assets, flat, fourier, robots
 from .combined import Combined, measure_combined
 from .measuring import measure_shape, measured_together, thumbnail_of
-from .objects import failure, objects_to_measure, other_scenes, why_nothing
+from .objects import failure, objects_to_measure, other_scenes, said_once, why_nothing
 
 _STATUSES: dict[str, str] = {FILE_MISSING: "missing", FILE_VERSION_UNSUPPORTED: "unsupported_version"}
 
@@ -136,7 +137,7 @@ class Run:
                 # Not set in the scene, whose unit scale is a float32 with limits.
                 unit = (self.options.unit_scale or 1.0) if is_unitless(path) else None
                 wanted = replace(wanted, unit_scale=unit)
-                chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all)
+                chosen, left_out, errors = objects_to_measure(self.options.object, self.options.all, opened.hidden)
                 errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
                 of_file = (
                     *opened.notes,
@@ -156,6 +157,7 @@ class Run:
                     errors.extend(self._fourier(chosen, wanted, [*objects, *flats]))
                 if not objects and not flats and not errors:
                     errors.append(failure(None, why_nothing(len(left_out))))
+            caveats += said_once(objects, DENSITY_DEFAULTED)
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
                 errors.extend(combined.store(self._internal_error))
@@ -186,6 +188,7 @@ class Run:
             blender=".".join(map(str, bpy.app.version)),
             frame=self.options.frame,
             status=self._status,
+            run=run_of(self.options),
         )
         made |= combined.records(self.options.frame) | ({"flat": flats} if self.options.flat else {})
         return robots.complete(made, measured, self.options, wanted, is_opened=is_opened)

@@ -10,12 +10,11 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import pkgutil
 import shutil
 import sys
 import tempfile
-import tomllib
 from argparse import Namespace
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
@@ -24,13 +23,13 @@ from typing import Any
 
 from ...core.files.whole_file import hidden_path
 from ...core.measurement.documents import failed_document
-from ...core.measurement.plain_text import PROGRAM, print_message
+from ...core.measurement.plain_text import PROGRAM, counted, print_message
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
 from ..files import output, own_results
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
 from ..options import targets
-from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers
+from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers, run_of, version
 from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
 from ..parser import UsageError
@@ -39,8 +38,6 @@ from ..supervisor.journal import Journal, locked, state
 from ..supervisor.lifeline import end_with_window
 from ..supervisor.pool import ChildError, Limits, Pool, SetupError, TaskOutcome
 from ..supervisor.progress import Progress
-
-_ROOT = __name__.removesuffix(".command.measure.supervised")
 
 
 def measure(options: Namespace, channel: int, opened: str | None) -> int:
@@ -81,7 +78,7 @@ def files_of(options: Namespace) -> list[str]:
     try:
         paths = [*listing.expand(options.files)]
         if options.manifest is not None:
-            paths += listing.read(options.manifest)
+            paths += listing.read(options.manifest, options.part)
     except UsageError as error:
         fail(str(error))
     except OSError as error:
@@ -188,15 +185,22 @@ class _Supervised:
 
     def _measure(self, pool: Pool, journal: Journal) -> None:
         blender = pool.about["blender"]
-        common = {"options": _digest(self._options), "addon": _version(), "blender": blender}
-        limits = {"seconds": self._limits.seconds, "memory": self._limits.memory}
+        common = {"options": _digest(self._options), "addon": version(), "blender": blender}
+        limits, known = {"seconds": self._limits.seconds, "memory": self._limits.memory}, []
         if self._options.resume:
             entries = {path: journal.entries.get(path) for path in self.tasks}
             keys = {path: {"path": path, **state(path), **common} for path in self.tasks}
-            missing = [path for path, entry in entries.items() if not (entry and entry.serves(keys[path], limits))]
+            given, retried = run_of(self._options)["options"], self._options.retry_failed
+            reasons = {
+                path: entry.reason_to_measure(keys[path], given, limits, retried) if entry else "not recorded"
+                for path, entry in entries.items()
+            }
+            missing = [path for path, reason in reasons.items() if reason is not None]
             self.done = len(self.tasks) - len(missing)
+            known = [entry.status for path, entry in entries.items() if entry and reasons[path] is None]
+            _report_reuse(reasons)
             pool.add(missing)
-        progress = Progress(len(self.tasks), self.done)
+        progress = Progress(len(self.tasks), known)
         while not pool.is_done:
             for outcome in pool.step():
                 status, reason, text = self._recorded(outcome, blender)
@@ -231,7 +235,7 @@ class _Supervised:
             reason = finding(FILE_TOOK_MEMORY, megabytes=self._limits.memory / 1e6)
         else:
             reason = finding(FILE_CRASHED, how=outcome.how, count=outcome.attempts)
-        values = {"blender": blender, "frame": self._options.frame}
+        values = {"blender": blender, "frame": self._options.frame, "run": run_of(self._options)}
         document = failed_document(outcome.task, str(reason), outcome.status, **values)
         return outcome.status, reason, json.dumps(document).encode()
 
@@ -267,14 +271,16 @@ class _Documents:
         return map(self.journal.document, self.paths)
 
 
+def _report_reuse(reasons: dict[str, str | None]) -> None:
+    """Print how many files of an earlier run are reused, and why the others are not."""
+    again = Counter(reason for reason in reasons.values() if reason is not None)
+    text = "{} of {} reused".format(len(reasons) - again.total(), counted(len(reasons), "file"))
+    parts = ["{} {}".format(count, reason) for reason, count in again.most_common()]
+    print_message("; ".join([text, *(["to measure: " + ", ".join(parts)] if parts else [])]))
+
+
 def _digest(options: Namespace) -> str:
     """Return a digest of the options, positions and limits, which influence the numbers besides the file."""
     positions = [state(path) for _, path in options.positions or ()]
     text = json.dumps([of_numbers(options), positions, os.environ.get("BODY_MOMENTS_LIMITS", "")], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def _version() -> str:
-    """Return the add-on's version."""
-    manifest = pkgutil.get_data(_ROOT, "blender_manifest.toml")
-    return tomllib.loads(manifest.decode())["version"] if manifest else ""

@@ -9,7 +9,10 @@ are checked in `checks.py`, by the process that measures.
 from __future__ import annotations
 
 import argparse
+import functools
 import os
+import pkgutil
+import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NoReturn
@@ -21,9 +24,10 @@ TARGETS = ("output", "fourier")  # options whose files are written
 
 # These options change no number: two runs that differ in these alone have the same records.
 _OF_RUNS = {
-    *("command", "files", "format", "output", "force", "jobs", "timeout", "memory_mb", "range", "manifest"),
-    *("resume", "no_supervisor", "blender", "errors_exit_0", "words"),
+    *("command", "files", "format", "output", "force", "jobs", "timeout", "memory_mb", "range", "part", "manifest"),
+    *("resume", "retry_failed", "no_supervisor", "blender", "errors_exit_0", "words"),
 }
+_ROOT = __name__.removesuffix(".command.options.arguments")
 ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
 ONE_OBJECT = "argument --fourier: takes one object of one FILE"
 
@@ -37,6 +41,7 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
     options = parser.parse_intermixed_args(join_negative_values(argv))
     options.words = argv
     has_files = bool(options.files or options.manifest)
+    options.resume |= options.retry_failed
     if file_needed and not has_files:
         fail("a FILE is needed")
     if options.format in ROBOT_FORMATS:
@@ -57,6 +62,8 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
             if getattr(options, name):
                 option = name.replace("_", "-")
                 fail("argument --{}: applies to FILEs that are measured by other processes".format(option))
+    if options.part is not None and options.manifest is None:
+        fail("argument --part: needs the --manifest whose part it is")
     if options.resume and options.output is None:
         fail("argument --resume: needs the --output of the run to go on with")
     _check_fourier(options)
@@ -76,6 +83,33 @@ def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
     names = vars(options).keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
     values = {name: getattr(options, name) for name in names}
     return {name: str(value) if isinstance(value, Path) else value for name, value in values.items()}
+
+
+def run_of(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the entry `run` of documents: the add-on's version and the given options that influence records."""
+    names = _defaults().keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())
+    given = {name: _as_json(getattr(options, name)) for name in sorted(names)}
+    changed = {"--" + name.replace("_", "-"): value for name, value in given.items() if value != _defaults()[name]}
+    return {"addon": version(), "options": changed}
+
+
+@functools.cache
+def _defaults() -> dict[str, Any]:
+    return vars(measure_parser().parse_args(["measure"]))
+
+
+def _as_json(value: Any) -> Any:
+    """Return the value of an option as JSON would return it."""
+    if isinstance(value, (list, tuple)):
+        return [*map(_as_json, value)]
+    return str(value) if isinstance(value, Path) else value
+
+
+@functools.cache
+def version() -> str:
+    """Return the add-on's version."""
+    manifest = pkgutil.get_data(_ROOT, "blender_manifest.toml")
+    return tomllib.loads(manifest.decode())["version"] if manifest else ""
 
 
 def files_of_options(options: argparse.Namespace, files: Iterable[str], opened: str | None) -> list[str | Path]:

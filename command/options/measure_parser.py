@@ -262,6 +262,7 @@ def _add_supervision(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add("--manifest", type=Path, metavar="LIST", help="measure the files of a list that `manifest` has made")
     add("--range", type=types.file_range, metavar="A:B", help="of the files, only numbers A to B - 1, counted from 0")
+    add("--part", type=types.count, metavar="K", help="of the list, only part K, counted from 1 (`manifest --parts N`)")
     add("--jobs", type=types.count, metavar="N", help="how many processes measure files (one for each core)")
     add(
         "--timeout",
@@ -281,6 +282,7 @@ def _add_supervision(parser: argparse.ArgumentParser) -> None:
         help="go on with an earlier run of the same --output: files that are recorded in its journal and unchanged "
         "are not measured again",
     )
+    add("--retry-failed", action="store_true", help="as --resume, and measure again what failed")
     add(
         "--errors-exit-0",
         action="store_true",

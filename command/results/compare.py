@@ -8,6 +8,8 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from ...core.measurement.documents import radius_of_gyration
+
 _SCALARS = ("mass", "volume", "area", "density", "length", "linear_density", "thickness")
 _DOMAINS = ("volume", "surface", "length", "mass", "area")  # domains of moments
 _LINE = "{:<5} {}: {:<18} {:>12.6g} {:>12.6g}  difference {:.2e}, allowed {:.2e}"
@@ -97,22 +99,21 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     if not align:
         found |= _moments(entry.get("moments") or {})
     center, inertia = entry["center_of_mass"], entry["inertia"]
-    if center is None or inertia is None:
-        return found
-    gyration = math.sqrt(sum(entry["principal_moments"]) / (2.0 * entry["mass"])) if entry["mass"] else 0.0
+    gyration = radius_of_gyration(entry) or 0.0
     about = None if align else entry.get("inertia_about")
     if about is not None:
-        found |= _tensor("inertia_about", about["inertia"], _bound_about(entry, math.dist(about["point"], center)))
+        distance = math.dist(*(map(_number, point) for point in (about["point"], center)))
+        found |= _tensor("inertia_about", about["inertia"], _bound_about(entry, distance))
     if align:
-        rows = [row[:3] for row in entry["pose"]["matrix"][:3]]
-        shift = [row[3] for row in entry["pose"]["matrix"][:3]]
-        center = [sum(a * b for a, b in zip(row, center)) + s for row, s in zip(rows, shift)]
+        rows, inertia = ([[*map(_number, row)] for row in of] for of in (entry["pose"]["matrix"][:3], inertia))
+        shift, rows = [row[3] for row in rows], [row[:3] for row in rows]
+        center = [sum(a * _number(b) for a, b in zip(row, center)) + s for row, s in zip(rows, shift)]
         inertia = _product(_product(rows, inertia), [list(column) for column in zip(*rows)])
     bound = _bound(entry, "center_of_mass")
     found |= {"center_of_mass[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", center)}
     bound = _bound(entry, "inertia")
     found |= _tensor("inertia", inertia, bound)
-    largest = max(abs(value) for row in inertia for value in row)
+    largest = _largest(sum(inertia, []))
     for number, value in enumerate(entry["principal_moments"]):
         found["principal_moments[{}]".format(number + 1)] = (value, largest, bound)
     return found
@@ -121,23 +122,24 @@ def _values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
 def _flat_values(entry: dict[str, Any], align: bool) -> dict[str, Number]:
     """Return the numbers of a flat shape. align: only numbers that do not depend on its place."""
     area, bounds = entry["area"], entry["error_bound"]
-    found: dict[str, Number] = {"area": (area, area, _flat_bound(bounds, "area"))}
+    found: dict[str, Number] = {"area": (area, area or 0.0, _flat_bound(bounds, "area"))}
     for one in entry.get("invariants", ()):
-        size = math.hypot(one["real"], one["imaginary"])
+        size = math.hypot(one["real"] or 0.0, one["imaginary"] or 0.0)
         for part in ("real", "imaginary"):
-            found["{} {}".format(one["name"], part)] = (one[part], size, one["error"] + one["input"])
+            found["{} {}".format(one["name"], part)] = (one[part], size, (one["error"] or 0.0) + (one["input"] or 0.0))
     if align:
         return found
     second = entry["second_moments"]
-    gyration = math.sqrt((second["xx"] + second["yy"]) / area)
+    square = (second["xx"] or 0.0) + (second["yy"] or 0.0)
+    gyration = math.sqrt(max(square / area, 0.0)) if area else 0.0
     bound = _flat_bound(bounds, "centroid")
     found |= {"centroid[{}]".format(axis): (value, gyration, bound) for axis, value in zip("xyz", entry["centroid"])}
-    turned = found["area"][2] / area  # The axes are known to that accuracy at best.
+    turned = found["area"][2] / area if area else 0.0  # The axes are known to that accuracy at best.
     for name in ("x", "y", "normal"):
         found |= {
             "plane.{}[{}]".format(name, axis): (value, 1.0, turned) for axis, value in zip("xyz", entry["plane"][name])
         }
-    largest = max(map(abs, second.values()))
+    largest = _largest(second.values())
     bound = _flat_bound(bounds, "second_moments")
     found |= {"second_moments[{}]".format(name): (value, largest, bound) for name, value in second.items()}
     return found | _moments(entry.get("moments") or {})
@@ -149,9 +151,17 @@ def _flat_bound(bounds: dict[str, Any], name: str) -> float:
 
 def _tensor(name: str, rows: Matrix, bound: float) -> dict[str, Number]:
     """Return the six numbers of a symmetric tensor."""
-    largest = max(abs(value) for row in rows for value in row)
+    largest = _largest(sum(rows, []))
     pairs = [(i, j) for i in range(3) for j in range(i, 3)]
     return {"{}[{}{}]".format(name, "xyz"[i], "xyz"[j]): (rows[i][j], largest, bound) for i, j in pairs}
+
+
+def _largest(values: Iterable[float | None]) -> float:
+    return max(abs(value or 0.0) for value in values)
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else float(value)
 
 
 def _moments(moments: dict[str, Any]) -> dict[str, Number]:
@@ -189,5 +199,5 @@ def _bound(entry: dict[str, Any], name: str) -> float:
 
 def _bound_about(entry: dict[str, Any], distance: float) -> float:
     """Return the bound of a tensor about a point at this distance from the center of mass."""
-    shift = distance * _bound(entry, "mass") + 2.0 * entry["mass"] * _bound(entry, "center_of_mass")
+    shift = distance * _bound(entry, "mass") + 2.0 * (entry["mass"] or 0.0) * _bound(entry, "center_of_mass")
     return _bound(entry, "inertia") + distance * shift

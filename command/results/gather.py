@@ -8,18 +8,18 @@ Results are files of `measure` as json or jsonl, and journals. Standard library 
 from __future__ import annotations
 
 import argparse
-import json
 import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from ...core.measurement.documents import SCHEMA, to_csv, to_json_lines
+from ...core.measurement.checked import check_document, check_journal_line, parse_json
+from ...core.measurement.documents import count_findings, to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
-from ..options.option_types import positive
+from ..options.option_types import count, positive
 from ..parser import Parser, UsageError
 from ..supervisor import journal, listing
 from . import compare
@@ -45,7 +45,14 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser.add_argument("paths", nargs="+", metavar=names)
     parser.add_argument("--output", type=Path, metavar="PATH", help="(standard output)")
     parser.add_argument("--force", action="store_true", help="replace any file at --output (only results)")
+    if command == "manifest":
+        parts = "divide the list into this many parts, for `measure --part K` (1)"
+        parser.add_argument("--parts", type=count, default=1, metavar="N", help=parts)
+    if command == "merge":
+        whole = "refuse results in which a file of this list is missing or has two documents, or with other files"
+        parser.add_argument("--manifest", type=Path, metavar="LIST", help=whole)
     if command == "compare":
+        parser.add_argument("--quiet", action="store_true", help="print only what differs by more than it may")
         parser.add_argument("--tolerance", type=positive, default=0.0, help="relative to each number's own size (0)")
         parser.add_argument(
             "--align", action="store_true", help="compare in each body's own pose: it may have moved (needs --pose)"
@@ -62,13 +69,7 @@ def _read(paths: Iterable[str]) -> list[Entry]:
     """Return the documents of files of results, in order; a later document replaces one about the same file."""
     entries: dict[str | None, Entry] = {}
     for path in paths:
-        try:
-            entries.update((document["file"], (document, about)) for document, about in _read_file(path))
-        except OSError as error:
-            raise UsageError("The results {} cannot be read: {}".format(path, system_reason(error))) from error
-        except (ValueError, KeyError, TypeError, RecursionError) as error:
-            text = "{} is not a result of body_moments. Name what “measure” has written"
-            raise UsageError(text.format(path)) from error
+        entries.update((document["file"], (document, about)) for document, about in _read_file(path))
     return [*entries.values()]
 
 
@@ -76,28 +77,63 @@ def _documents(options: argparse.Namespace) -> list[dict[str, Any]]:
     return [document for document, _ in _read(options.paths)]
 
 
-def _read_file(path: str) -> Iterator[Entry]:
-    """Yield the documents of one file: a JSON object, an array, or one object on each line.
+def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
+    """Return the documents of results of one run; a later document replaces one about the same file."""
+    documents: dict[str | None, dict[str, Any]] = {}
+    counts: Counter[str] = Counter()
+    first: tuple[str, dict[str, Any]] | None = None
+    for path in options.paths:
+        for document, _ in _read_file(path):
+            given = document.get("run", {}).get("options", {})
+            first = first or (path, given)
+            if given != first[1]:
+                text = "{} was made with other options than {}: {}. Merge results of one run"
+                names = {name for name in {**given, **first[1]} if given.get(name) != first[1].get(name)}
+                raise UsageError(text.format(path, first[0], ", ".join(sorted(names))))
+            documents[document["file"]] = document
+            counts[os.path.abspath(document["file"] or "")] += 1
+    if options.manifest is not None:
+        listed = [os.path.abspath(name) for name in listing.read(options.manifest)]
+        for what, names in (
+            ("no document of", [name for name in listed if not counts[name]]),
+            ("several documents of", [name for name in listed if counts[name] > 1]),
+            ("documents of files that are not in the list:", sorted(counts.keys() - {*listed})),
+        ):
+            if names:
+                more = " and {} more".format(len(names) - _LISTED) if len(names) > _LISTED else ""
+                raise UsageError("There are {} {}{}".format(what, ", ".join(names[:_LISTED]), more))
+    return to_json_lines(documents.values()), 0
 
-    Raises ValueError, KeyError, TypeError and OSError.
-    """
-    with open(path, encoding="utf-8", errors="surrogateescape") as file:
-        begin = file.read(2)
-        file.seek(0)
-        found: Iterable[Any]
-        if begin[:1] == "[" or begin == "{\n":
-            whole = json.load(file)
-            found = whole if isinstance(whole, list) else [whole]
-        else:
-            found = (json.loads(line) for line in file if line.strip())
-        for entry in found:
-            about: dict[str, Any] = {}
-            if entry["schema"] == journal.SCHEMA:
-                about = {name: entry[name] for name in ("attempts", "seconds")}
-                entry = entry["document"]
-            if entry["schema"] != SCHEMA:
-                raise ValueError(path)
-            yield entry if "status" in entry else {**entry, "status": "error" if entry["errors"] else "ok"}, about
+
+def _read_file(path: str) -> Iterator[Entry]:
+    """Yield the documents of one file: a JSON object, an array, or one object on each line. Raises UsageError."""
+    try:
+        with open(path, encoding="utf-8-sig", errors="surrogateescape") as file:
+            begin = file.read(2)
+            file.seek(0)
+            if begin[:1] == "[" or begin == "{\n":
+                whole = parse_json(file.read())
+                for number, entry in enumerate(whole if isinstance(whole, list) else [whole], 1):
+                    yield _entry(entry, "document {}".format(number))
+                return
+            for number, line in enumerate(file, 1):
+                if line.strip():
+                    yield _entry(parse_json(line, number), "line {}".format(number))
+    except OSError as error:
+        raise UsageError("The results {} cannot be read: {}".format(path, system_reason(error))) from error
+    except ValueError as error:
+        text = "{} is not a result of body_moments: {}. Name what “measure” has written"
+        raise UsageError(text.format(path, error)) from error
+
+
+def _entry(record: Any, place: str) -> Entry:
+    """Return the document of a record, and what a journal adds. ValueError, with the place, if it is neither."""
+    is_line = isinstance(record, dict) and record.get("schema") == journal.SCHEMA
+    try:
+        (check_journal_line if is_line else check_document)(record)
+    except ValueError as error:
+        raise ValueError("{}: {}".format(place, error)) from error
+    return (record["document"], record) if is_line else (record, {})
 
 
 def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
@@ -107,7 +143,7 @@ def _manifest(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         raise UsageError("{}: {}".format(error.filename, system_reason(error))) from error
     if options.output and options.output.parent != Path():  # Relative names in a list start from its folder.
         paths = [os.path.abspath(path) for path in paths]
-    return listing.write_lines(paths), 0
+    return listing.write_lines(paths, options.parts), 0
 
 
 def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
@@ -121,22 +157,24 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     for document, about in _read(options.paths):
         file = document["file"] or "-"
         statuses[document["status"]] += 1
-        if document["status"] != "ok" and len(failed) < _LISTED:
-            failed.append("{}  {}: {}".format(document["status"], file, document["errors"][0]["reason"]))
-        if "seconds" in about:
+        if document["status"] != "ok":
+            reason = document["errors"][0]["reason"] if document["errors"] else "-"
+            failed.append("{}  {}: {}".format(document["status"], file, reason))
+        if about.get("seconds") is not None:
             slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[:_LISTED]
+        codes += count_findings(document)
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
-            codes.update({(one["severity"], one["code"]) for one in entry["findings"]})
             bound, size = _bound(entry), entry.get("volume") or entry["area"]
             if bound is not None and size:
                 share = bound / abs(size), "{}: {}".format(file, entry["name"])
                 widest = sorted([*widest, share], reverse=True)[:_LISTED]
     lines = ["{}: {}".format(counted(statuses.total(), "file"), _counted(statuses))]
     lines += ["{}: {}".format(counted(methods.total(), "object"), _counted(methods))]
-    lines += ["", "Not measured:", *failed] if failed else []
+    more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
+    lines += ["", "Not measured:", *failed[:_LISTED], *more] if failed else []
     if codes:
-        lines += ["", "Findings, by how many objects have them:"]
+        lines += ["", "Findings, by how many objects or files have them:"]
         lines += ["{:>8}  {:<8} {}".format(count, *one) for one, count in codes.most_common()]
     if slowest:
         lines += ["", "Slowest, in seconds:", *("{:>10.3f}  {}".format(*one) for one in slowest)]
@@ -159,7 +197,8 @@ def _compare(options: argparse.Namespace) -> tuple[Iterable[str], int]:
         raise UsageError("“compare” takes two results")
     first, second = ([document for document, _ in _read([path])] for path in options.paths)
     lines, failed = compare.differences(first, second, options.tolerance, options.align)
-    return (visible(line) + "\n" for line in lines), int(failed)
+    shown = [] if options.quiet and not failed else lines
+    return (visible(line) + "\n" for line in shown if not (options.quiet and line.startswith("pass"))), int(failed)
 
 
 def _counted(counts: Counter[str]) -> str:
@@ -168,7 +207,7 @@ def _counted(counts: Counter[str]) -> str:
 
 _COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], int]]] = {
     "manifest": _manifest,
-    "merge": lambda options: (to_json_lines(_documents(options)), 0),
+    "merge": _merge,
     "to-csv": lambda options: (to_csv(_documents(options)), 0),
     "summary": _summary,
     "compare": _compare,

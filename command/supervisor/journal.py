@@ -16,9 +16,11 @@ import shutil
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from ...core.measurement.checked import check_document
 
 if os.name == "nt":
     import msvcrt
@@ -33,21 +35,42 @@ _LIMITED = ("timeout", "memory")  # statuses that other limits may change
 
 @dataclass(frozen=True)
 class Entry:
-    """One file's line, without its document. offset, length: position of the line."""
+    """One file's line. offset, length: its position. options: of the earlier run that has written it.
+
+    is_damaged: True if that run's document cannot be used.
+    """
 
     head: dict[str, Any]
     offset: int
     length: int
+    options: dict[str, Any] = field(default_factory=dict)
+    is_damaged: bool = False
 
     @property
     def status(self) -> str:
         """The status of the file's document."""
         return self.head["status"]
 
-    def serves(self, key: dict[str, Any], limits: dict[str, Any]) -> bool:
-        """Return whether measuring the file again would give the same result."""
-        is_same = self.head["key"] == key and (self.status not in _LIMITED or self.head["limits"] == limits)
-        return is_same and all(state(name) == before for name, before in self.head["reads"].items())
+    def reason_to_measure(
+        self, key: dict[str, Any], options: dict[str, Any], limits: dict[str, Any], retry_failed: bool = False
+    ) -> str | None:
+        """Return why measuring the file again may give another result, as part of a sentence, or None."""
+        changed = {name for name in key if self.head["key"].get(name) != key[name]}
+        if "options" in changed:
+            names = [name for name in {**self.options, **options} if self.options.get(name) != options.get(name)]
+            return ": ".join(["made with other options", *([" ".join(sorted(names))] if names else [])])
+        if changed & {"addon", "blender"}:
+            return "made by another version"
+        if changed:
+            return "changed"
+        if retry_failed and self.status != "ok":
+            return "failed"
+        if self.status in _LIMITED and self.head["limits"] != limits:
+            return "ended by other limits"
+        if self.is_damaged:
+            return "damaged in the journal"
+        is_same = all(state(name) == before for name, before in self.head["reads"].items())
+        return None if is_same else "whose references have changed"
 
 
 class Journal:
@@ -59,16 +82,17 @@ class Journal:
         self._file.seek(0)
         end, self._torn = 0, False
         for line in self._file:
-            with suppress(ValueError, KeyError, TypeError, RecursionError):  # it is torn, damaged or foreign
-                self._add(json.loads(line), end, len(line))
+            with suppress(ValueError, KeyError, TypeError, AttributeError, RecursionError):  # torn, damaged or foreign
+                record = json.loads(line)
+                self._add(record, end, len(line), **_read_back(record["document"]))
             end += len(line)
             self._torn = not line.endswith(b"\n")
         self._synced = time.monotonic()
 
-    def _add(self, record: dict[str, Any], offset: int, length: int) -> None:
+    def _add(self, record: dict[str, Any], offset: int, length: int, **read_back: Any) -> None:
         head = {name: record[name] for name in ("key", "status", "limits", "reads")}
         if record["schema"] == SCHEMA:
-            self.entries[head["key"]["path"]] = Entry(head, offset, length)
+            self.entries[head["key"]["path"]] = Entry(head, offset, length, **read_back)
 
     def append(self, head: dict[str, Any], document: bytes) -> None:
         """Append the line of a finished file.
@@ -102,6 +126,15 @@ class Journal:
         """Flush the file to the disk, and close it. Raises OSError."""
         os.fsync(self._file.fileno())
         self._file.close()
+
+
+def _read_back(document: dict[str, Any]) -> dict[str, Any]:
+    """Return what an entry keeps of a document that an earlier run has recorded."""
+    try:
+        check_document(document)
+    except ValueError:
+        return {"is_damaged": True}
+    return {"options": document.get("run", {}).get("options", {})}
 
 
 def state(path: str) -> dict[str, int | None]:

@@ -3,6 +3,7 @@
 """The files of a run: named files, files in folders, and files of a list (a manifest).
 
 A manifest is a text of JSON lines: {"schema": "body-moments-manifest/1", "files": N}, then {"path": "…"} for each file.
+The first line has "parts", too, if the files are to be measured in several parts, which are then as even as possible.
 A name may hold any character, a line break too.
 """
 
@@ -61,25 +62,35 @@ def _is_measurable(path: str) -> bool:
     return bool(name.endswith(SUFFIXES) and not name.endswith(COPY_SUFFIX) or _RAW.search(path))
 
 
-def write_lines(paths: Iterable[str]) -> Iterator[str]:
-    """Yield the text of a manifest of these files, in pieces."""
+def write_lines(paths: Iterable[str], parts: int = 1) -> Iterator[str]:
+    """Yield the text of a manifest of these files, in pieces. parts: how many of its parts are measured apart."""
     paths = list(paths)
-    yield json.dumps({"schema": SCHEMA, "files": len(paths)}) + "\n"
+    divided = {"parts": parts} if parts > 1 else {}
+    yield json.dumps({"schema": SCHEMA, "files": len(paths), **divided}) + "\n"
     for path in paths:
         yield json.dumps({"path": path}) + "\n"
 
 
-def read(path: Path) -> list[str]:
-    """Return the files that a manifest lists; relative names start from its folder. Raises UsageError."""
+def read(path: Path, part: int | None = None) -> list[str]:
+    """Return the files that a manifest lists; relative names start from its folder. Raises UsageError.
+
+    part: the number of one of its parts, from 1; None for all files.
+    """
     try:
         with open(path, "rb") as file:
             lines = [json.loads(line) for line in file if line.strip()]
         names = [line["path"] for line in lines[1:]]
-        if lines[0] != {"schema": SCHEMA, "files": len(names)} or not all(isinstance(name, str) for name in names):
+        parts = lines[0].pop("parts", 1)
+        is_list = lines[0] == {"schema": SCHEMA, "files": len(names)} and type(parts) is int and parts > 0
+        if not is_list or not all(isinstance(name, str) for name in names):
             raise ValueError(path)
     except OSError as error:
         raise UsageError("The list {} cannot be read: {}".format(path, system_reason(error))) from error
-    except (ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
+    except (ValueError, KeyError, TypeError, IndexError, AttributeError, RecursionError) as error:
         raise UsageError("{} is not a list of files. Make one with “manifest FOLDER”".format(path)) from error
+    if part is not None:
+        if part > parts:
+            raise UsageError("The list {} has {:d} parts, and no part {:d}".format(path, parts, part))
+        names = names[len(names) * (part - 1) // parts : len(names) * part // parts]
     folder = "" if path.parent == Path() else path.parent
     return [os.path.join(folder, name) for name in names]

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from collections.abc import Sequence
 from datetime import timedelta
 
 from ...core.measurement.plain_text import counted, print_message
@@ -14,11 +15,11 @@ PERIOD = 5.0  # seconds between lines
 
 
 class Progress:
-    """The counts of a run. total: count of its files. done: count of the files that an earlier run has recorded."""
+    """The counts of a run. total: count of its files. known: statuses of the files that an earlier run has recorded."""
 
-    def __init__(self, total: int, done: int = 0) -> None:
+    def __init__(self, total: int, known: Sequence[str] = ()) -> None:
         self.counts: Counter[str] = Counter()
-        self._total, self._before = total, done
+        self._total, self._known = total, Counter(known)
         self._began = time.monotonic()
         self._due = self._began + PERIOD
 
@@ -33,7 +34,7 @@ class Progress:
             return
         self._due = now + PERIOD
         measured = self.counts.total()
-        done = self._before + measured
+        done = self._known.total() + measured
         text = "{} of {} files".format(done, self._total)
         if measured:
             seconds = now - self._began
@@ -45,7 +46,9 @@ class Progress:
     def finish(self) -> None:
         """Print the totals of the run."""
         if self._total > 1:
-            counts = ", ".join("{} {}".format(number, status) for status, number in self.counts.most_common())
-            seconds = time.monotonic() - self._began
-            files = counted(self.counts.total(), "file")
-            print_message("{} in {:.1f} s: {}".format(files, seconds, counts or "-"))
+            everything = (self._known + self.counts).most_common()
+            counts = ", ".join("{} {}".format(number, status) for status, number in everything)
+            files = "{} in {:.1f} s".format(counted(self.counts.total(), "file"), time.monotonic() - self._began)
+            if self._known:
+                files = "{}, of which {}".format(counted(self._total, "file"), files)
+            print_message("{}: {}".format(files, counts or "-"))

@@ -12,9 +12,6 @@ IGES_DAMAGED = error(
 )
 IGES_UNIT = error("iges_unit", "The IGES file has the unknown unit “{unit}”. Export it in millimeters or meters.")
 OBJ_CALL = error("obj_call", "The file runs another one by “call”, which is not followed. Insert the other file.")
-FILE_WITHOUT_SURFACES = error(
-    "file_without_surfaces", "The file has no B-spline surfaces. Export surfaces, or import a mesh."
-)
 NO_SURFACE_KEPT = error("no_surface_kept", "No surface of the file can be kept: {causes}")
 SURFACE_TRIMMED = warning(
     "surface_trimmed",
@@ -50,6 +47,11 @@ SURFACE_DAMAGED = warning(
     "surface_damaged",
     "Not imported, because of {fault:word}: {kind} {names}. Export it again.",
     "Not imported, because of {fault:word}: {count} of the kind {kind}: {names}. Export them again.",
+)
+FACES_NOT_READ = warning(
+    "faces_not_read",
+    "{count} face was not read, so the body is not the whole of the file; the file's errors name it.",
+    "{count} faces were not read, so the body is not the whole of the file; the file's errors name them.",
 )
 SURFACES_HIDDEN = note(
     "surfaces_hidden", "{count} hidden surface was left out.", "{count} hidden surfaces were left out."

@@ -1,33 +1,46 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Rational B-spline surfaces (type 128) of an IGES file, Initial Graphics Exchange Specification 5.3.
+"""Faces of an IGES file, Initial Graphics Exchange Specification 5.3: B-spline surfaces (128) and trimmed planes.
 
-They stand alone, in trimmed surfaces (144) whose curves trim nothing, or in subfigures (308, 408). Transformations
-(124) and the unit of the global section are applied. Other surfaces and solids are refused by name; curves, points and
-annotation bound nothing and are left out.
+They stand alone, in trimmed surfaces (144), in solids (186) of shells (514) of faces (510), or in subfigures (308,
+408).
+Planes may be trimmed, other surfaces only along their own boundary. Transformations (124) and the unit of the global
+section are applied. Other surfaces and solids are refused by name; curves, points and annotation bound nothing and are
+left out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.patch import Patch
+from ..nurbs.curve import Curve
+from ..nurbs.flat_face import FlatFace
+from ..nurbs.patch import Face, Patch, patches_size
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACE_TRIMMED, SURFACE_UNSUPPORTED, SURFACES_HIDDEN
-from .iges_text import Entry, IgesText, integers, numbers, padded
-from .surfaces import MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
-from .trims import Piece, trims_nothing
+from .iges_curves import MAX_DEPTH, CurveReader
+from .iges_text import Entry, IgesText, decimal_rounding, integers, numbers, padded
+from .surfaces import (
+    MAX_SURFACES,
+    Refusals,
+    SurfaceBody,
+    SurfaceFile,
+    SurfaceRefusedError,
+    bezier_surface,
+    placed_surface,
+)
+from .trimmed import Boundary, plane_face, trimmed_faces
 
 MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
-MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
+PLANE, PLANE_SURFACE, DIRECTION = 108, 190, 123
+SOLID, EDGES, LOOP, FACE, SHELL = 186, 504, 508, 510, 514
 RECURSION = "references to itself, or nested too deeply"
-MAX_PIECES = 10_000  # pieces of the boundary of a surface
 # Surfaces and solids that Blender's surfaces cannot represent, by the names of the specification. All other types
 # are curves, points, annotation or structure.
 REFUSED = {
@@ -35,60 +48,69 @@ REFUSED = {
     **{122: "Tabulated Cylinder", 140: "Offset Surface", 143: "Bounded Surface", 150: "Block", 152: "Wedge"},
     **{154: "Cylinder", 156: "Cone Frustum", 158: "Sphere", 160: "Torus", 162: "Solid of Revolution"},
     **{164: "Solid of Linear Extrusion", 168: "Ellipsoid", 180: "Boolean Tree", 184: "Solid Assembly"},
-    **{186: "Manifold Solid B-Rep", 190: "Plane Surface", 192: "Cylindrical Surface", 194: "Conical Surface"},
+    **{190: "Plane Surface", 192: "Cylindrical Surface", 194: "Conical Surface"},
     **{196: "Spherical Surface", 198: "Toroidal Surface", 412: "Rectangular Array", 414: "Circular Array"},
-    **{416: "External Reference", 430: "Solid Instance", 510: "Face", 514: "Shell"},
+    **{416: "External Reference", 430: "Solid Instance"},
 }
-NAMES = {SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTANCE: "Subfigure Instance", **REFUSED}
+PARTS = {FACE: "Face", SHELL: "Shell"}  # A solid or a file has them.
+NAMES = {
+    **{SURFACE: "Rational B-Spline Surface", TRIMMED: "Trimmed Surface", INSTANCE: "Subfigure Instance"},
+    **{SOLID: "Manifold Solid B-Rep", **PARTS, **REFUSED},
+}
 # Index of the parameter that points to the surface or solid which an entity refers to.
-REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, 510: 0}
+REFERENCES = {TRIMMED: 0, 140: 4, 143: 1, 430: 0, FACE: 0}
 CURVES = {100, 102, 104, 106, 110, 112, 116, 126, 130}  # Curves and points, which bound nothing.
 PARAMETER_CURVE = 142
 Value = TypeVar("Value")
 Pair: TypeAlias = tuple[Value, Value]
 
 
-def read_iges(path: Path) -> SurfaceFile:
-    """Read the surfaces as one body, named after the file. FileError if no surface can be kept."""
-    return _Reader(path).read()
+def read_iges(path: Path, for_blender: bool = True) -> SurfaceFile:
+    """Read the faces as one body, named after the file, or those that Blender can hold.
+
+    FileError if no face can be kept.
+    """
+    return _Reader(path, for_blender).read()
 
 
 class _Reader:
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, for_blender: bool) -> None:
+        self._for_blender = for_blender
         self._text = IgesText(path)
         self._entries = self._text.entries
         self._refusals = Refusals()
         self._matrices: dict[int, NDArray[np.float64] | None] = {0: np.eye(4)}
-        self._name, self._placed = path.stem, 0
+        self._name, self._placed, self._rounding = path.stem, 0, 0.0
+        self._curves = CurveReader(self._text, self._matrix)
 
     def read(self) -> SurfaceFile:
         used = set(self._references())
-        patches: list[Patch] = []
+        patches: list[Face] = []
         hidden = others = 0
         for entry in self._entries.values():
             if entry.type not in NAMES:
                 others += entry.type in CURVES and not entry.dependent
-            elif entry.number in used or entry.type in REFUSED and entry.dependent:
+            elif entry.number in used or entry.dependent and (entry.type in REFUSED or entry.type in PARTS):
                 continue
             elif entry.hidden:
                 hidden += 1
             else:
                 patches += self._place(entry, np.eye(4), ())
         notes = [finding(code, count=n) for code, n in ((SURFACES_HIDDEN, hidden), (CURVES_LEFT_OUT, others)) if n]
-        return self._refusals.file([SurfaceBody(self._name, tuple(patches))], self._text.unit, notes)
+        return self._refusals.file([SurfaceBody(self._name, tuple(patches), self._rounding)], self._text.unit, notes)
 
     def _references(self) -> Iterator[int]:
         """Yield the numbers of entities that are parts of other entities, and so are not placed by themselves."""
         for entry in self._entries.values():
-            if entry.type not in REFERENCES and entry.type != DEFINITION:
-                continue
             try:
-                fields = self._text.fields(entry)
                 if entry.type == DEFINITION:
-                    yield from self._members(fields)
-                else:
-                    yield from integers(fields[REFERENCES[entry.type] :], 1)
-            except ValueError:
+                    yield from self._members(self._text.fields(entry))
+                elif entry.type in (SOLID, SHELL):
+                    kind = SHELL if entry.type == SOLID else FACE
+                    yield from (part.number for part, _ in self._parts(entry, kind))
+                elif entry.type in REFERENCES:
+                    yield from integers(self._text.fields(entry)[REFERENCES[entry.type] :], 1)
+            except (ValueError, LookupError):
                 continue  # It is refused when it is placed.
 
     @staticmethod
@@ -97,8 +119,21 @@ class _Reader:
         (count,) = integers(fields[2:], 1)
         return integers(fields[3:], count)
 
-    def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
-        """Return an entity's patches in place. above, path: (4, 4) matrix and pointers of the subfigures around it."""
+    def _parts(self, entry: Entry, kind: int) -> list[tuple[Entry, bool]]:
+        """Return a solid's shells or a shell's faces, each with True if it faces as the part itself does."""
+        fields = self._text.fields(entry)
+        if entry.type == SOLID:
+            *first, count = integers(fields, 3)
+            pairs = [*first, *integers(fields[3:], 2 * count)]
+        else:
+            (count,) = integers(fields, 1)
+            pairs = integers(fields[1:], 2 * count)
+        if not pairs:
+            raise ValueError("no parts")
+        return [(self._entry(part, kind), bool(flag)) for part, flag in zip(pairs[::2], pairs[1::2])]
+
+    def _place(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Face]:
+        """Return an entity's faces in place. above, path: (4, 4) matrix and pointers of the subfigures around it."""
         kind, name = NAMES[entry.type], entry.label or "D{}".format(entry.number)
         if entry.type in REFUSED:
             self._refusals.add(SURFACE_UNSUPPORTED, "{} ({})".format(kind, entry.type), name, base=kind)
@@ -107,14 +142,27 @@ class _Reader:
         if self._placed > MAX_SURFACES:
             raise FileError(FILE_TOO_LARGE, limit=MAX_SURFACES, content="surfaces")
 
-        def make() -> list[Patch]:
+        def make() -> list[Face]:
             if entry.type == INSTANCE:
                 return self._instance(entry, above, path)
-            return self._trimmed(entry, above) if entry.type == TRIMMED else self._surface(entry, above)
+            if entry.type in (SOLID, SHELL):
+                return self._shells(entry, above)
+            if entry.type == SURFACE:
+                return self._within(entry, above @ self._matrix(entry), [], True)
+            return (self._trimmed if entry.type == TRIMMED else self._face)(entry, above @ self._matrix(entry))
 
         return self._refusals.keep("{} ({})".format(kind, entry.type), name, make)
 
-    def _instance(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Patch]:
+    def _shells(self, entry: Entry, above: NDArray) -> list[Face]:
+        """Return the faces of a solid or a shell, turned outward if a flag says that they face inward."""
+        matrix, kind = above @ self._matrix(entry), SHELL if entry.type == SOLID else FACE
+        faces: list[Face] = []
+        for part, is_outward in self._parts(entry, kind):
+            made = self._place(part, matrix, ())
+            faces += made if is_outward else [face.reverse_orientation() for face in made]
+        return faces
+
+    def _instance(self, entry: Entry, above: NDArray, path: tuple[int, ...]) -> list[Face]:
         fields = self._text.fields(entry)
         (pointer,) = integers(fields, 1)
         x, y, z, scale = numbers(padded(fields[1:], 4))
@@ -156,68 +204,110 @@ class _Reader:
             raise SurfaceRefusedError(SURFACE_DAMAGED, fault="a transformation that flattens")
         return known
 
-    def _surface(self, entry: Entry, above: NDArray) -> list[Patch]:
-        return blender_patches(*_spline(self._text.fields(entry)), above @ self._matrix(entry))
-
-    def _trimmed(self, entry: Entry, above: NDArray) -> list[Patch]:
+    def _trimmed(self, entry: Entry, matrix: NDArray) -> list[Face]:
+        """Return the faces of a trimmed surface."""
         fields = self._text.fields(entry)
         pointer, has_outer, holes = integers(fields, 3)
         base = self._entries[pointer]
-        if base.type != SURFACE:
-            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
-        *_, domain = _spline(self._text.fields(base))
-        if holes or has_outer and not self._trims_nothing(fields, pointer, domain):
-            raise SurfaceRefusedError(SURFACE_TRIMMED)
-        return self._surface(base, above @ self._matrix(entry))
+        loops = ([fields[3]] if has_outer else []) + fields[4 : 4 + holes]
+        if len(loops) != bool(has_outer) + holes:
+            raise ValueError("too few boundaries")
+        boundaries = [self._boundary(loop, base, matrix) for loop in integers(loops, len(loops))]
+        return self._within(base, matrix @ self._matrix(base), boundaries, bool(has_outer))
 
-    def _trims_nothing(self, fields: list[str], surface: int, domain: Pair[Pair[float]]) -> bool:
-        """Return whether the outer boundary curve just follows the boundary of the surface's domain."""
-        (outer,) = integers(fields[3:], 1)
-        _, base, curve, _, _ = integers(self._text.fields(self._entry(outer, PARAMETER_CURVE)), 5)
-        pieces = self._pieces(curve, 0, iter(range(MAX_PIECES))) if base == surface else None
-        return pieces is not None and trims_nothing(pieces, domain)
+    def _boundary(self, pointer: int, base: Entry, matrix: NDArray) -> Boundary:
+        """Return a boundary by a curve on a surface (142); with nothing known if it is on another one."""
+        try:
+            entry = self._entry(pointer, PARAMETER_CURVE)
+        except (ValueError, LookupError):
+            return Boundary(None, None)
+        _, surface, by_parameters, in_space, preferred = integers(self._text.fields(entry), 5)
+        if surface != base.number:
+            return Boundary(None, None)
+        space = self._curves.read(in_space, matrix @ self._matrix(entry))
+        return Boundary(space, self._curves.read(by_parameters, None), preferred == 1)
 
-    def _pieces(self, pointer: int, depth: int, left: Iterator[int]) -> list[Piece] | None:
-        """Return a curve as its lines and splines in order; None if a part is of another kind, moved, or too deep.
-
-        depth: the number of curves around it. left: yields an item for each further piece that is allowed.
-        """
-        entry = self._entries.get(pointer)
-        if entry is None or entry.matrix or depth >= MAX_DEPTH or next(left, None) is None:
-            return None
+    def _face(self, entry: Entry, matrix: NDArray) -> list[Face]:
+        """Return the faces of a face of a solid: a surface within loops of edges."""
         fields = self._text.fields(entry)
-        if entry.type == 102:
-            (count,) = integers(fields, 1)
-            pieces = []
-            for member in integers(fields[1:], count):
-                part = self._pieces(member, depth + 1, left)
-                if part is None:
-                    return None
-                pieces += part
-            return pieces
-        if entry.type == 110:
-            ends = numbers(fields[:6]).reshape(2, 3)
-            return [Piece(ends[:, :2], straight=True)]
-        if entry.type == 126:
-            return _spline_piece(fields)
-        return None
+        pointer, count, _ = integers(fields, 3)
+        loops = integers(fields[3:], count)
+        base = self._entries[pointer]
+        return self._within(base, matrix @ self._matrix(base), [self._loop(loop, matrix) for loop in loops], True)
+
+    def _loop(self, pointer: int, matrix: NDArray) -> Boundary:
+        """Return a boundary of edges; edges that are a vertex, such as a pole, have no curve in space."""
+        entry = self._entry(pointer, LOOP)
+        fields = self._text.fields(entry)
+        matrix = matrix @ self._matrix(entry)
+        (count,) = integers(fields, 1)
+        at, in_space, by_parameters = 1, [], []
+        for _ in range(count):
+            is_vertex, edges, index, forward, uses = integers(fields[at:], 5)
+            ways = integers(fields[at + 5 :], 2 * uses)[1::2]
+            at += 5 + 2 * uses
+            if not is_vertex:
+                in_space.append(self._edge(edges, index, bool(forward), matrix))
+            if uses or not is_vertex:
+                by_parameters += [self._curves.read(way, None) for way in ways] or [None]
+        return Boundary(_joined(in_space), _joined(by_parameters))
+
+    def _edge(self, pointer: int, index: int, forward: bool, matrix: NDArray) -> list[Curve] | None:
+        """Return an edge of a list, in the direction of its use."""
+        entry = self._entry(pointer, EDGES)
+        (curve,) = integers(self._text.fields(entry)[1 + 5 * (index - 1) :], 1) if index > 0 else (0,)
+        curves = self._curves.read(curve, matrix @ self._matrix(entry))
+        return curves if forward or curves is None else [one.reverse() for one in reversed(curves)]
+
+    def _within(self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool) -> list[Face]:
+        """Return the faces of a surface within boundaries. matrix: (4, 4), of the surface and all that is around it."""
+        if base.type in (PLANE, PLANE_SURFACE):
+            faces: list[Face] = [plane_face(self._plane_normal(base, matrix), boundaries if has_outer else [])]
+        elif base.type != SURFACE:
+            raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
+        else:
+            fields = self._text.fields(base)
+            *spline, domain = _spline(fields)
+            surface = placed_surface(*spline, matrix)
+            rounding = self._note_rounding(fields, surface, matrix)
+            faces = trimmed_faces(
+                surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer, rounding
+            )
+        if not self._for_blender:
+            return faces
+        return [patch for face in faces for patch in ([face] if not isinstance(face, FlatFace) else _cones(face))]
+
+    def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
+        """Note and return how far the decimals of a surface's points and weights leave its points undecided."""
+        count = surface.points.size // 3
+        start = 9 + sum(len(space.knots) for space in surface.spaces)
+        moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[start + count : start + 4 * count])
+        if surface.weights is not None:  # A point is a mean of control points: it moves by twice its weights' share.
+            share = decimal_rounding(fields[start : start + count]) / float(surface.weights.min())
+            moved += 2.0 * share * patches_size([surface])
+        self._rounding = max(self._rounding, moved)
+        return moved
+
+    def _plane_normal(self, base: Entry, matrix: NDArray) -> NDArray[np.float64]:
+        """Return a vector (3,) across a plane, on the side that it faces."""
+        fields = self._text.fields(base)
+        if base.type == PLANE_SURFACE:
+            fields = self._text.fields(self._entry(integers(fields, 2)[1], DIRECTION))
+        return np.linalg.solve(matrix[:3, :3].T, numbers(fields[:3])) * np.sign(np.linalg.det(matrix[:3, :3]))
 
 
-def _spline_piece(fields: list[str]) -> list[Piece] | None:
-    """Return a B-spline curve in parameter space; None if it is used in part, not clamped, or has weights ≤ 0."""
-    last, degree = integers(fields, 2)
-    count, knot_count = last + 1, last + degree + 2
-    end = 6 + knot_count + 4 * count + 2
-    if degree < 1 or count <= degree:
-        raise ValueError("too few control points")
-    values = numbers(fields[6:end])
-    knots, part = values[:knot_count], values[-2:]
-    points = values[knot_count + count : -2].reshape(count, 3)
-    if (values[knot_count : knot_count + count] <= 0.0).any():
-        return None
-    if knots[0] != knots[degree] or knots[-1] != knots[count] or part[0] != knots[0] or part[1] != knots[-1]:
-        return None
-    return [Piece(points[:, :2], straight=degree == 1)]
+def _joined(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:
+    """Return the curves of all parts in turn, None if one is unknown."""
+    known = [part for part in parts if part is not None]
+    return [curve for part in known for curve in part] if len(known) == len(parts) else None
+
+
+def _cones(face: FlatFace) -> list[Face]:
+    """Return a flat face as patches; SurfaceRefusedError if they would overlap."""
+    cones = face.cones()
+    if cones is None:
+        raise SurfaceRefusedError(SURFACE_TRIMMED)
+    return [*cones]
 
 
 def _spline(fields: list[str]) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:

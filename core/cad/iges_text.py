@@ -33,6 +33,8 @@ UNIT_NAMES = {
     **{"MIL": 2.54e-5, "UM": 1e-6, "CM": 1e-2, "UIN": 2.54e-8},
 }
 UNIT_BY_NAME = 3
+MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.
+_DECIMALS = re.compile(r"([0-9]*)\.([0-9]*)(?:[EDed]([+-]?[0-9]+))?")
 _NUMBERS = re.compile(r"[0-9+\-.eEdD \n]*")
 _STRING = re.compile(r"\s*(\d{1,9})H")
 
@@ -185,6 +187,16 @@ def integers(fields: list[str], count: int) -> list[int]:
 def padded(fields: list[str], count: int) -> list[str]:
     """Return the first `count` fields, with blank fields for missing ones."""
     return fields[:count] + [""] * (count - len(fields))
+
+
+def decimal_rounding(fields: list[str]) -> float:
+    """Return half a unit of the last digit in numbers with many digits, the largest of these; 0 if there are none."""
+    last_digits = {
+        int(exponent or 0) - len(decimals)
+        for whole, decimals, exponent in _DECIMALS.findall("\n".join(fields))
+        if len((whole + decimals).strip("0")) >= MANY_DIGITS
+    }
+    return 0.5 * 10.0 ** max(last_digits) if last_digits else 0.0
 
 
 def numbers(fields: list[str]) -> NDArray[np.float64]:

@@ -17,14 +17,24 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.patch import Patch
+from ..nurbs.patch import Face
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
 from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
-from .surfaces import MAX_ORDER, MAX_SURFACES, Refusals, SurfaceBody, SurfaceFile, SurfaceRefusedError, blender_patches
+from .surfaces import (
+    MAX_ORDER,
+    MAX_SURFACES,
+    Refusals,
+    SurfaceBody,
+    SurfaceFile,
+    SurfaceRefusedError,
+    bezier_surface,
+    placed_surface,
+)
 
 KIND = "surf"
+MAX_DEGREE = 100  # More would repeat the knots of a short file so often that they fill the memory.
 TRIMS = {"trim", "hole"}
 UPRIGHT = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
 _WORD = re.compile(rb"(?:^|[\r\n])[ \t]*surf[ \t\\]")
@@ -42,9 +52,9 @@ def has_surfaces(path: str | Path) -> bool:
     return False
 
 
-def read_obj(path: Path) -> SurfaceFile:
-    """Read the surfaces, without a unit. FileError if no surface can be kept."""
-    return _Reader(path).read()
+def read_obj(path: Path, for_blender: bool = True) -> SurfaceFile:
+    """Read the surfaces, without a unit, or those that Blender can hold. FileError if no surface can be kept."""
+    return _Reader(path, for_blender).read()
 
 
 @dataclass
@@ -63,17 +73,17 @@ class _Element:
 
 
 class _Reader:
-    def __init__(self, path: Path) -> None:
-        self._path, self._refusals = path, Refusals()
+    def __init__(self, path: Path, for_blender: bool) -> None:
+        self._path, self._for_blender, self._refusals = path, for_blender, Refusals()
         self._vertices: list[list[str]] = []
         self._elements: list[_Element] = []
 
     def read(self) -> SurfaceFile:
         self._parse()
         points, weights = self._points()
-        bodies: dict[str, list[Patch]] = {}
+        bodies: dict[str, list[Face]] = {}
         for element in self._elements:
-            made = self._refusals.keep(KIND, element.name, lambda: _patches(element, points, weights))  # noqa: B023
+            made = self._refusals.keep(KIND, element.name, lambda: _faces(element, points, weights, self._for_blender))  # noqa: B023
             bodies.setdefault(element.body, []).extend(made)
         return self._refusals.file([SurfaceBody(name, tuple(patches)) for name, patches in bodies.items()])
 
@@ -138,7 +148,7 @@ def _number(word: str) -> float:
     return value
 
 
-def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch]:
+def _faces(element: _Element, points: NDArray, weights: NDArray, for_blender: bool) -> list[Face]:
     """Return the patches of one surface. ValueError, IndexError or SurfaceRefusedError if it cannot be kept."""
     if element.trimmed:
         raise SurfaceRefusedError(SURFACE_TRIMMED)
@@ -147,8 +157,9 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
     degrees = [parse_whole(word) for word in element.degrees]
     if len(degrees) != 2 or min(degrees) < 1:
         raise ValueError("degrees")
-    if max(degrees) >= MAX_ORDER:  # before knots are repeated so often
-        raise SurfaceRefusedError(SURFACE_ORDER, order=max(degrees) + 1, limit=MAX_ORDER)
+    limit = MAX_ORDER if for_blender else MAX_DEGREE + 1
+    if max(degrees) >= limit:  # before knots are repeated so often
+        raise SurfaceRefusedError(SURFACE_ORDER, order=max(degrees) + 1, limit=limit)
     part = [_number(word) for word in element.words[:4]]
     used = _indices(element.words[4:], element.vertices)
     knots = [[_number(word) for word in element.knots.get(name, [])] for name in "uv"]
@@ -159,14 +170,14 @@ def _patches(element: _Element, points: NDArray, weights: NDArray) -> list[Patch
     orders = (degrees[0] + 1, degrees[1] + 1)
     counts = [len(row) - order for row, order in zip(knots, orders)]
     shape = counts[1], counts[0]  # the first direction runs fastest
-    return blender_patches(
+    surface = placed_surface(
         (knots[0], knots[1]),
         orders,
         points[used].reshape(*shape, 3).swapaxes(0, 1),
         weights[used].reshape(shape).T if element.rational else None,
-        ((part[0], part[1]), (part[2], part[3])),
         UPRIGHT,
     )
+    return [*bezier_surface(surface, ((part[0], part[1]), (part[2], part[3])), for_blender)]
 
 
 def _indices(words: list[str], count: int) -> NDArray[np.int64]:

@@ -147,7 +147,7 @@ def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:
 
 
 def _find_index_fault(word: bytes, before: Sequence[int] | NDArray) -> Fault | None:
-    """Return the fault of a word that is no index of v, vt and vn, or None. Without any vt or vn theirs are ignored."""
+    """Return the fault of a word that is no index of v, vt and vn, or None. Indices of absent vt or vn are ignored."""
     if not re.fullmatch(_ANY_INDEX, word):
         return shorten(word), WHOLE
     for role, (number, count) in enumerate(zip(word.split(b"/"), before)):

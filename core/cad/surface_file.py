@@ -17,8 +17,11 @@ _READERS = {".igs": read_iges, ".iges": read_iges, ".obj": read_obj}
 SUFFIXES = tuple(_READERS)
 
 
-def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> SurfaceFile:
-    """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`. Raise FileError or OSError."""
+def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender: bool = True) -> SurfaceFile:
+    """Return the B-spline surfaces of an IGES or .obj file of up to `limits.text_bytes`. Raise FileError or OSError.
+
+    for_blender: only those that Blender's surfaces can be.
+    """
     path = Path(path)
     read = _READERS.get(path.suffix.lower())
     if read is None:
@@ -26,4 +29,4 @@ def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> SurfaceF
     if not path.is_file():
         raise FileError(FILE_NOT_REGULAR if path.exists() else FILE_MISSING)
     limits.check(path, "text_bytes", path.stat().st_size)
-    return read(path)
+    return read(path, for_blender)

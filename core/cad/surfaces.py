@@ -13,11 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.bspline import SplineSpace
 from ..nurbs.bezier_form import bezier_patches
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
-from ..nurbs.patch import Patch
-from ..streams.findings import FILE_TOO_LARGE
+from ..nurbs.patch import Face, Patch
+from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import (
-    FILE_WITHOUT_SURFACES,
     NO_SURFACE_KEPT,
     SURFACE_DAMAGED,
     SURFACE_ORDER,
@@ -36,20 +35,28 @@ MAX_COORDINATE = 3e38  # Just below the largest float32.
 
 @dataclass(frozen=True, eq=False)
 class SurfaceBody:
-    """Surfaces of one object in a file, as patches for Blender's flags *Bézier* and *Endpoint*, in the file's unit."""
+    """Faces of one object in a file, in the file's unit; patches for Blender's flags *Bézier* and *Endpoint*.
+
+    rounding: largest effect of the file's decimals on a point.
+    """
 
     name: str
-    patches: tuple[Patch, ...]
+    patches: tuple[Face, ...]
+    rounding: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceFile:
-    """The surfaces of a file. unit: m, None if it is not stated. refused: surfaces that could not be kept, and why."""
+    """The surfaces of a file. unit: m, None if it is not stated. refused: surfaces that could not be kept, and why.
+
+    unread: the number of these surfaces.
+    """
 
     bodies: tuple[SurfaceBody, ...]
     unit: float | None = None
     refused: tuple[Finding, ...] = ()
     notes: tuple[Finding, ...] = ()
+    unread: int = 0
 
 
 class SurfaceRefusedError(MeasureError):
@@ -63,7 +70,7 @@ class Refusals:
     names: dict[tuple, list[str]] = field(default_factory=dict)
     points: int = 0  # points of all patches that were kept
 
-    def keep(self, kind: str, name: str, make: Callable[[], list[Patch]]) -> list[Patch]:
+    def keep(self, kind: str, name: str, make: Callable[[], list[Face]]) -> list[Face]:
         """Return the patches of a surface; if it is refused, note that and return none. kind, name: for messages."""
         before = self.points
         try:
@@ -106,25 +113,22 @@ class Refusals:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
             raise FileError(NO_SURFACE_KEPT, causes=causes)
         if not kept:
-            raise FileError(FILE_WITHOUT_SURFACES)
-        return SurfaceFile(kept, unit, refused, tuple(notes))
+            raise FileError(FILE_WITHOUT_OBJECTS, content="surfaces")
+        return SurfaceFile(kept, unit, refused, tuple(notes), sum(map(len, self.names.values())))
 
 
-def blender_patches(
+def placed_surface(
     knots: tuple[Sequence[float], Sequence[float]],
     orders: tuple[int, int],
     points: ArrayLike,
     weights: NDArray[np.float64] | None,
-    domain: tuple[tuple[float, float] | None, tuple[float, float] | None],
     matrix: NDArray,
-) -> list[Patch]:
-    """Return a surface with any knots as patches that Blender can hold; ValueError if its data are inconsistent.
+) -> Patch:
+    """Return a surface with any knots; ValueError if its data are inconsistent.
 
-    points: (count_s, count_t, 3), weights: (count_s, count_t) or None, domain: the wanted part of each direction,
-    matrix: (4, 4) from the points to the file's coordinates.
+    points: (count_s, count_t, 3), weights: (count_s, count_t) or None, matrix: (4, 4) from the points to the file's
+    coordinates.
     """
-    if max(orders) > MAX_ORDER:
-        raise SurfaceRefusedError(SURFACE_ORDER, order=max(orders), limit=MAX_ORDER)
     points = np.asarray(points, np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
     if not (np.abs(points) < MAX_COORDINATE).all():
         raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_FINITE_CONTROL_POINTS))
@@ -132,12 +136,25 @@ def blender_patches(
         SplineSpace(tuple(np.asarray(row, np.float64).tolist()), order, count)
         for row, order, count in zip(knots, orders, points.shape)
     )
-    spaces = s_space, t_space
-    sizes = [len(space.spans) * (space.order - 1) + 1 for space in spaces]
+    return Patch((s_space, t_space), points, weights)
+
+
+def bezier_surface(
+    surface: Patch, domain: tuple[tuple[float, float] | None, tuple[float, float] | None], for_blender: bool
+) -> list[Patch]:
+    """Return a part of a surface as Bézier patches, that Blender can hold if `for_blender`."""
+    order = max(space.order for space in surface.spaces)
+    if for_blender and order > MAX_ORDER:
+        raise SurfaceRefusedError(SURFACE_ORDER, order=order, limit=MAX_ORDER)
+    sizes = [len(space.spans) * (space.order - 1) + 1 for space in surface.spaces]
     if sizes[0] * sizes[1] > MAX_POINTS:
         raise SurfaceRefusedError(SURFACE_TOO_LARGE, points=sizes[0] * sizes[1], limit=MAX_POINTS)
-    patches = bezier_patches(Patch(spaces, points, weights), domain)
-    weights_of = [patch.weights for patch in patches if patch.weights is not None]
-    if any(row.min() < 1e-30 * row.max() for row in weights_of):  # float32 would not hold them as positive numbers
+    patches = bezier_patches(surface, domain)
+    if for_blender and not all(map(is_storable, patches)):
         raise SurfaceRefusedError(SURFACE_POINTS, cause=finding(NON_POSITIVE_WEIGHTS))
     return patches
+
+
+def is_storable(patch: Patch) -> bool:
+    """Return whether float32 can hold all weights of a patch as positive numbers."""
+    return patch.weights is None or bool(patch.weights.min() >= 1e-30 * patch.weights.max())

@@ -18,7 +18,7 @@ from ..solid.orientation import ClosedParts
 
 @dataclass(frozen=True, eq=False)
 class PartDensities:
-    """Densities of parts from those of their faces, in arrays (number,).
+    """Densities of parts, found from the densities of their faces, as arrays with an entry for each part.
 
     has_several_materials: the part's faces differ in density. has_foreign_cavity_material: the part is a cavity with a
     face of another density than the part that it is cut from. first_face: a part's first mesh face, -1 if it has none.
@@ -34,7 +34,7 @@ class PartDensities:
 
 
 def part_densities(parts: ClosedParts, faces: NDArray[np.float64], linear: NDArray | None = None) -> PartDensities:
-    """Return one density for each part, from (f,) those of mesh faces, weighted by their areas under the linear map."""
+    """Return one density for each part: the mean of the (f,) face densities by area under the linear map."""
     of_mesh = parts.face >= 0
     part, face, area = parts.part[of_mesh], parts.face[of_mesh], parts.areas(linear)[of_mesh]
     first = np.full(parts.number, np.iinfo(np.int64).max)

@@ -42,13 +42,13 @@ CORNERS_PER_BLOCK = 1 << 16  # triangles whose corners are compared at a time
 
 @lru_cache
 def _degrees(order: int) -> NDArray[np.intp]:
-    """Return (K,) p + q + r of each monomial."""
+    """Return the (K,) degrees p + q + r of the monomials."""
     return monomials(order).sum(axis=1)
 
 
 @lru_cache
 def _scales(order: int, more: int) -> NDArray[np.float64]:
-    """Return (K,) the factors α! / (|α| + more)! of the monomials."""
+    """Return the (K,) factors α! / (|α| + more)! of the monomials."""
     return np.array(
         [
             factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + more)
@@ -158,7 +158,7 @@ def _multiply_by_geometric_series(table: NDArray, vertex: NDArray, order: int) -
 
 
 def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.float64]:
-    """Return (3,) the largest distance of a corner from the reference point along each axis."""
+    """Return the (3,) largest distances of a corner from the reference point along each axis."""
     reach = np.zeros(3)
     for start in range(0, len(triangles), CORNERS_PER_BLOCK):
         for axis in range(3):
@@ -168,12 +168,12 @@ def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.f
 
 
 def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
-    """Return (K,) the rounding error relative to the sum of the terms' sizes."""
+    """Return the (K,) rounding errors relative to the sum of the terms' sizes."""
     return U * (27.0 * (_degrees(order) + 1) + PAIRWISE_SUM_ROUNDINGS + count / _block_size(order) + 2.0)
 
 
 def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (K,) the largest value of each monomial within reach."""
+    """Return the (K,) largest values of the monomials within reach."""
     return np.multiply.reduce(reach ** monomials(order), axis=1)
 
 

@@ -89,7 +89,7 @@ class Polynomial:
         return Polynomial(terms)
 
     def __call__(self, points: NDArray) -> NDArray[np.float64]:
-        """Return (n,) the values at (n, 3) points."""
+        """Return the (n,) values at (n, 3) points."""
         points = np.asarray(points, np.float64)
         coefficients, result = self.coefficients(), np.zeros(len(points))
         for start in range(0, len(points), POINTS_PER_BLOCK):
@@ -256,7 +256,7 @@ def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dic
 
 
 def _to_bernstein(degree: int) -> NDArray[np.float64]:
-    """Return (n+1, n+1) the matrix from coefficients of t^j to Bernstein coefficients on [0, 1]."""
+    """Return the (n+1, n+1) matrix from coefficients of t^j to Bernstein coefficients on [0, 1]."""
     return np.array([[math.comb(i, j) / math.comb(degree, j) for j in range(degree + 1)] for i in range(degree + 1)])
 
 

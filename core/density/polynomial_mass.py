@@ -106,7 +106,7 @@ def _mass_functional(
 
 
 def _apply_polynomial(values: NDArray, order: int, terms: Terms, forms: tuple[NDArray, NDArray]) -> NDArray[np.float64]:
-    """Return (K, k) the functional with (K',) values times Σ c l0^p l1^q l2^r, l the linear forms of the k columns."""
+    """Return the (K, k) products of a functional, (K',), with Σ c l0^p l1^q l2^r in the k columns of linear forms."""
     linear, offset = forms
     count = monomial_count(order)
     top = order_from_count(len(values))

@@ -185,7 +185,7 @@ def contract(block: NDArray, factors: list[NDArray]) -> NDArray[np.float64]:
 
 
 def _absolute_from_even(axis: SplineAxis, order: int, center: float) -> NDArray[np.float64]:
-    """Return (order + 1, order + 1) the matrix that turns even moments into bounds of the absolute moments."""
+    """Return the (order + 1, order + 1) matrix that turns even moments into bounds of the absolute moments."""
     reach, width = axis.reach(center), axis.width
     matrix = np.zeros((order + 1, order + 1))
     for power in range(order + 1):

@@ -57,7 +57,7 @@ class Cells:
         return Cells.join(parts)
 
     def column_axes(self) -> NDArray[np.intp]:
-        """Return (n,) the axis along which the density is most clearly monotone; -1 if there is none."""
+        """Return the (n,) axes along which the density is most clearly monotone; -1 if there is none."""
         steps = np.stack([np.diff(self.corners, axis=axis).reshape(-1, 4) for axis in (1, 2, 3)], axis=1)
         one_way = (steps >= 0.0).all(axis=2) | (steps <= 0.0).all(axis=2)
         steps = np.abs(steps)
@@ -144,7 +144,7 @@ def _smooth_intervals(low: NDArray, high: NDArray) -> tuple[NDArray[np.intp], ND
 
 
 def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
-    """Return (2, n) the volume inside each cell, and the area of the surface in it."""
+    """Return a (2, n) array: the volume inside each cell, and the area of the surface in the cell."""
     volumes, areas = (
         np.bincount(columns.cell, columns.weight * height, len(cells.size))
         for height in (columns.high - columns.low, columns.slope)
@@ -155,7 +155,7 @@ def amounts_of(columns: Columns, cells: Cells) -> NDArray[np.float64]:
 def compare_rules(
     cells: Cells, turn: tuple, rules: Sequence[int], metric: NDArray
 ) -> tuple[Columns, NDArray[np.float64]]:
-    """Return the columns by the last rule, and (2, n) each cell's differences in volume and area from the first."""
+    """Return the columns of the last rule, and (2, n) differences of cells' volumes and areas from the first rule."""
     metric = metric[np.ix_(turn, turn)]
     turned = cells.corners.transpose(0, *(1 + np.array(turn)))
     columns = [columns_of(turned, points, metric) for points in rules]

@@ -33,10 +33,10 @@ MAX_VOXELS = 1 << 27  # voxels of the box around the surface
 def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -> tuple[Moments, float]:
     """Return the mass moments of a closed surface filled with a grid of voxels, and the volume of the body in the grid.
 
-    They refer to the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n, 3, 3)
-    corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is the cube
-    from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), nothing outside. `rounding_error` estimates the rounding
-    from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
+    The moments are about the middle of the bounding box within the grid, rounded to a corner of voxels. triangles: (n,
+    3, 3) corners, counter-clockwise from outside, closed together, in the grid's coordinates: the voxel (i, j, k) is
+    the cube from (i, j, k) to (i+1, j+1, k+1). densities: (nx, ny, nz), nothing outside. `rounding_error` estimates the
+    rounding from the sizes of all terms; nothing else is approximate. MeasureError if a density is not finite.
     """
     triangles = float_array("triangles", triangles, "n", 3, 3, finite=True)
     if not len(triangles):
@@ -97,14 +97,14 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
 
 
 def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
-    """Return slices of the triangles that are expected to give about PIECES_PER_BATCH pieces each."""
+    """Yield slices of the triangles that are expected to give about PIECES_PER_BATCH pieces each."""
     spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
     expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
     return batches(expected, PIECES_PER_BATCH)
 
 
 def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:
-    """Return (m, 3, 3) the triangles cut along every plane between voxels, and along the sides of the grid."""
+    """Return the (m, 3, 3) triangles cut along every plane between voxels, and along the sides of the grid."""
     for axis in range(3):
         done = [triangles[:0]]
         while len(triangles):

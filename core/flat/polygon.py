@@ -38,8 +38,8 @@ class OutlineDefects:
 
     `crossings`: pairs of edges that cross.
     `too_many_pairs`: True if there were too many pairs to compare all of them.
-    `overlapping`: True if an edge has more than one region beside it somewhere, or less than none.
-    `negative`: True if an edge has less than no region beside it somewhere.
+    `overlapping`: True if the winding number beside an edge is above 1, below 0, or smaller to the left than to the
+    right. `negative`: True if the winding number to the right of an edge is below 0.
     `shared_length`: the length along which edges run against each other, which is not part of the region's boundary.
     """
 
@@ -53,7 +53,8 @@ class OutlineDefects:
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
     """Return ∫ x^p y^q dA of the region left of (m, 2) directed edges for all p + q ≤ order, with error bounds.
 
-    By default they are about the middle of the bounding box of the used points. MeasureError if the edges do not close.
+    The moments are about the middle of the bounding box of the used points by default. MeasureError if edges do not
+    close.
     """
     points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
@@ -123,7 +124,7 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
 
 
 def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
-    """Return (m, 2) directed edges of (k, 3) triangles, each as often as it has no opposite edge."""
+    """Return the (m, 2) directed edges of (k, 3) triangles that remain when opposite edges cancel."""
     ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
     low, high = ahead.min(axis=1), ahead.max(axis=1)
     ahead, low, high = (values[low != high] for values in (ahead, low, high))
@@ -135,7 +136,7 @@ def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
 
 
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
-    """Return (k,) the signed areas of outlines, negative ones of holes; outlines that share a point count as one."""
+    """Return the (k,) signed areas of outlines, negative ones of holes; outlines that share a point count as one."""
     origin = points[edges[0, 0]]
     a, b = (points[edges[:, i]] - origin for i in (0, 1))
     outline = connected_components(len(points), edges[:, 0], edges[:, 1])[0][edges[:, 0]]
@@ -176,9 +177,9 @@ def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> N
 
 
 def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return (k,) and (k,) the winding numbers to the left and to the right of edges, or of a sample of many edges.
+    """Return the winding numbers to the left and to the right of edges, (k,) each; of a sample if there are many edges.
 
-    Rays are sent across the edges, so that none runs along its own; edges that lie on one another are passed together.
+    Rays are sent across the edges, so that no ray runs along its edge; a ray passes edges on one another together.
     """
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
     steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch

@@ -27,7 +27,7 @@ EDGES_PER_BLOCK = 4096
 
 @lru_cache
 def plane_positions(order: int) -> NDArray[np.int64]:
-    """Return (k,) the positions of x^p y^q among `monomials`, in the order of `multi_indices`; read-only."""
+    """Return the (k,) positions of x^p y^q among `monomials`, in the order of `multi_indices`; read-only."""
     p, q = multi_indices(2, order).T
     positions = monomial_index(p, q, np.zeros_like(p))
     positions.flags.writeable = False

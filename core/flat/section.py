@@ -1,19 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section properties of a plane region, as structural engineers know them.
-
-I_x = ∫ y² dA, I_y = ∫ x² dA and I_xy = +∫ xy dA (no minus: a tensor's entry would have one), about the centroid and
-along the plane's own axes x, y. Principal second moments I_1 ≥ I_2; axis 1 is at the angle θ in (-90°, 90°] from x
-towards y, tan 2θ = -2 I_xy / (I_x - I_y). J_p = I_x + I_y is the polar second moment of area; it is the torsion
-constant of round sections only. Radii of gyration are √(I/A), elastic section moduli I / (distance of the outermost
-corner), exact as no other point is farther out.
-"""
+"""Measurement of the section properties of a plane region: the plane of flat triangles, and the region on it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import atan2, pi
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,139 +18,18 @@ from ..verdict.finding import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
 from .polygon import boundary_edges, edge_arrays, outline_areas
 from .regions import plane_positions, region_moments
+from .section_properties import Plane, Section
 
 # Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
 PLANAR_RTOL = 1e-5
-EQUAL_MOMENTS_RTOL = 1e-6  # principal moments closer than this, relatively, are equal
-MAX_NOISE_SHARE = 1e-3  # Relative to the larger principal moment: noise is limited to this.
 EDGE_GROWTH = 2.0 * np.sqrt(2.0)  # an edge grows by this if both ends move by 1 along each axis
 MIN_AXIS_SHARE = 0.05  # the least share of an axis that must lie in the plane to name the plane's x axis
 
 
-@dataclass(frozen=True, eq=False)
-class Plane:
-    """The plane of a section.
-
-    `axes`: (3, 3) columns x, y and the normal, right-handed. `out_of_plane`: how far the points are off it.
-    `x_axis_name`: the preferred axis that x is nearest to, "X" or "Y".
-    """
-
-    origin: NDArray[np.float64]
-    axes: NDArray[np.float64]
-    out_of_plane: float
-    x_axis_name: str
-
-    def project(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Return the (n, 2) coordinates of points along the plane's x and y axes."""
-        x, y, z = (float_array("points", points, "n", 3) - self.origin).T
-        return np.stack([x * a[0] + y * a[1] + z * a[2] for a in self.axes.T[:2]], axis=1)
-
-
-@dataclass(frozen=True, eq=False)
-class Section:
-    """Section properties of one region, in one unit of length.
-
-    Attributes
-    ----------
-    plane : Plane
-    area, perimeter : float
-    centroid : (2,) array
-        In the plane's axes from its origin.
-    second : (3,) array
-        I_x, I_y, I_xy about the centroid.
-    reach : (4,) array
-        The distance of the outermost corner from the axes x, y, 1, 2 through the centroid.
-    outlines, holes : int
-    rounding_error, input_error : dict of str to float
-        Bounds of "area", "perimeter", "centroid" and "second": of rounding, and of storing coordinates as float32; for
-        the centroid the length of its shift, for the second moments each of them.
-
-    Examples
-    --------
-    >>> from body_moments.core.flat import directed_edges, measure_section
-    >>> from body_moments.core.flat.section import Plane
-    >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
-    >>> np.round(section.moduli * 6, 9).tolist(), round(section.polar * 6, 9)
-    ([2.0, 4.0, 4.0, 2.0], 5.0)
-    """
-
-    plane: Plane
-    area: float
-    perimeter: float
-    centroid: NDArray[np.float64]
-    second: NDArray[np.float64]
-    reach: NDArray[np.float64]
-    outlines: int
-    holes: int
-    rounding_error: dict[str, float]
-    input_error: dict[str, float]
-
-    @classmethod
-    def from_numbers(
-        cls,
-        plane: tuple[ArrayLike, ArrayLike, float, str],
-        area: float,
-        perimeter: float,
-        vectors: tuple[ArrayLike, ArrayLike, ArrayLike],
-        *rest: Any,
-    ) -> Section:
-        """Return the section with these numbers: the plane's, then its own, in the order of the attributes."""
-        origin, axes, out_of_plane, x_axis_name = plane
-        flat = Plane(np.asarray(origin, float), np.asarray(axes, float), out_of_plane, x_axis_name)
-        centroid, second, reach = (np.asarray(vector, float) for vector in vectors)
-        return cls(flat, area, perimeter, centroid, second, reach, *rest)
-
-    @property
-    def center(self) -> NDArray[np.float64]:
-        """(3,) the centroid in space, in the same coordinates as the plane's origin."""
-        return self.plane.origin + self.plane.axes[:, :2] @ self.centroid
-
-    @property
-    def principal(self) -> tuple[float, float]:
-        """Principal second moments I_1 ≥ I_2."""
-        first, second, mixed = self.second.tolist()
-        larger = (first + second) / 2.0 + np.hypot((first - second) / 2.0, mixed)
-        return float(larger), max(0.0, (first * second - mixed * mixed) / larger)  # no difference of near equals
-
-    @property
-    def axes_undetermined(self) -> bool:
-        """True if every axis through the centroid is a principal one."""
-        first, second = self.principal
-        return first - second <= EQUAL_MOMENTS_RTOL * first + 2.0 * self._noise
-
-    @property
-    def angle(self) -> float:
-        """Angle from x towards y to principal axis 1, in radians; 0 if every axis is principal."""
-        return 0.0 if self.axes_undetermined else principal_angle(self.second, self._noise)
-
-    @property
-    def _noise(self) -> float:
-        """The effect of rounding on the axes, limited so that moments with wide bounds still give axes."""
-        return min(self.rounding_error["second"] + self.input_error["second"], MAX_NOISE_SHARE * self.principal[0])
-
-    @property
-    def polar(self) -> float:
-        """Polar second moment J_p = I_x + I_y."""
-        return float(self.second[0] + self.second[1])
-
-    @property
-    def radii(self) -> NDArray[np.float64]:
-        """(4,) the radii of gyration about x, y, 1, 2."""
-        return np.sqrt(np.array([*self.second[:2], *self.principal]) / self.area)
-
-    @property
-    def moduli(self) -> NDArray[np.float64]:
-        """(4,) the elastic section moduli about x, y, 1, 2, each for the outermost corner: the smaller of two sides."""
-        return np.array([*self.second[:2], *self.principal]) / self.reach
-
-
-def principal_angle(second: NDArray, noise: float) -> float:
-    """Return the angle of axis 1, in (-π/2, π/2]; a product of inertia below `noise` cannot turn the axis over."""
-    first, last, mixed = second.tolist()
-    if abs(mixed) <= noise:
-        return 0.0 if first >= last else pi / 2.0
-    return 0.5 * atan2(-2.0 * mixed, first - last)
+def project(plane: Plane, points: ArrayLike) -> NDArray[np.float64]:
+    """Return the (n, 2) coordinates of points along the plane's x and y axes."""
+    x, y, z = (float_array("points", points, "n", 3) - plane.origin).T
+    return np.stack([x * a[0] + y * a[1] + z * a[2] for a in plane.axes.T[:2]], axis=1)
 
 
 def fit_plane(
@@ -244,7 +114,7 @@ def region(
     Points at one place are merged. faces: (k,) face of each triangle; faces that look against the plane are turned.
     """
     triangles = first_at_equal_position(points)[triangles]
-    a, b, c = (plane.project(points)[triangles[:, i]] for i in range(3))
+    a, b, c = (project(plane, points)[triangles[:, i]] for i in range(3))
     areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)
     longest = np.abs(np.stack([b - a, c - a])).max(axis=(0, 2))
     noise = np.zeros(len(areas))
@@ -289,15 +159,15 @@ def measure_section(
     Examples
     --------
     >>> from body_moments.core.flat import directed_edges, measure_section
-    >>> from body_moments.core.flat.section import Plane
+    >>> from body_moments.core.flat.section_properties import Plane
     >>> points = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
     >>> section = measure_section(Plane(np.zeros(3), np.eye(3), 0.0, "X"), points, directed_edges([range(4)]))
-    >>> round(section.area, 9), section.center.tolist(), np.round(section.second * 12, 9).tolist()
-    (2.0, [1.0, 0.5, 0.0], [2.0, 8.0, 0.0])
+    >>> round(section.area, 9), section.center, np.round(section.second * 12, 9).tolist()
+    (2.0, (1.0, 0.5, 0.0), [2.0, 8.0, 0.0])
     """
     check_type("plane", plane, Plane)
     points, edges = edge_arrays(points, edges, 3)
-    flat = plane.project(points)
+    flat = project(plane, points)
     used = flat[edges.ravel()]
     rounded = projection_rounding(plane, points, used)
     moments = region_moments(flat, edges, 2, rounded=rounded, stored=error)

@@ -7,10 +7,10 @@
 Each triangle takes about n² points of a rule that is exact to degree 2n-1. Over a triangle q·x spans g = |q| diameter
 at most; the best polynomial of degree 2n-1 in q·x is within 2 (g/4)^(2n) / (2n)! of exp(-i q·x), and a rule with
 positive weights errs by no more than twice that. This bound is met by one triangle in the worst direction; the errors
-of many cancel as the waves do. So fewer points are taken if they prove enough: the joint error of the triangles is
-found at frequencies of all sizes, by the closed form. Only if a wave fits into a triangle, into its height over the
-shortest side, is the bound kept: there regular meshes have frequencies at which all triangles err alike. Triangles
-that would need too many points keep their closed form.
+of many cancel as the waves do. So fewer points are taken if a test shows that they suffice: at frequencies of all
+sizes, the joint error of the triangles is found by comparison with the closed form. If a wave is shorter than a
+triangle's height over its shortest side, the bound is kept, because at some frequencies all triangles of a regular mesh
+err alike. Triangles that would need too many points keep their closed form.
 
 The width of the spreading kernel follows from a bound of its aliasing. The reported error is found by comparison with
 the closed form at other frequencies.
@@ -83,7 +83,7 @@ class GridTransform(Transform):
             self.spreading = Spreading(self.grid.half, self.width, 3 if self.measure == Measure.VOLUME else 1)
 
     def _counts(self) -> Generator[float, None, NDArray[np.int64]]:
-        """Return (m,) the number of Gauss points along a side of each triangle."""
+        """Return the (m,) numbers of Gauss points along the sides of the triangles."""
         largest = np.sqrt(3.0) * self.grid.largest * self.faces.scale
         spans, regular = largest * self.faces.diameters, largest * self.faces.heights >= 2.0 * np.pi
         bound = _points_per_side(spans, self.each)
@@ -149,7 +149,7 @@ class GridTransform(Transform):
         )
 
     def steps(self) -> Iterator[float]:
-        """Do the work and yield the rough fraction done, from 0 to 1, after each part of it."""
+        """Do the work in parts; yield the rough fraction done, from 0 to 1, after each."""
         expected = len(self.faces.triangles) * len(_trial_vectors(self.grid)) / PAIRS_PER_BLOCK
         for tried, _ in enumerate(self._assign_triangles()):
             yield SHARING_TIME * tried / (tried + expected)
@@ -186,7 +186,7 @@ class GridTransform(Transform):
         self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
 
     def _collect_spread(self) -> Iterator[None]:
-        """Add the spread sources to the sums, less the halves that `Transform` takes off."""
+        """Add the spread sources to the sums, minus the 1/2 that `Transform` subtracts from each D."""
         vectors = self.waves.vectors(slice(0, self.waves.rows))
         for axis, waves in enumerate(self.spreading.sums()):
             if self.measure == Measure.VOLUME:
@@ -216,7 +216,7 @@ def _kernel_width(half: int, tolerance: float, divided: bool) -> int:
 
 
 def _points_per_side(spans: NDArray, tolerance: float) -> NDArray[np.int64]:
-    """Return (m,) the numbers of points along a side that keep each D within tolerance; spans: |q| times diameters."""
+    """Return the (m,) numbers of points along a side that keep each D within tolerance; spans: |q| times diameters."""
     span, limits = np.append(0.0, np.geomspace(1e-6, 4.0 * MAX_POINTS_PER_SIDE, 4000)), []
     for n in range(1, MAX_POINTS_PER_SIDE + 1):
         ratio = span / 4.0 / (2 * n + 1)

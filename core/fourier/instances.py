@@ -60,7 +60,7 @@ class BodyTransform:
         self.spectrum: Spectrum | None = None
 
     def steps(self) -> Iterator[float]:
-        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
+        """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
         done, everything = 0, sum(self.weights)
         for weight, (surface, offsets) in zip(self.weights, self.jobs):
             if self.tolerance is None or not isinstance(self.q, FrequencyGrid):

@@ -71,7 +71,7 @@ class Spreading:
             cells[run] += np.bincount(index, weights.reshape(-1), minlength=run.stop - run.start)
 
     def sums(self) -> Iterator[NDArray[np.complex128]]:
-        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z from 0 on, using the cells up."""
+        """Yield the (2 half + 1, 2 half + 1, half + 1) sums of each strength, for k_z ≥ 0, and drop its cells."""
         n, along = self.side, np.arange(-self.half, self.half + 1)
         factor = np.exp(2j * np.pi / n * (self.width // 2) * along) / _kernel_transform(along / n, self.width)
         while self.cells:

@@ -103,7 +103,7 @@ class RegionTransform:
         self.values = np.empty(len(self.vectors), np.complex128)
 
     def steps(self) -> Iterator[float]:
-        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
+        """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
         edge = self.end - self.start
         middle, half, normal = (self.start + self.end).T / 2.0, edge.T / 2.0, np.stack([edge[:, 1], -edge[:, 0]])
         size = max(1, PAIRS_PER_BLOCK // max(1, len(edge)))

@@ -12,8 +12,9 @@ The N of a closed surface add up to zero; therefore 1/2 may be taken off each D,
 and nothing cancels as q goes to 0.
 
 Error. u = 2^-53, A the area, R the reach from the center. A phase is off by a few u |q| R, a D by that or by a few u,
-and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. In all that is ROUNDING_FACTOR u A R whatever q is.
-N is found in twice the precision, or slivers would be worse. So is the phase of the center, which may be far off.
+and |D - 1/2| is below 1 and below |q| R; q·N/q² is at most |N|/|q|. Altogether the error is at most ROUNDING_FACTOR u A
+R for any q. N is found in twice the precision, because slivers would lose more digits; so is the phase of the center,
+which may be far away.
 """
 
 from __future__ import annotations
@@ -147,7 +148,7 @@ class Transform:
         return total
 
     def steps(self) -> Iterator[float]:
-        """Do the work; yield after each part of it the fraction done, from 0 to 1."""
+        """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
         shares = self._tasks()
         if self.threads == 1:
             results = map(self._run_task, shares)

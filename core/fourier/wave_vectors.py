@@ -112,7 +112,7 @@ class ListWaves:
         self.rows = len(q)
 
     def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
-        """Return (3, m) the wave vectors of some rows."""
+        """Return the (3, m) wave vectors of some rows."""
         return self.q[:, wave_rows]
 
     def dot(self, part: slice, vectors: NDArray) -> DotFiller:
@@ -142,7 +142,8 @@ class ListWaves:
 class GridWaves:
     """The half of a grid with z ≥ 0, times `scale`; the rest follows from F(-q) = conj F(q).
 
-    Along x and y both ends are included, so that every vector of the grid, or its opposite, is here. A row is all of z.
+    Along x and y both ends are included, so that the half has every vector of the grid, or its opposite. A row has all
+    z at one x and y.
     """
 
     def __init__(self, grid: FrequencyGrid, scale: float):
@@ -151,7 +152,7 @@ class GridWaves:
         self.rows, self.columns = len(self.side) ** 2, len(self.depth)
 
     def vectors(self, wave_rows: slice) -> NDArray[np.float64]:
-        """Return (3, m) the wave vectors of some rows."""
+        """Return the (3, m) wave vectors of some rows."""
         x, y = self.side[np.stack(np.divmod(np.arange(wave_rows.start, wave_rows.stop), len(self.side)))]
         n = self.columns
         return np.stack([np.repeat(x, n), np.repeat(y, n), np.tile(self.depth, len(x))])

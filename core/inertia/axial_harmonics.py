@@ -9,8 +9,8 @@ are powers of linear forms. The mean of w^m over a triangle is a complete homoge
 
     E[w^m] = 2 m! / (m+2)! h_m(w_a, w_b, w_c),
 
-found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The first one
-that is more than noise turns the frame: there it is to be positive. The others decide between the m turns that make it
+found by the recursion of `any_order`; the factor z comes with the derivative by ε of (w + ε z)^(m+1). The frame is
+turned so that the first harmonic above noise is positive. The other harmonics decide between the m turns that make it
 positive.
 """
 
@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..numerics.vectors import cross, dot
-from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
+from .canonical_frame import NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
-MAX_TILT = 1e-2  # tilt of an axis: about one that leans by more, the harmonics say nothing of the body
+MAX_TILT = 1e-2  # rad; harmonics about an axis with a larger tilt say nothing about the body
 LEAST_HEIGHT = 1e-2  # relative to the radius: least unit of height, as float32 makes flat bodies uneven
 TRIANGLES_PER_BLOCK = 1 << 13
 
@@ -59,7 +59,7 @@ class AxialHarmonics:
         return AxialHarmonics(frame, values * np.exp(-1j * turn * np.arange(values.shape[1])))
 
     def inverted(self) -> AxialHarmonics:
-        """Return the harmonics of the body's image in its center."""
+        """Return the harmonics of the body's point reflection in its center."""
         m = np.arange(self.values.shape[1])
         return replace(self, values=self.values * np.stack([(-1.0) ** m, (-1.0) ** (m + 1)]))
 
@@ -90,7 +90,7 @@ def axial_harmonics(
 
 
 def _means(corners: NDArray[np.float64], order: int) -> NDArray[np.complex128]:
-    """Return (2, order + 1, k) the means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
+    """Return the (2, order + 1, k) means of w^m and w^m z over triangles with corners (3, 3, k): x, y, z of each."""
     w, z = corners[:, 0] + 1j * corners[:, 1], corners[:, 2]
     power, slope = [np.ones(w.shape[1], np.complex128)] * 3, [np.zeros(w.shape[1], np.complex128)] * 3
     means = np.empty((2, order + 1, w.shape[1]), np.complex128)
@@ -126,8 +126,9 @@ def turn_by_harmonics(
         return alike
     order = np.roll([0, 1, 2], 2 - axis)
     bases = [harmonics.in_frame(frame[:, order]) for frame in alike.frames]
-    m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])
-    candidates = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m + k > MAX_ORDER))
+    m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])  # to second order none is left
+    noise = max(noise, float(alike.noise.min(initial=np.inf))) if len(alike.noise) else noise
+    candidates = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m > 0) & (m + k > 2))
     if not len(candidates):
         return alike
     k, m = candidates[np.argmin(candidates.sum(axis=1))]

@@ -27,6 +27,7 @@ from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
 from ..verdict.finding import MeasureError
 from .findings import MOMENTS_OVERFLOW
+from .tensors import frame_about
 
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
 NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times the noise of float32 coordinates
@@ -34,7 +35,7 @@ NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times t
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
 FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: along an axis of less, a body is a lamina and has no skewness
-MAX_EQUAL_SHARE = 0.25  # share of the range over directions: at most that much counts as equal
+MAX_EQUAL_SHARE = 0.25  # share of the range over all directions: larger differences never count as equal
 START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
 MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
 ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them
@@ -133,7 +134,7 @@ def _candidates(
             directions, sign, tilt, are_isolated = _extreme_directions(central, spread, degree, clear)
             if not len(directions):
                 continue
-            bases = np.array([frame_about(direction) for direction in directions])
+            bases = np.array([frame_about(direction) for direction in directions.tolist()]).transpose(0, 2, 1)
             fourfold = sign if degree == 4 else -1.0
             frames, harmonic, turn = _fix_rotation_about_axis(central, spread, bases, 2, fourfold)
             rule = FrameRule(degree, 2, harmonic, _sign(harmonic, fourfold)) if are_isolated else None
@@ -211,7 +212,7 @@ def _harmonic(tensor: NDArray, degree: int, m: int, k: int) -> NDArray[np.comple
 def _extreme_directions(
     central: Moments, spread: SecondMomentAxes, degree: int, clear: float
 ) -> tuple[NDArray, float, float, bool]:
-    """Return (k, 3) the directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
+    """Return the (k, 3) directions u of the largest E[(u·x)^degree], or of the least, whichever are fewer.
 
     Return also 1 for the largest or -1 for the least; the angle by which noise may have turned the directions; and
     whether they are isolated: for a circle of directions its poles are returned. There are none, (0, 3), if the moment
@@ -286,16 +287,8 @@ def _sphere_directions() -> NDArray[np.float64]:
     return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
 
 
-def frame_about(axis: NDArray) -> NDArray[np.float64]:
-    """Return a right-handed frame with this third axis; the first is a coordinate axis, projected."""
-    helper = np.eye(3)[np.argmin(np.abs(axis))]
-    first = helper - axis * (axis @ helper)
-    first /= np.linalg.norm(first)
-    return np.stack([first, np.cross(axis, first), axis], axis=1)
-
-
 def _normalized_moments(central: Moments, spread: SecondMomentAxes, frames: NDArray) -> tuple[NDArray, NDArray]:
-    """Return (k, n) the normalized moments in the frames, and (n,) their noise."""
+    """Return the (k, n) normalized moments in the frames, and (n,) their noise."""
     values, noises = [], []
     for degree in range(3, central.order + 1):
         unit, noise = _normalization(central, spread, degree)

@@ -17,12 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
-from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
+from ..moments.exponents import monomial_count, monomial_index, monomial_values, monomials, order_from_count
 from ..moments.moments import Moments
 from ..verdict.finding import MeasureError
 from .canonical_frame import NOISE_GROWTH, extents_of
 from .findings import MOMENTS_OVERFLOW
-from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
+from .tensors import SYMMETRIES
+from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # index of the first moment of third order
 # By the parity of p, q and r: 0 if half turns change no sign, else 1 to 3 for the exponent of other parity.
@@ -32,7 +33,7 @@ HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.
 
 
 def choose_half_turns(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return (n, 4) the HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
+    """Return the (n, 4) HALF_TURN_SIGNS that `canonical_frames` chooses for bodies without axes of equal moments."""
     values, least, _ = _along_axes(moments, fixed, bodies)
     return _choose(values, least, fixed.allowed[bodies])
 
@@ -42,8 +43,9 @@ def choose_about_axis(
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Choose the half turns as `canonical_frames` does, for bodies with two axes of equal moments.
 
-    Return an (n,) mask of the bodies whose moments do not fix the directions of these axes, and the (n, 4) half turns:
-    one for one direction of the axis, or for both. They hold for the masked bodies only; search the others one by one.
+    Return an (n,) mask of the bodies whose moments do not fix the directions of these two axes, and an (n, 4) mask of
+    half turns, at most one for each direction of the third axis. The half turns hold for the masked bodies only; the
+    other bodies have to be searched one by one.
     """
     values, least, raw = _along_axes(moments, fixed, bodies)
     is_round, allowed = np.ones(len(bodies), bool), fixed.allowed[bodies]
@@ -51,8 +53,7 @@ def choose_about_axis(
         rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
         weights, columns, forms = _harmonics(axis, moments.order)
         size = fixed.size[bodies[rows]]
-        powers = monomials(moments.order)[columns + THIRD]
-        unit = np.multiply.reduce(extents_of(size)[:, None] ** powers, axis=2)
+        unit = monomial_values(extents_of(size), moments.order)[:, columns + THIRD]
         harmonic = np.abs(raw[rows][:, THIRD:] @ forms.T) / unit
         is_round[rows] = ~(harmonic > weights * least[rows][:, columns]).any(axis=1)
         # keep only the first frame for each direction of the axis
@@ -65,7 +66,7 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the allowed half turns with the largest normalized moments (n, columns).
+    """Return an (n, 4) mask of the allowed half turns with the largest normalized moments (n, columns).
 
     They are compared column after column; values that differ by no more than `least` are equal.
     """
@@ -97,7 +98,7 @@ def _along_axes(
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]
     powers = monomials(order)[THIRD:]
     degree, extents = powers.sum(axis=1), extents_of(size)
-    unit = np.multiply.reduce(extents[:, None] ** powers, axis=2)
+    unit = monomial_values(extents, order)[:, THIRD:]
     thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
     noise = fixed.noise + 4.0 * fixed.step[bodies, None] / thin + degree * fixed.tilt[bodies, None]
     return raw[:, THIRD:] / unit, np.array(NOISE_GROWTH)[degree] * noise + error / unit, raw
@@ -107,8 +108,8 @@ def _along_axes(
 def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.complex128]]:
     """Return the harmonics E[(x+iy)^m (x²+y²)^j z^k] for all degrees m + 2j + k from 3 to `order` with m > 0.
 
-    z is along this axis, x and y along the next. Return (h,) the multiple of a moment's noise that each has, (h,)
-    the column, from third order on, of that moment, and (h, columns) the harmonic's coefficients.
+    z is along this axis, x and y along the next. Return three arrays: (h,) factors on the noise of a moment that give
+    the noise of each harmonic; (h,) the column, from third order on, of that moment; and (h, columns) coefficients.
     """
     weights, columns, forms = [], [], []
     for degree in range(3, order + 1):

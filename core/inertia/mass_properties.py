@@ -8,14 +8,14 @@ eigenvalues, I_1 = m(λ_2+λ_3), so that no moment exceeds the sum of the other 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import hypot
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count, sum_moments
+from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, sum_moments
 from ..numerics.arguments import check_type, float_array
 from ..numerics.arrays import PerBody
 from ..numerics.rotations import rotation_array
@@ -25,6 +25,7 @@ from .principal_frames import OwnMoments, PrincipalFrame, principal_frame, princ
 from .third_moment_frames import ThirdMomentFrames
 
 IDENTITY_3 = np.eye(3)
+MAX_INPUT_SHARE = 0.1  # of a volume: a larger bound for float32 coordinates leaves none
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,29 +80,9 @@ class MassProperties:
             raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
             raise ValueError("impossible density: {!r}".format(density))
-        if not moments.raw[0] > moments.rounding_error[0]:
+        if not has_certain_total(moments):
             raise MeasureError(NO_CERTAIN_VOLUME)
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
-
-    @classmethod
-    def from_numbers(
-        cls,
-        mass: float,
-        center: ArrayLike,
-        inertia: ArrayLike,
-        moments: ArrayLike,
-        axes: ArrayLike,
-        rounding_error: dict[str, PerBody],
-        input_error: dict[str, PerBody],
-    ) -> MassProperties:
-        """Return the body with these numbers, as `MassProperties` and `PrincipalFrame` hold them.
-
-        Whether its axes are unique is unknown.
-        """
-        frame = PrincipalFrame(
-            np.asarray(moments, float), np.asarray(axes, float), symmetry="", is_unique=False, finding=None
-        )
-        return cls(mass, np.asarray(center, float), np.asarray(inertia, float), frame, rounding_error, input_error)
 
     @classmethod
     def of_stack(
@@ -157,17 +138,20 @@ class MassProperties:
         arm = float_array("point", point, 3) - self.center
         return self.inertia + self.mass * (arm @ arm * IDENTITY_3 - np.outer(arm, arm))
 
-    def as_moments(self) -> Moments:
-        """Return its mass moments about the center; the third ones are not known any more and left zero."""
-        raw = np.zeros(monomial_count(3))
-        raw[0] = self.mass
-        raw[SECOND_MOMENT_INDEX] = np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia
-        return Moments(raw, self.center, Measure.MASS)
-
     @property
     def radii_of_gyration(self) -> NDArray[np.float64]:
         """(3,) sqrt(I/m) about the principal axes."""
         return np.sqrt(self.principal.moments / self.mass)
+
+    def axes_bound(self, strain: float) -> float:
+        """Return a bound of the turn of the principal axes of different moments, in radians (Davis and Kahan 1970).
+
+        They turn with the errors of inertia, and with a `strain` of the body.
+        """
+        moments = self.principal.moments
+        off = self.rounding_error["inertia"] + self.input_error["inertia"] + 2.0 * strain * moments[2]
+        gap = float(np.diff(moments).min()) - off
+        return math.asin(off / gap) if off < gap else math.pi
 
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
         """Return the same body in the frame with the columns of a rotation as axes and with this origin."""
@@ -181,6 +165,14 @@ class MassProperties:
             inertia=(inertia + inertia.swapaxes(-1, -2)) / 2.0,
             principal=replace(self.principal, axes=inverse @ self.principal.axes),
         )
+
+
+def has_certain_total(moments: Moments) -> PerBody:
+    """Return whether totals exceed their rounding, and volumes also ten times what float32 coordinates may change."""
+    least = moments.rounding_error[..., 0]
+    if moments.measure == Measure.VOLUME:
+        least = np.maximum(least, moments.input_error[..., 0] / MAX_INPUT_SHARE)
+    return moments.raw[..., 0] > least
 
 
 def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike | None = None) -> MassProperties:
@@ -222,8 +214,8 @@ def affine_image(
 ) -> MassProperties:
     """Return the mass properties of a body that is stretched, sheared and turned by the (3, 3) part of a map.
 
-    `center` and `mass` are those of the image; each principal axis points the way of a column of `preferred_axes`.
-    The bounds are those of `properties`: nothing better is known here. The frame is no choice of the canonical rule:
+    `center` and `mass` are those of the image; each principal axis points the same way as a column of `preferred_axes`.
+    The bounds of `properties` are kept, as nothing better is known here. The frame is no choice of the canonical rule:
     second moments alone leave the signs open.
     """
     linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
@@ -245,9 +237,9 @@ def affine_image(
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return (n,) whether centers are in boxes (n, 3) to (n, 3), and second central moments can be those of a mass.
+    """Return an (n,) mask of the bodies whose center and second central moments are possible for a mass in their box.
 
-    A surface that intersects itself may violate both.
+    low, high: (n, 3) corners of the boxes. A surface that intersects itself may have an impossible center or moments.
     """
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
@@ -290,5 +282,5 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
 
 def _lengths(vectors: NDArray) -> NDArray[np.float64]:
     """Return the lengths (...,) of (..., k) vectors with squares that may underflow."""
-    lengths = [hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
+    lengths = [math.hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
     return np.array(lengths).reshape(vectors.shape[:-1])

@@ -5,7 +5,7 @@
 The axes are the eigenvectors of the central second moments, largest first, so that axis 1 is the long axis (least
 inertia). Their signs follow Zhang and Chen (ICIP 2001, eq. 11): central third moments positive. Their rule fails on
 every body with a mirror plane, because M_300 is noise, so it is made robust (see `third_moment_frames`). Moments to
-sixth order decide if equal moments or a want of skewness leave a choice (see `canonical_frame`). Any further freedom is
+sixth order decide if equal moments or a lack of skewness leave a choice (see `canonical_frame`). Any further freedom is
 the body's own: there the frame nearest to the axes that the caller prefers is taken, and `finding` says so.
 
 Moments to sixth order may be given in coordinates of the body's own, with the rotation from there: then bodies that are
@@ -41,7 +41,8 @@ from .findings import (
 )
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .shared_search import shared_frames
-from .third_moment_frames import EQUAL_AXES, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames, third_moment_frames
+from .tensors import EQUAL_AXES, SYMMETRIES
+from .third_moment_frames import HALF_TURN_SIGNS, ThirdMomentFrames, third_moment_frames
 
 NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed

@@ -18,9 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments.exponents import monomial_count, monomial_values, monomials
 from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import tensor_index
+from ..numerics.arrays import cross_rows, lengths
 from ..verdict.finding import MeasureError
 from .canonical_frame import (
     FLAT_EXTENT_RTOL,
@@ -32,15 +33,18 @@ from .canonical_frame import (
     canonical_frames,
 )
 from .findings import MOMENTS_OVERFLOW
-from .third_moment_frames import EQUAL_AXES, FIXED_AXIS, HALF_TURN_SIGNS, SYMMETRIES, ThirdMomentFrames
+from .tensors import EQUAL_AXES, SYMMETRIES
+from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
-LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
+LEAST_BOUND = 2.0**-30  # least bound; larger ones are rounded up to three binary digits, so that copies agree
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # bodies with frames that a refinement turns by more are searched one by one
 REFINEMENTS = 2  # each squares the error, at first the grid's 1e-6
+CONVERGED = 1e-9  # A body whose directions turn by less is refined: another step would move them by rounding alone.
 NO_VALUES = np.empty(0)
+IDENTITY = np.eye(3)[None]
 THIRD = monomial_count(2)  # index of the first moment of third order
 POWERS = monomials(MAX_ORDER)
 DEGREE = POWERS.sum(axis=1)
@@ -74,7 +78,7 @@ def _frames_alike(
 ) -> list[EquivalentFrames | None]:
     """Return the frames of bodies of one symmetry; None for bodies that have to be searched one by one."""
     axis = FIXED_AXIS.get(name)
-    basis = _bases(fixed.axes[bodies, :, axis], axis) if axis is not None else np.tile(np.eye(3), (len(bodies), 1, 1))
+    basis = _bases(fixed.axes[bodies, :, axis], axis) if axis is not None else IDENTITY.repeat(len(bodies), 0)
     raw, bound, extent = _whitened(moments, fixed, bodies, basis, name)
     usable = np.isfinite(raw).all(axis=1) & np.isfinite(bound).all(axis=1)
     usable &= extent.min(axis=1) > FLAT_EXTENT_RTOL * extent.max(axis=1)
@@ -82,8 +86,8 @@ def _frames_alike(
     step = _rounded_up(fixed.step[bodies] / extent.min(axis=1))
     tilt = _rounded_up(fixed.tilt[bodies]) * (fixed.tilt[bodies] > 0.0)
     cells = np.where(usable[:, None], np.rint(raw[:, THIRD:] / STEP), 0.0).astype(np.int32)
-    ways = 3 if axis is None else _ways(fixed, bodies, axis)
-    keys = zip(np.broadcast_to(ways, len(bodies)).tolist(), cells, bound, step.tolist(), tilt.tolist())
+    ways = [3] * len(bodies) if axis is None else _ways(fixed, bodies, axis).tolist()
+    keys = zip(ways, cells, bound, step.tolist(), tilt.tolist())
     together: dict[tuple, list[int]] = {}
     for row, (way, own_cells, own_bound, own_step, own_tilt) in enumerate(keys):
         if usable[row]:
@@ -98,7 +102,9 @@ def _frames_alike(
         frames = basis[rows][:, None] @ frames
         for row, own, near in zip(rows, frames, is_near.tolist()):
             if near:
-                results[row] = replace(alike, frames=own)
+                results[row] = EquivalentFrames(
+                    own, NO_VALUES, NO_VALUES, alike.revolution_axes, alike.tilt, alike.rule
+                )
     return results
 
 
@@ -106,7 +112,7 @@ def _frames_alike(
 def _search(
     name: str, noise: float, ways: int, cells: bytes, bound: bytes, step: float, tilt: float
 ) -> EquivalentFrames:
-    """Return the frames of a body with these rounded moments; ways: its fixed axis points ahead (1), back (2), both."""
+    """Return the frames of a body with these rounded moments. ways: of its fixed axis, coded as by `_ways`."""
     raw = np.concatenate([BELOW_THIRD, STEP * np.frombuffer(cells, np.int32)])
     central = Moments(raw, np.zeros(3), Measure.MASS, np.frombuffer(bound)[DEGREE])
     starts = np.eye(3)[None]
@@ -121,16 +127,16 @@ def _search(
 def _bases(fixed: NDArray, axis: int) -> NDArray[np.float64]:
     """Return (n, 3, 3) right-handed frames with these vectors as axis number `axis`."""
     helper = np.eye(3)[np.round(np.abs(fixed), 3).argmin(axis=1)]  # equal for axes that differ by rounding
-    first = helper - fixed * (fixed * helper).sum(axis=1, keepdims=True)
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    first = helper - fixed * np.add.reduce(fixed * helper, axis=1, keepdims=True)
+    first /= lengths(first)
     basis = np.empty((len(fixed), 3, 3))
     basis[:, :, axis], basis[:, :, (axis + 1) % 3] = fixed, first
-    basis[:, :, (axis + 2) % 3] = np.cross(fixed, first)
+    basis[:, :, (axis + 2) % 3] = cross_rows(fixed, first)
     return basis
 
 
 def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDArray[np.intp]:
-    """Return (n,) the ways that the fixed axes of bodies may point, in the code of `_search`."""
+    """Return (n,) codes of the directions in which the bodies' fixed axes may point: 1 ahead, 2 back, 3 both."""
     allowed, ahead = fixed.allowed[bodies], HALF_TURN_SIGNS[:, axis] > 0.0
     return np.asarray(allowed[:, ahead].any(axis=1) + 2 * allowed[:, ~ahead].any(axis=1), np.intp)
 
@@ -138,7 +144,7 @@ def _ways(fixed: ThirdMomentFrames, bodies: NDArray[np.intp], axis: int) -> NDAr
 def _whitened(
     moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp], basis: NDArray, name: str
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Return (n, K) central moments along (n, 3, 3) axes, by total and extents; bounds by degree; (n, 3) extents."""
+    """Return (n, K) central moments along (n, 3, 3) axes, over total and extents; bounds by degree; (n, 3) extents."""
     central = moments.about_center()
     free = list(EQUAL_AXES[name])
     extent = fixed.size[bodies].copy()
@@ -149,7 +155,7 @@ def _whitened(
         turned = basis.transpose(0, 2, 1)
         raw, error = rotate_moments(raw, MAX_ORDER, turned), rotate_moments(error, MAX_ORDER, np.abs(turned))
     with np.errstate(all="ignore"):
-        unit = np.multiply.reduce(extent[:, None] ** POWERS, axis=2)
+        unit = monomial_values(extent, MAX_ORDER)
         raw, error = raw / unit, error / unit
     starts = [monomial_count(degree - 1) for degree in range(1, MAX_ORDER + 1)]
     bound = np.maximum.reduceat(error, [0, *starts], axis=1)
@@ -166,14 +172,14 @@ def _refined(
     frames: NDArray[np.float64], rule: FrameRule, raw: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Return (n, k, 3, 3) frames turned by the rule for moments (n, K), and (n,) whether they hardly turned."""
-    start, frames = frames, np.tile(frames, (len(raw), 1, 1, 1))
+    start, frames = frames, frames[None].repeat(len(raw), 0)
     third, first, second = rule.axis, (rule.axis + 1) % 3, (rule.axis + 2) % 3
     if rule.extreme:
         pole = _extreme(frames[..., third], rule.extreme, raw)
         side = frames[..., first]
-        side = side - pole * (pole * side).sum(axis=-1, keepdims=True)
-        side /= np.linalg.norm(side, axis=-1, keepdims=True)
-        frames[..., first], frames[..., second], frames[..., third] = side, np.cross(pole, side), pole
+        side = side - pole * np.add.reduce(pole * side, axis=-1, keepdims=True)
+        side /= lengths(side)
+        frames[..., first], frames[..., second], frames[..., third] = side, cross_rows(pole, side), pole
     if rule.harmonic:
         degree, m, k = rule.harmonic
         turning, j = frames[..., first] + 1j * frames[..., second], (degree - m - k) // 2
@@ -187,13 +193,19 @@ def _refined(
 
 def _extreme(points: NDArray, degree: int, raw: NDArray) -> NDArray[np.float64]:
     """Return (n, k, 3) directions near the points in which the moments of a degree are extreme, by Newton's method."""
+    is_moving = np.ones((len(points), 1, 1), bool)
     for _ in range(REFINEMENTS):
         twice = _contracted(raw, [points] * (degree - 2), degree)
         once = np.einsum("nkij,nkj->nki", twice, points)
-        height = (once * points).sum(axis=-1)[..., None]
-        curved = (degree - 1) * twice - height[..., None] * np.eye(3)
-        points = points + np.linalg.solve(curved, (height * points - once)[..., None])[..., 0]
-        points /= np.linalg.norm(points, axis=-1, keepdims=True)
+        height = np.add.reduce(once * points, axis=-1, keepdims=True)
+        curved = (degree - 1) * twice - height[..., None] * IDENTITY
+        turned = points + np.linalg.solve(curved, (height * points - once)[..., None])[..., 0]
+        turned /= lengths(turned)
+        off = np.abs(turned - points)
+        points = np.where(is_moving, turned, points)
+        is_moving &= off.max(axis=(1, 2), keepdims=True) > CONVERGED
+        if not is_moving.any():
+            break
     return points
 
 

@@ -18,18 +18,16 @@ from numpy.typing import NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
 from .canonical_frame import NOISE_LEVEL, SecondMomentAxes
+from .tensors import EQUAL_AXES, EQUAL_MOMENTS_RTOL, SYMMETRIES
 
-EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
 EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
 PARTNER_AXES = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1]])
-OWN_AXIS = np.arange(3)[:, None]
+AXES = np.arange(3)
+OWN_AXIS = AXES[:, None]
 # Signs of the axes that keep a frame right-handed.
 HALF_TURN_SIGNS = np.array([signs for signs in product((1.0, -1.0), repeat=3) if np.prod(signs) > 0.0])
 
-SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
-# For each symmetry, the axes with equal moments.
-EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
 FIXED_AXIS = {"prolate": 0, "oblate": 2}  # the axis with the moment that differs
 IS_FIXED = np.array([[axis not in EQUAL_AXES[name] for axis in range(3)] for name in SYMMETRIES])
 
@@ -70,7 +68,7 @@ class ThirdMomentFrames:
         return SecondMomentAxes(self.axes[i], self.size[i], self.free(i), step, tilt, self.noise)
 
     def frames(self, i: int) -> NDArray[np.float64]:
-        """Return (k, 3, 3) the right-handed frames of one body that third moments allow: signs of its axes."""
+        """Return the (k, 3, 3) right-handed frames of one body that third moments allow: signs of its axes."""
         return self.axes[i] * HALF_TURN_SIGNS[self.allowed[i], None]
 
 
@@ -128,9 +126,10 @@ def third_moment_frames(
                 refine(undecided), shift[undecided], real[undecided], axes[undecided], symmetry[undecided]
             )
     is_clear = np.abs(third) > noise + error
-    first = is_clear.argmax(axis=2)[:, :, None]  # zero if none is more than noise
+    first = is_clear.argmax(axis=2)  # zero if none is more than noise
     is_scored = fixed & is_clear.any(axis=2)
-    scores = np.where(is_scored, np.take_along_axis(third, first, 2)[:, :, 0], 0.0)
+    body = np.arange(len(third))[:, None]
+    scores, unsure = [np.where(is_scored, values[body, AXES, first], 0.0) for values in (third, noise + error)]
     inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
     return ThirdMomentFrames(
         is_body,
@@ -141,22 +140,22 @@ def third_moment_frames(
         step * np.sqrt(scale),
         tilts.max(axis=1),
         noise_factor * NOISE_LEVEL,
-        _allowed_signs(scores),
+        _allowed_signs(scores, unsure.max(axis=1)),
         skewness[:, :, 0],
         noise[:, :, 0] + skewness_error[:, :, 0],
     )
 
 
 def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return (n,) whether better third moments could change no score that counts, no sign and no order."""
+    """Return an (n,) mask of bodies with frames that more exact third moments could not change."""
     clear = size - error > noise
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
-    first = clear.argmax(axis=2)[:, :, None]
-    size, error = (np.take_along_axis(values, first, 2)[:, :, 0] for values in (size, error))
+    body, first = np.arange(len(size))[:, None], clear.argmax(axis=2)
+    size, error, noise = size[body, AXES, first], error[body, AXES, first], noise[body, AXES, first]
     last = size.argmin(axis=1)[:, None]  # the least of three scores: both others have to be clear of it
-    least, least_error = np.take_along_axis(size, last, 1), np.take_along_axis(error, last, 1)
-    apart = (size - least > 2.0 * (error + least_error)).sum(axis=1) == 2
+    least, unsure = size[body, last], (noise + error).max(axis=1, keepdims=True)
+    apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 
 
@@ -185,17 +184,18 @@ def _third_scores(
     score_error = np.abs(turned) @ error.reshape(count, 3, 9) @ np.abs(squares)
     scores, score_error = scores[:, OWN_AXIS, PARTNER_AXES] / unit, score_error[:, OWN_AXIS, PARTNER_AXES] / unit
     for name, axis in FIXED_AXIS.items():
-        bodies = symmetry == SYMMETRIES.index(name)
-        for values in (scores, score_error):
-            values[bodies, axis, 1:] = values[bodies, axis, 1:].mean(axis=1, keepdims=True)
+        bodies = np.flatnonzero(symmetry == SYMMETRIES.index(name))
+        if len(bodies):
+            for values in (scores, score_error):
+                values[bodies, axis, 1:] = values[bodies, axis, 1:].mean(axis=1, keepdims=True)
     return scores, score_error
 
 
-def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
-    """Return (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
+def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
+    """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores; (n,) `unsure` is their noise."""
     size, counts = np.abs(scores), scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
-    weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
+    weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL) + unsure[:, None]
     last = 2 - weak[:, ::-1].argmax(axis=1)
-    counts = counts & ~(counts.all(axis=1)[:, None] & (np.arange(3) == last[:, None]))
+    counts = counts & ~(counts.all(axis=1)[:, None] & (last[:, None] == AXES))
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)

@@ -13,17 +13,17 @@ from __future__ import annotations
 import io
 import json
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from math import isfinite
+from math import isfinite, sqrt
 from typing import Any
+
+from ..inertia.tensors import TENSOR
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
 MAX_ORDER = 30  # 5456 moments; the core knows no limit, but beyond it double precision says little
 STATUSES = ("ok", "error", "crashed", "timeout", "memory", "unsupported_version", "missing")
-
-# The inertia tensor's six entries, in the order in which they are stored on an object.
-TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
 
 # Content of the file of a Fourier transform.
 SPECTRUM_ARRAYS = ("q", "F", "error", "input", "method", "frame")
@@ -60,11 +60,13 @@ def document(
     blender: str | None,
     frame: str = "world",
     status: str | None = None,
+    run: dict[str, Any] | None = None,
 ) -> dict[str, Any]:
     """Return the document of one file, with the objects sorted by name.
 
     `file` is None for a scene that was never saved. errors, left_out: names and reasons of objects that could not be
-    measured, or were excluded. status: one of `STATUSES`, by default according to the errors.
+    measured, or were excluded. status: one of `STATUSES`, by default according to the errors. run: the add-on's
+    version and the given options, None outside of the command line.
     """
     errors = list(errors)
     if frame != "world":
@@ -72,6 +74,7 @@ def document(
     return {
         "schema": SCHEMA,
         "blender": blender,
+        **({} if run is None else {"run": run}),
         "file": file,
         "status": status or ("error" if errors else "ok"),
         "frame": frame,
@@ -82,13 +85,31 @@ def document(
     }
 
 
-def failed_document(file: str, reason: str, status: str, *, blender: str | None, frame: str) -> dict[str, Any]:
-    """Return the document of a file that was not measured, with the reason as its only error."""
+def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[str, Any]:
+    """Return the document of a file that was not measured, with the reason as its only error.
+
+    values: of `document`, such as `blender` and `frame`.
+    """
     total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
     total |= {"findings": [], "warnings": [], "notes": []}
     errors = [{"name": None, "reason": reason}]
-    return document([], total, errors, file=file, blender=blender, frame=frame, status=status)
+    return document([], total, errors, file=file, status=status, **values)
+
+
+def radius_of_gyration(record: dict[str, Any]) -> float | None:
+    """Return the radius of gyration of a body's record in m, or None without a positive mass and known moments."""
+    mass, moments = record["mass"], record["principal_moments"]
+    if not mass or not moments or None in moments:
+        return None
+    square = sum(moments) / (2.0 * mass)
+    return sqrt(square) if square >= 0.0 else None
+
+
+def count_findings(document: dict[str, Any]) -> Counter[tuple[str, str]]:
+    """Return the counts of the records with a finding, and of the total, by severity and code."""
+    records = [*document["objects"], *document.get("flat", ()), document.get("total", {})]
+    return Counter(pair for one in records for pair in {(f["severity"], f["code"]) for f in one.get("findings", ())})
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
@@ -154,7 +175,7 @@ def _csv_rows(documents: Iterable[dict[str, Any]]) -> Iterator[dict[str, Any]]:
 
 
 _COLUMNS = (
-    "file", "frame", "name", "type", "kind", "method", "density", "mass", "volume", "area",
+    "file", "frame", "name", "type", "kind", "verdict", "method", "density", "mass", "volume", "area",
     *(f"center_of_mass_{axis}" for axis in "xyz"),
     *(f"inertia_{name}" for name, *_ in TENSOR),
     *(f"principal_moment_{number}" for number in (1, 2, 3)),
@@ -186,12 +207,12 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             f"principal_axis_{number + 1}_{axis}": entry["principal_axes"][i][number] for i, axis in enumerate("xyz")
         }
     row |= _nested("display_mesh", entry.get("display_mesh", {}))
-    row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"])
+    row |= _nested("health", entry["health"]) | _nested("error_bound", entry["error_bound"] or {})
     for name in ("volume", "length", "surface", "mass"):
         powers = entry.get("moments", {}).get(name, {})
         row |= {f"{name}_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
     if entry.get("pose"):
-        row |= {f"pose_{name}": entry["pose"][name] for name in ("unique", "symmetry", "symmetry_order")}
+        row |= {f"pose_{name}": entry["pose"].get(name) for name in ("unique", "symmetry", "symmetry_order")}
         row |= {
             f"pose_matrix_{i + 1}{j + 1}": value
             for i, line in enumerate(entry["pose"]["matrix"])

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..flat.regions import plane_positions
-from ..flat.section import Plane
+from ..flat.section import project
+from ..flat.section_properties import Plane
 from ..moments.complex_form import Invariant
 from ..moments.exponents import monomial_index
 from ..moments.moments import Moments, U
@@ -63,7 +64,7 @@ def flat_record(
     }
     if order is not None:
         point = _point(about, centroid, axes, location, frame[2])
-        placed = moments.truncate(order).about_point(np.append(plane.project(point[None])[0], 0.0))
+        placed = moments.truncate(order).about_point(np.append(project(plane, point[None])[0], 0.0))
         entry["moments"] = {
             "order": order,
             "about": placed.about[:2],

@@ -15,13 +15,16 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from datetime import UTC, datetime
 from typing import Any
 
+from .documents import count_findings, radius_of_gyration
 from .plain_text import counted, visible
 
 _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
 _COLUMNS = (
-    *(("picture", ""), ("file", "File"), ("name", "Name"), ("status", "Status"), ("method", "Method")),
+    *(("picture", ""), ("file", "File"), ("name", "Name"), ("status", "Status")),
+    *(("verdict", "Verdict"), ("method", "Method")),
     *(("mass", "Mass, kg"), ("volume", "Volume, m³"), ("area", "Area, m²"), ("size", "Gyration, m")),
     *(("bound", "Bound, of volume"), ("remarks", "Remarks")),
 )
@@ -83,7 +86,13 @@ text.addEventListener("input",filter);status.addEventListener("change",filter);f
 
 def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """Yield the HTML page in pieces; `documents` is iterated twice."""
-    statuses = Counter(document["status"] for document in documents)
+    statuses: Counter[str] = Counter()
+    origins: Counter[str] = Counter()
+    codes: Counter[tuple[str, str]] = Counter()
+    for document in documents:
+        statuses[document["status"]] += 1
+        origins[_origin(document)] += 1
+        codes += count_findings(document)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
     policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(digest)
     yield '<!doctype html><!-- Body Moments: report -->\n<html lang="en"><head><meta charset="utf-8">\n'
@@ -93,6 +102,14 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     yield "<h1>Body Moments</h1><p>{}: {}. All numbers are SI.</p>\n".format(
         counted(statuses.total(), "file"), counts or "-"
     )
+    yield "<p>{:%Y-%m-%d %H:%M} UTC</p>\n".format(datetime.now(UTC))
+    yield from ("<p>{}: {}</p>\n".format(counted(n, "file"), html.escape(visible(one))) for one, n in origins.items())
+    yield "<details><summary>{}</summary><ul>\n".format(counted(len(codes), "finding"))
+    yield from (
+        '<li class="{0}">{2} × {1} ({0})</li>\n'.format(html.escape(level), html.escape(visible(code)), number)
+        for (level, code), number in codes.most_common()
+    )
+    yield "</ul></details>\n"
     yield '<p><input id="text" type="search" placeholder="Filter" aria-label="Filter">'
     yield '<select id="status" aria-label="Status"><option value="">All statuses</option>'
     yield from ("<option>{}</option>".format(html.escape(status)) for status in sorted(statuses))
@@ -106,20 +123,34 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     yield "</tbody></table><script>{}</script></body></html>\n".format(_SCRIPT)
 
 
+def _origin(document: dict[str, Any]) -> str:
+    """Return the versions and the options with which a document was made."""
+    run = document.get("run", {})
+    words = [name if value is True else "{} {}".format(name, value) for name, value in run.get("options", {}).items()]
+    versions = "Blender {}, Body Moments {}".format(document["blender"] or "-", run.get("addon", "-"))
+    return "; ".join([versions, " ".join(words) or "no options"])
+
+
 def _table_rows(document: dict[str, Any]) -> Iterator[str]:
     file, status = document["file"] or "", document["status"]
     for entry in document["objects"]:
-        mass, moments = entry["mass"], entry["principal_moments"]
-        size = math.sqrt(sum(moments) / (2.0 * mass)) if mass and moments and None not in moments else None
         bounds, volume = entry["error_bound"] or {}, entry["volume"]
         known = [one for one in (bounds.get("volume"), (bounds.get("input") or {}).get("volume")) if one is not None]
-        values = {"mass": mass, "volume": volume, "area": entry["area"], "size": size}
+        values = {"mass": entry["mass"], "volume": volume, "area": entry["area"], "size": radius_of_gyration(entry)}
         values["bound"] = sum(known) / abs(volume) if known and volume else None
-        yield _row(_picture(entry), file, entry["name"], status, entry["method"], values, _remarks(entry))
+        yield _row(
+            _picture(entry),
+            file,
+            entry["name"],
+            status,
+            (entry.get("verdict", ""), entry["method"]),
+            values,
+            _remarks(entry),
+        )
     for entry in document.get("flat", ()):
-        yield _row("", file, entry["name"], status, "flat", {"area": entry["area"]}, _remarks(entry))
+        yield _row("", file, entry["name"], status, ("", "flat"), {"area": entry["area"]}, _remarks(entry))
     for error in document["errors"]:
-        yield _row("", file, error["name"] or "", status, "", {}, [("error", error["reason"])])
+        yield _row("", file, error["name"] or "", status, ("", ""), {}, [("error", error["reason"])])
 
 
 def _remarks(entry: dict[str, Any]) -> list[tuple[str, str]]:
@@ -131,13 +162,13 @@ def _row(
     file: str,
     name: str,
     status: str,
-    method: str,
+    methods: tuple[str, str],
     values: dict[str, float | None],
     remarks: Sequence[tuple[str, str]],
 ) -> str:
-    words = " ".join([file, name, method, status, *(text for _, text in remarks)]).lower()
+    words = " ".join([file, name, *methods, status, *(text for _, text in remarks)]).lower()
     cells = ["<td>{}</td>".format(picture)]
-    for text, kind in ((file, ""), (name, ""), (status, status), (method, "")):
+    for text, kind in ((file, ""), (name, ""), (status, status), *((text, "") for text in methods)):
         shown = html.escape(visible(text))
         cells.append('<td class="{}" data-key="{}">{}</td>'.format(html.escape(kind), shown, shown))
     for column in ("mass", "volume", "area", "size", "bound"):
@@ -156,7 +187,7 @@ def _picture(entry: dict[str, Any]) -> str:
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)
     mass, moments, axes = entry["mass"], entry["principal_moments"], entry["principal_axes"]
-    if not mass or not moments or None in moments or not axes:
+    if radius_of_gyration(entry) is None or not axes or None in sum(axes, []):
         return ""
     half = sum(moments) / 2.0
     sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # Half sides of a box.

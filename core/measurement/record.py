@@ -25,6 +25,7 @@ from ..verdict.finding import Finding, MeasureError, Severity
 from ..verdict.sentences import sentence, severity
 from .documents import plain
 from .measurement import UNIFORM_DENSITIES, Measurement
+from .trust import trust_of
 
 MAX_ELEMENTS = 1000  # Limit for one finding.
 
@@ -49,6 +50,7 @@ def record(
         "name": measurement.name,
         "type": measurement.type,
         "kind": measurement.kind,
+        "verdict": str(trust_of(measurement.method, measurement.findings)),
         "method": str(measurement.method),
         "density": measurement.density,
         **({} if measurement.density_from in UNIFORM_DENSITIES else {"density_from": str(measurement.density_from)}),
@@ -66,7 +68,7 @@ def record(
         }
     point = _point(about, measurement, properties, frame)
     if about is not None:
-        entry["inertia_about"] = {"point": point, "inertia": _inertia_about(point, properties)}
+        entry["inertia_about"] = {"point": point, "inertia": properties.inertia_about(point)}
     if order is not None:
         volume = measurement.volume_moments
         if volume is None:
@@ -164,12 +166,6 @@ def _point(
     if about == "world" and frame == "object":
         return -measurement.rotation.T @ measurement.location
     return np.zeros(3) if about is None or isinstance(about, str) else np.asarray(about, np.float64)
-
-
-def _inertia_about(point: NDArray[np.float64], properties: MassProperties) -> NDArray[np.float64]:
-    """Return the tensor about another point, by the parallel-axis theorem."""
-    arm = point - properties.center
-    return properties.inertia + properties.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
 
 
 def _about(point: NDArray[np.float64], moments: Moments, measurement: Measurement, frame: str) -> Moments:

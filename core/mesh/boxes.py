@@ -14,7 +14,7 @@ ROUNDING = 1e-6  # relative to a box's sides
 
 
 def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) boxes in order along the best axis, and (k,) counts of later ones that begin before their ends."""
+    """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin before each one ends."""
     sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
     for axis in range(3):
         order = np.argsort(low[:, axis], kind="stable")
@@ -24,7 +24,7 @@ def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp]
 
 
 def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
-    """Return (k,), (k,) boxes of about `most` pairs that overlap by over `margin`, and the number of untested ones."""
+    """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of untested pairs."""
     order, count = _sweep(low, high, margin)
     left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
     for i, j in following_pairs(order, count, PIECE):

@@ -154,12 +154,12 @@ class Bvh:
             self.high[node] = np.maximum(self.high[child], self.high[child + 1])
 
     def corners(self, triangle: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return (3, 3, k) the coordinates, about `origin`, of the corners of sorted triangles."""
+        """Return the (3, 3, k) coordinates, about `origin`, of the corners of sorted triangles."""
         return self.vertex_columns.take(self.ids.take(triangle, axis=1), axis=1)
 
     @cached_property
     def _shadows(self) -> NDArray[np.float64]:
-        """(5, n) the top heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
+        """The (5, n) top heights of the nodes' boxes, and the least and largest `_across` coordinates in them."""
         (*low, bottom), (*high, top) = self.low.T, self.high.T
         sides = [(below - slope * top, above - slope * bottom) for below, above, slope in zip(low, high, RAY_SLOPES)]
         return np.stack([top, *sides[0], *sides[1]])
@@ -226,7 +226,7 @@ class Bvh:
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
     def distances(self, query_points: NDArray[np.float64], component: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return (k,) the distance of each place (about `origin`) from a component's surface."""
+        """Return the (k,) distances of places (about `origin`) from the surfaces of components."""
         nearest = np.full(len(query_points), np.inf)
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         while pieces:
@@ -254,7 +254,7 @@ class Bvh:
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return (k,) whether an edge of either component pierces the other by the tolerance, and whether work ran out.
+    """Return (k,) masks of pairs in which an edge pierces the other component by the tolerance, and of undecided pairs.
 
     first, second: (k,) components. vertex: (n,) the vertex of each point; triangles that share one are not compared.
     """
@@ -318,8 +318,8 @@ def _edges_cross_triangles(
 ) -> NDArray[np.intp]:
     """Return the indices of triangles `corner`, (3, k, 3), with an edge that goes through their partner in `plane`.
 
-    It runs farther than the tolerance from the partner's edges, and to both sides of it while it is over the partner:
-    the plane of a sliver is not known far from it.
+    The edge goes through farther than the tolerance from the partner's edges. Over the partner it reaches farther than
+    the tolerance to both sides, because the plane of a sliver is not known far from the sliver.
     """
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import first_occurrence, sums_by_index
+from ..numerics.arrays import NEXT_AXIS, first_occurrence, sums_by_index
 from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface
 
@@ -26,9 +26,9 @@ HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
 
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """Return (2, e) the mesh faces beside each used edge, None if the mesh's own corners do not prove closedness.
+    """Return the (2, e) mesh faces beside the used edges, or None unless the mesh's corners prove that it is closed.
 
-    They do if every edge with faces has two, in opposite directions. The edge names at the corners are trusted.
+    They prove it if every edge with faces has two, in opposite directions. The edge indices at the corners are trusted.
     """
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
@@ -55,9 +55,9 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
 def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
-    """Return a function of a block's first corner, or None if faces and corners do not fit.
+    """Return a function of the first corner of a block, or None if faces and corners do not fit.
 
-    The function returns the face of each of the block's corners, and whether the corner's side runs to a higher vertex.
+    The function returns the face of each corner in the block, and whether the corner's side runs to a higher vertex.
     """
     quads, triangles = len(surface.quads), len(surface.triangles)
     if not triangles and surface.quad_faces is None:
@@ -71,7 +71,7 @@ def _sides_at(
         if not sizes.all() or ends[-1] != len(corners):
             return None
         owner = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
-        following = np.roll(corners, -1)
+        following = np.concatenate([corners[1:], corners[:1]])
         following[ends - 1] = corners[ends - sizes]
         return lambda start: (
             owner[start : start + EDGES_PER_BLOCK],
@@ -94,7 +94,7 @@ def _sides_at(
 def ring_sizes(
     triangle_faces: NDArray[np.integer], quad_faces: NDArray[np.integer], count: int = 0
 ) -> NDArray[np.intp]:
-    """Return (count or more,) the number of corners of each mesh face, by its triangles or quad; 0 if it has none."""
+    """Return (count or more,) corner counts of mesh faces, found from their triangles or quads; 0 for missing faces."""
     pieces = np.bincount(triangle_faces, minlength=max(count, int(quad_faces.max(initial=-1)) + 1))
     sizes = np.where(pieces > 0, pieces + 2, 0)
     sizes[quad_faces] = 4
@@ -145,9 +145,9 @@ class Edges:
         return self.first[self.count == 1]
 
     def boundary_ends(self, triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-        """Return the vertices from which and to which the boundary sides of (m, 3) triangles run."""
+        """Return the start vertices and the end vertices of the boundary sides of (m, 3) triangles."""
         side = self.boundary_sides()
-        return triangles.ravel()[side], np.roll(triangles, -1, axis=1).ravel()[side]
+        return triangles.ravel()[side], triangles.take(NEXT_AXIS, 1).ravel()[side]
 
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
@@ -155,7 +155,7 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
 
     quads: the last 2 * `quads` triangles are halves a, b, c and a, c, d of quads, and diagonals are edges of their own.
     """
-    start, stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    start, stop = triangles.ravel(), triangles.take(NEXT_AXIS, 1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
     bits = (len(low) // width).bit_length() + 1  # neighbors in the mesh share the table's cached part
@@ -205,9 +205,9 @@ def group_components(
 ) -> tuple[NDArray[np.intp], int]:
     """Return (m,) components of triangles, made of whole parts, and their number.
 
-    part: (m,) parts connected across edges of two sides; even: (e,) edges of one side that gaps close. A part that
-    closes by itself is a component, though it may share edges (two boxes that meet in an edge); others that share an
-    edge belong together (a box with an inner wall).
+    part: (m,) parts connected across edges of two sides; even: (e,) mask of edges of one side that gaps close. A part
+    that closes by itself is a component, though it may share edges (two boxes that meet in an edge). Parts that do not
+    close by themselves and share an edge are one component (a box with an inner wall).
     """
     non_manifold = edges.count > 2
     if not non_manifold.any():

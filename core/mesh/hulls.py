@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls of points in space, by quickhull with many points at a time and exact decisions.
 
-Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds, in
-a few operations on arrays, all of these that see no common face, nor a face across another's horizon: their order does
-not matter then, as a face over a horizon's edge is a positive combination of the two faces at that edge.
+Quickhull (Barber, Dobkin and Huhdanpaa 1996) adds the farthest point outside each face. Each round here adds, in a few
+operations on arrays, all such points that see no face in common, and no face across another point's horizon. The order
+of these points does not matter, because a face over a horizon's edge is a positive combination of the two faces at that
+edge.
 
-The points are rounded to a grid of 2^29 steps over the largest extent, 2e-9 of it, on which integers decide without
-rounding on which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
+The points are rounded to a grid of 2^29 steps over the largest extent. On this grid integers decide without rounding on
+which side of a face a point is: the result is always a closed convex surface. The points stay as they are.
 """
 
 from __future__ import annotations
@@ -33,10 +34,10 @@ NEXT = np.array([1, 2, 0])
 class ConvexHull:
     """A closed convex surface of triangles; for points in one plane, both sides of their polygon.
 
-    points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3) rows of
-    `points`, outward counter-clockwise. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to
-    2, from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distance of points outside: above
-    the tolerance if the limit of corners was reached.
+    points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3) rows of `points`,
+    counter-clockwise from outside. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to 2,
+    from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distances of points outside the hull;
+    above the tolerance if the limit of corners was reached.
     """
 
     points: NDArray[np.float64]
@@ -69,7 +70,7 @@ def convex_hull(points: ArrayLike, tolerance: float = 1e-8, max_corners: int | N
     tolerance : float
         Relative to the largest extent: points outside by less are left out. Below 1e-8 the grid's steps show.
     max_corners : int, optional
-        Once the hull has so many corners, the other points, which are outside by the least, are left out.
+        Limit of the corners; the other points, which are outside by the least, are left out.
 
     Returns
     -------
@@ -127,7 +128,7 @@ def _first_corners(grid: NDArray[np.float64], least: float) -> list[int]:
 
 
 def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
-    """Return the index of the largest distance, among equal ones (to `least`) that of the largest reach: a corner."""
+    """Return the index of the largest distance; among distances equal to `least`, of the largest reach: a corner."""
     equal = np.flatnonzero(distances >= distances.max() - least)
     return int(equal[reach[equal].argmax()])
 
@@ -168,7 +169,10 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return points outside, the face, of `counts` from `firsts` on, that each is highest above, and the height."""
+        """Return the points still outside, the face that each is highest above, and the heights.
+
+        The faces of a point are `counts` consecutive faces from `firsts` on.
+        """
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]

@@ -21,7 +21,7 @@ TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
-    """Return (m,) the distances of (m, 3) points, or of a single one, from (m, 3, 3) triangles, each from its own.
+    """Return the (m,) distances of (m, 3) points, or of a single one, from (m, 3, 3) triangles, each from its own.
 
     Triangles without area are their edges.
     """

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Crossings of parallel lines with the faces of bodies.
 
-The lines run along the shortest side of a body's box, a little aslant, so that they follow no face of it, in a lattice
-of rows and columns across it. As in drawing a picture, a row crosses a triangle between two of its edges, and columns
-in between meet it: only faces with corners in several rows and columns cause work. A row crosses an edge with one end
-above the row, at a place that is computed from the vertex with the lower index on: triangles that share the edge get
-the same place, and no line slips through between them.
+The lines run along the shortest side of a body's box, a little aslant, so that they are parallel to none of the box's
+faces. Across the box they form a lattice of rows and columns. As in drawing a picture, a row crosses a triangle between
+two of its edges, and columns in between meet it: only faces with corners in several rows and columns cause work. A row
+crosses an edge with one end above the row, at a place that is computed from the vertex with the lower index on:
+triangles that share the edge get the same place, and no line slips through between them.
 
 Several bodies share a scan, each with its own lines and the same result as alone. Fewer rows are taken of a body if
 the work would exceed the limit for its number of triangles.
@@ -53,15 +53,16 @@ class LineGrids:
     def over_boxes(cls, low: NDArray, high: NDArray, lines: NDArray[np.integer]) -> LineGrids:
         """Make grids of about `lines`, (b,), lines each over boxes, (b, 3)."""
         axes = np.argsort(low - high, axis=1, kind="stable")
-        extent, center = (np.take_along_axis(sides, axes, 1) for sides in (high - low, (low + high) / 2.0))
+        body = np.arange(len(low))[:, None]
+        extent, center = (high - low)[body, axes], ((low + high) / 2.0)[body, axes]
         width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
         width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)
         rows = np.clip(np.rint(np.sqrt(lines * width[:, 0] / width[:, 1])), 1, lines)
         columns = np.maximum(np.rint(lines / rows), 1)
-        most = np.stack([rows, np.ceil(columns + COLUMN_SLOPE * rows)], axis=1) + 1.0
+        most = np.array([rows, np.ceil(columns + COLUMN_SLOPE * rows)]).T + 1.0
         size = most.max(axis=0).astype(np.intp) + 1
         origin = np.floor(most / 2.0) + LATTICE_SHIFT
-        return cls(axes, center, width / np.stack([rows, columns], axis=1), origin, *size.tolist())
+        return cls(axes, center, width / np.array([rows, columns]).T, origin, *size.tolist())
 
     @classmethod
     def through_points(cls, points: NDArray[np.float64], sizes: NDArray[np.float64]) -> LineGrids:
@@ -71,12 +72,12 @@ class LineGrids:
         return cls(np.tile(np.arange(3), (count, 1)), points, cell, np.zeros((count, 2)), 1, 1)
 
     def places(self, points: NDArray[np.floating], body: NDArray[np.integer] | None) -> NDArray[np.float64]:
-        """Return (3, n) row, column and length along the lines of each point. body: (n,), None for a single one."""
+        """Return the (3, n) rows, columns and lengths along the lines of points. body: (n,), None for a single body."""
         if body is None:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
         else:
-            places = np.take_along_axis(points, self.axes[body], 1).T.astype(np.float64)
+            places = points[np.arange(len(points)), self.axes[body].T].astype(np.float64)
             center, cell, origin = self.center[body].T, self.cell[body].T, self.origin[body].T
         places -= center
         along = places[2]
@@ -90,7 +91,7 @@ class LineGrids:
     def squared_distances(
         self, body: NDArray[np.intp], row: NDArray[np.intp], column: NDArray[np.intp], along: NDArray[np.float64]
     ) -> NDArray[np.float64]:
-        """Return (k,) the squared distances of places on lines from the centers of their bodies (unit²)."""
+        """Return the (k,) squared distances of places on lines from the centers of their bodies (unit²)."""
         across = np.stack([row, column], axis=1) - self.origin[body]
         across[:, 1] += COLUMN_SLOPE * across[:, 0]
         across = across * self.cell[body] + np.multiply.outer(along, LINE_SLOPES)
@@ -122,7 +123,7 @@ def line_counts(triangles: NDArray[np.integer]) -> NDArray[np.intp]:
 
 
 def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer] | None = None) -> Crossings:
-    """Find the crossings of lines with faces of bodies, unordered. body: (n,) of each point, None for a single one."""
+    """Find the crossings of lines with faces of bodies, unordered. body: (n,) of the points, None for a single body."""
     triangles, number = _crossed_triangles(surface, _cells(surface.points, grids, body))
     corners, count = triangles.ravel(), triangles.shape[1]
     owner = np.zeros(count, np.intp) if body is None else body[triangles[0]].astype(np.intp)
@@ -159,7 +160,7 @@ def find_crossings(surface: Surface, grids: LineGrids, body: NDArray[np.integer]
 def _cells(
     points: NDArray[np.floating], grids: LineGrids, body: NDArray[np.integer] | None
 ) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Return (n,) and (n,) the first row and the first column that each point is not above."""
+    """Return the (n,) first rows and the (n,) first columns that the points are not above."""
     short = max(grids.rows, grids.columns) < np.iinfo(np.int16).max // 4  # the cache holds more of these
     cells = np.empty((2, len(points)), np.int16 if short else np.int32)
     for start in range(0, len(points), POINTS_PER_BLOCK):
@@ -169,7 +170,7 @@ def _cells(
 
 
 def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int) -> NDArray[np.intp]:
-    """Return (b,) the number of triangles of each body."""
+    """Return the (b,) numbers of triangles of the bodies."""
     if body is None:
         return np.array([len(surface.triangles) + 2 * len(surface.quads)])
     quads, triangles = (
@@ -179,7 +180,7 @@ def _count_faces(surface: Surface, body: NDArray[np.integer] | None, bodies: int
 
 
 def _rows_apart(work: NDArray[np.float64], limit: tuple[int, float], faces: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return (b,) the distance of the rows that are taken, so that the work stays within a limit."""
+    """Return the (b,) distances, in rows, between the scanned rows of bodies, so that the work stays within a limit."""
     return np.maximum(np.ceil(work / (limit[0] + limit[1] * faces)), 1).astype(np.intp)
 
 
@@ -208,7 +209,7 @@ def _crossed_triangles(
 
 
 def _differ(cell: NDArray[np.integer], corners: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return (k,) whether the corners of faces, (3 or 4, k), are in different rows, or columns."""
+    """Return a (k,) mask of faces whose corners, (3 or 4, k), are in different rows, or columns."""
     first = cell.take(corners[0])
     differ = cell.take(corners[1]) != first
     for corner in corners[2:]:

@@ -27,7 +27,7 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
-    """Return (n, k) the face across each side of (n, k) faces, or None unless every edge has two opposite sides.
+    """Return the (n, k) faces across the sides of (n, k) faces, or None unless every edge has two opposite sides.
 
     None also if the sides are too many for 32 bits. Faces must use all of the vertices.
     """

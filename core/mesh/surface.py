@@ -16,11 +16,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import float_array, index_array, number_array
+from ..numerics.arrays import cross_rows, lengths
 from ..numerics.vectors import cross, dot
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
+NEXT_CORNER = [1, 2, 3, 0]
 HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
+POINT_TYPES, INDEX_TYPES = {np.dtype(np.float32), np.dtype(np.float64)}, {np.dtype(np.int32), np.dtype(np.int64)}
 INDEX_SHAPES = {
     "triangles": ("m", 3),
     "quads": ("q", 4),
@@ -33,7 +36,7 @@ INDEX_SHAPES = {
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles and quads over shared points, outward faces counter-clockwise: the input of every measurement.
+    """Triangles and quads over shared points, counter-clockwise from outside: the input of every measurement.
 
     Parameters
     ----------
@@ -71,6 +74,8 @@ class Surface:
     displacement: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
+        if self._is_ready():
+            return
         points = number_array("points", self.points, "n", 3)
         # Files have float32 in either byte order: it must be known as such; other numbers become float64.
         kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
@@ -85,18 +90,28 @@ class Surface:
         if self.displacement is not None:
             object.__setattr__(self, "displacement", float_array("displacement", self.displacement, 3))
 
+    def _is_ready(self) -> bool:
+        """Return whether all arrays have their types and shapes, as those read from Blender do."""
+        columns = self.triangle_faces, self.quad_faces, self.corner_vertices, self.corner_edges
+        return (
+            self.displacement is None
+            and _is_array(self.points, POINT_TYPES, (3,))
+            and _is_array(self.triangles, INDEX_TYPES, (3,))
+            and _is_array(self.quads, INDEX_TYPES, (4,))
+            and all([column is None or _is_array(column, INDEX_TYPES, ()) for column in columns])
+        )
+
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """(3,) and (3,) the smallest and the largest coordinates of the points, used or not; NaN if any is NaN."""
+        """Smallest and largest coordinates of the points, (3,) each, unused points included; NaN if any is NaN."""
         rows = np.ascontiguousarray(self.points.T)  # along rows of three numpy is twenty times as slow
         return np.minimum.reduce(rows, axis=1).astype(np.float64), np.maximum.reduce(rows, axis=1).astype(np.float64)
 
     @cached_property
     def coordinate_error(self) -> NDArray[np.float64]:
-        """(3,) half an ulp of the largest float32 coordinate on each axis.
+        """The (3,) bounds of the points' shift by storing: half an ulp of the largest float32 coordinate by axis.
 
-        It is how far storing the points may have moved them. `displacement` holds it for points that were float32
-        before; otherwise it is zero for float64 points.
+        `displacement` holds it for points that were float32 before; otherwise it is zero for float64 points.
         """
         if self.displacement is not None:
             return self.displacement
@@ -128,7 +143,7 @@ class Surface:
 
     @classmethod
     def from_triangles(cls, points: ArrayLike, triangles: ArrayLike) -> Surface:
-        """Make a surface of (m, 3) triangles, outward ones counter-clockwise, over (n, 3) points, float32 or 64.
+        """Make a surface of (m, 3) triangles, counter-clockwise from outside, over (n, 3) points, float32 or float64.
 
         ValueError if the shapes or types differ, or an index has no point.
         """
@@ -145,10 +160,19 @@ class Surface:
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
 
 
+def _is_array(values: object, types: set[np.dtype], row: tuple[int, ...]) -> bool:
+    return type(values) is np.ndarray and values.dtype in types and values.ndim > 0 and values.shape[1:] == row
+
+
 def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
     """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
-    return np.cross(b - a, c - a)
+    return cross_rows(b - a, c - a)
+
+
+def triangle_areas(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """Return (m,) areas of triangles."""
+    return 0.5 * lengths(normals(points, triangles))[:, 0]
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
@@ -175,14 +199,14 @@ def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
     """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third: into `HALVES`."""
-    return np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
+    return np.where(flipped_quads(points, quads)[:, None], quads.take(NEXT_CORNER, 1), quads)
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
-    """Return (q,) whether Blender cuts the quad from its second corner to its fourth instead of first to third.
+    """Return a (q,) mask of quads that Blender cuts from the second corner to the fourth, not from first to third.
 
-    Blender's rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): it flips if
-    the normals of the two triangles at the first diagonal face away from each other.
+    By Blender's rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): the
+    normals of the two triangles at the first diagonal face away from each other.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)

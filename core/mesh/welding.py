@@ -4,7 +4,7 @@
 
 Positions that differ by rounding are found on eight grids, each shifted by half a cell along some of the axes: points
 that are within half a cell along each axis share a cell of at least one of them. Within a cell points are compared with
-its first one alone. Only points with neighbors along a line enter grids: most meshes have none. Faces are one if the
+its first one alone. Only points with neighbors along a line enter grids: most meshes have none. Faces are copies if the
 sums of two hashes over their vertices agree.
 """
 
@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import first_occurrence, hash_uint64
+from ..numerics.arrays import NEXT_AXIS, first_occurrence, hash_uint64, lengths
 from ..numerics.graph import connected_components
 
 # Points near to each other are near along this direction, too; planes and axes of usual bodies are not across it.
@@ -24,14 +24,14 @@ WELD_LIMIT_RTOL = 1e-3  # relative to the smallest triangle at a vertex: larger 
 
 
 def first_at_equal_position(points: NDArray[np.floating]) -> NDArray[np.intp]:
-    """Return (n,) for each point the first one at exactly the same place; -0.0 is 0.0."""
+    """Return the (n,) first points at exactly the same places as the points; -0.0 equals 0.0."""
     return first_occurrence(*(points[:, k].astype(np.float64) + 0.0 for k in range(3)))  # -0.0 + 0.0 = 0.0
 
 
 def may_have_neighbor(
     points: NDArray[np.floating], reach: float | NDArray[np.float64], owner: NDArray[np.integer] | None = None
 ) -> NDArray[np.bool_]:
-    """Return a (n,) mask of all points with another point of their owner within `reach`, and of some more points."""
+    """Return an (n,) mask of all points with another point of their owner within `reach`, and of some more points."""
     x, y, z = points.T.astype(np.float64)
     along = x * DIRECTION[0] + y * DIRECTION[1] + z * DIRECTION[2]
     order = along.argsort() if owner is None else np.lexsort((along, owner))
@@ -46,7 +46,7 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return (n,) the first point of each cluster of points nearer to each other than their tolerances, (n,).
+    """Return (n,) indices: for each point the first of its cluster of points nearer to each other than (n,) tolerances.
 
     Clusters that stand apart by over `CELL_DIAGONAL` of the largest tolerance are found whole; of a row of points, each
     near to the next, some may be left out.
@@ -64,7 +64,7 @@ def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.f
 
 
 def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64], cell: float) -> NDArray[np.intp]:
-    """Return (n,) the points of `first_at_near_position`, on grids of cells of this size."""
+    """Return the (n,) points of `first_at_near_position`, on grids of cells of this size."""
     left, right = [], []
     for shift in np.ndindex(2, 2, 2):
         grid = np.floor(place / cell + 0.5 * np.array(shift))
@@ -82,19 +82,19 @@ def _first_of_clusters(place: NDArray[np.float64], tolerance: NDArray[np.float64
 def vertex_tolerance(
     points: NDArray[np.floating], triangles: NDArray[np.integer], vertices: NDArray[np.integer], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (k,) the distance that `vertices` may move: `tolerance`, less if the triangles around them are small."""
+    """Return the (k,) distances that `vertices` may move: `tolerance`, less if the triangles around them are small."""
     requested = np.zeros(len(points), bool)
     requested[vertices] = True
     triangles = triangles[requested[triangles].any(axis=1)]
     corners = points[triangles].astype(np.float64)
-    longest = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)
+    longest = lengths(corners - corners.take(NEXT_AXIS, 1))[..., 0].max(axis=1)
     size = np.full(len(points), np.inf)
     np.minimum.at(size, triangles.ravel(), np.repeat(longest, 3))
     return np.minimum(tolerance, WELD_LIMIT_RTOL * size[vertices])
 
 
 def same_vertices_groups(triangles: NDArray[np.integer], faces: NDArray[np.integer]) -> NDArray[np.intp]:
-    """Return (m,) for each triangle the first mesh face on the same vertices as its own, given by (m,) `faces`."""
+    """Return for m triangles the first mesh faces on the same vertices as their own mesh faces, `faces` (m,)."""
     width = int(faces.max()) + 1
     pieces = np.bincount(faces)
     single = pieces[faces] == 1

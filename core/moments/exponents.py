@@ -79,6 +79,15 @@ def monomials(order: int) -> NDArray[np.int64]:
     return table
 
 
+def monomial_values(points: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+    """Return (n, K) the monomials to an order at points (n, 3)."""
+    powers = np.ones((order + 1, 3, len(points)))
+    powers[1:] = points.T
+    powers = np.multiply.accumulate(powers)
+    p, q, r = monomials(order).T
+    return (powers[p, 0] * powers[q, 1] * powers[r, 2]).T
+
+
 def factorial_ratios(exponents: NDArray[np.integer], more: int) -> NDArray[np.float64]:
     """Return (K,) α! / (|α| + `more`)! of (K, n) exponents, correctly rounded."""
     return np.array([prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()])
@@ -108,7 +117,7 @@ def product_indices(order: int) -> tuple[NDArray[np.int64], ...]:
 
 @lru_cache
 def tensor_index(degree: int) -> NDArray[np.int64]:
-    """Return (3, ..., 3) the indices in `Moments.raw` of the entries of the symmetric tensor of a degree; read-only."""
+    """Return the (3, ..., 3) indices in `Moments.raw` of the entries of the symmetric tensor of a degree; read-only."""
     axes = np.indices((3,) * degree)
     table = monomial_index(*((axes == axis).sum(axis=0) for axis in range(3)))
     table.flags.writeable = False

@@ -147,32 +147,29 @@ class Moments:
 
     def at(self, which: int | slice | list[int] | NDArray | None) -> Moments:
         """Return the bodies of a stack that an index selects; None turns a single body into a stack of one."""
-        arrays = self.raw, self.about, self.rounding_error, self.input_error
-        raw, about, rounding, inputs = [array[which] for array in arrays]
-        return Moments(raw, about, self.measure, rounding, inputs)
+        raw, about, rounding, inputs = self.raw, self.about, self.rounding_error, self.input_error
+        return unchecked_moments(raw[which], about[which], self.measure, rounding[which], inputs[which])
 
     @property
     def center(self) -> NDArray[np.float64]:
-        """(3,) the centroid, in the coordinates of `about`. The total must not be zero."""
+        """The (3,) centroid, in the coordinates of `about`. The total must not be zero."""
         return self.about + self.raw[..., 1:4] / self.raw[..., :1]
 
     def second(self) -> NDArray[np.float64]:
-        """Return (3, 3) the second moments about `about`."""
+        """Return the (3, 3) second moments about `about`."""
         return self.raw[..., SECOND_MOMENT_INDEX]
 
     def third(self) -> NDArray[np.float64]:
-        """Return (3, 3, 3) the third moments about `about`."""
+        """Return the (3, 3, 3) third moments about `about`."""
         return self.raw[..., THIRD_MOMENT_INDEX]
 
     def truncate(self, order: int) -> Moments:
         """Return the same moments to a lower order."""
         k = monomial_count(order)
-        return replace(
-            self,
-            raw=self.raw[..., :k],
-            rounding_error=self.rounding_error[..., :k],
-            input_error=self.input_error[..., :k],
-        )
+        if k == self.raw.shape[-1]:
+            return self
+        rounding, inputs = self.rounding_error[..., :k], self.input_error[..., :k]
+        return unchecked_moments(self.raw[..., :k], self.about, self.measure, rounding, inputs)
 
     __array_ufunc__ = None  # a numpy number on the left multiplies the moments, not their exponents
 
@@ -199,9 +196,9 @@ class Moments:
     def about_point(self, point: ArrayLike) -> Moments:
         """Return the moments of the same body about another point, (3,) finite, by the binomial theorem."""
         point = float_array("point", point, *self.about.shape, finite=True)
-        if np.array_equal(point, self.about):
-            return self
         offset = self.about - point
+        if not offset.any():
+            return self
         away = np.abs(offset)
         values = np.stack(
             [self.raw, self.rounding_error, self.input_error, np.abs(self.raw) + self.rounding_error], axis=-2
@@ -209,7 +206,7 @@ class Moments:
         shifted = apply_translation(values, self.order, np.stack([offset, away, away, away], axis=-2))
         raw, error, moved, size = (shifted[..., i, :] for i in range(4))
         rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
-        return replace(self, raw=raw, about=point, rounding_error=error + rounding * size, input_error=moved)
+        return unchecked_moments(raw, point, self.measure, error + rounding * size, moved)
 
     def about_center(self) -> Moments:
         """Return the central moments."""
@@ -233,12 +230,26 @@ class Moments:
         """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
 
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        the deviation of a float32 rotation from one goes into `input_error`. ValueError if the matrix is not finite (4,
-        4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
+        the deviation of a float32 rotation from one goes into `rounding_error`. ValueError if the matrix is not finite
+        (4, 4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
         number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
         return image(self, affine, (affine[..., :3, :3] @ self.about[..., None])[..., 0] + affine[..., :3, 3])
+
+
+def unchecked_moments(
+    raw: NDArray[np.float64],
+    about: NDArray[np.float64],
+    measure: Measure,
+    rounding_error: NDArray[np.float64],
+    input_error: NDArray[np.float64],
+) -> Moments:
+    """Return moments of float64 arrays that fit each other, as the core computes them, without a check."""
+    moments = object.__new__(Moments)
+    names = "raw", "about", "measure", "rounding_error", "input_error"
+    moments.__dict__.update(zip(names, (raw, about, measure, rounding_error, input_error)))
+    return moments
 
 
 def sum_moments(parts: Sequence[Moments]) -> Moments:
@@ -255,14 +266,10 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
     order = min([part.order for part in parts])
     parts = [part.truncate(order).about_point(first.about) for part in parts]
     raws = np.array([part.raw for part in parts])
-    return Moments(
-        raw=raws.sum(axis=0),
-        about=first.about,
-        measure=first.measure,
-        rounding_error=sum([part.rounding_error for part in parts], np.zeros(1))
-        + len(parts) * U * np.abs(raws).sum(axis=0),
-        input_error=sum([part.input_error for part in parts], np.zeros(1)),
-    )
+    rounding = sum([part.rounding_error for part in parts], np.zeros(1))
+    rounding = rounding + len(parts) * U * np.add.reduce(np.abs(raws))
+    inputs = sum([part.input_error for part in parts], np.zeros(1))
+    return unchecked_moments(np.add.reduce(raws), first.about, first.measure, rounding, inputs)
 
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
@@ -271,7 +278,7 @@ def stack_moments(parts: Sequence[Moments]) -> Moments:
     raw, rounding, inputs = (
         np.array([getattr(part, name)[:count] for part in parts]) for name in ("raw", "rounding_error", "input_error")
     )
-    return Moments(raw, np.array([part.about for part in parts]), parts[0].measure, rounding, inputs)
+    return unchecked_moments(raw, np.array([part.about for part in parts]), parts[0].measure, rounding, inputs)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # callers check for overflow
@@ -292,12 +299,9 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     factors = measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())
     weight, weight_error, uneven = [factor.reshape(*lead, 1) for factor in factors]
     # The images of the reference point are rounded, and the body moves with them.
-    stretch = np.abs(linear).sum(axis=-1).max(axis=-1)
-    tolerance = (
-        6
-        * U
-        * (np.abs(offsets).max(axis=-1) + np.abs(center).max(axis=-1) + stretch * np.abs(about).max(axis=-1))[..., None]
-    )
+    stretch = np.add.reduce(np.abs(linear), axis=-1).max(axis=-1, keepdims=True)
+    reach = np.abs(offsets).max(axis=-1, keepdims=True) + np.abs(center).max(axis=-1, keepdims=True)
+    tolerance = 6 * U * (reach + stretch * np.abs(about).max(axis=-1, keepdims=True))
     weight_error = weight_error + (1 + 6 * order + 8) * U * weight
     away = np.abs(offset)
     rows = [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
@@ -305,14 +309,18 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     if uneven.any():
         rows.append(absolute_moments(moments.raw, order) + moments.rounding_error + moments.input_error)
         shifts.append(away + tolerance)
-    shifted = apply_translation(apply_linear(np.stack(rows, axis=-2), order, linear), order, np.stack(shifts, axis=-2))
+    shifted = np.concatenate([row[..., None, :] for row in rows], axis=-2)
+    if order:
+        shift = np.concatenate([row[..., None, :] for row in shifts], axis=-2)
+        shifted = apply_translation(apply_linear(shifted, order, linear), order, shift)
     mapped, error, mapped_input, size = [shifted[..., i, :] for i in range(4)]
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
     for axis, raised in enumerate(product_indices(order) if order else ()):
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
-    moved_input = weight * (mapped_input + uneven * shifted[..., -1, :])  # a face at a time, some more and some less
-    return Moments(weight * mapped, center, moments.measure, rounding, moved_input)
+    if uneven.any():
+        rounding = rounding + weight * uneven * shifted[..., -1, :]  # a face at a time, some more and some less
+    return unchecked_moments(weight * mapped, center, moments.measure, rounding, weight * mapped_input)
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:

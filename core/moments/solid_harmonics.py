@@ -60,7 +60,7 @@ def couple(a: NDArray, b: NDArray, c: NDArray) -> NDArray[np.float64]:
 
 @lru_cache
 def _solid(l: int) -> NDArray[np.complex128]:
-    """Return (l+1, (l+1)(l+2)/2) the coefficients of r^l Y_lm for m = 0..l in the ordered monomials of degree l."""
+    """Return the (l+1, (l+1)(l+2)/2) coefficients of r^l Y_lm for m = 0..l in the ordered monomials of degree l."""
     start = monomial_count(l - 1)
     table = np.zeros((l + 1, monomial_count(l) - start), complex)
     for m in range(l + 1):
@@ -85,7 +85,7 @@ def circular_coefficients(plus: int, minus: int) -> tuple[complex, ...]:
 
 @lru_cache
 def _square_product_indices(order: int) -> NDArray[np.int64]:
-    """Return (3, K) the indices of the products of the monomials two orders lower with x², y² and z²."""
+    """Return the (3, K) indices of the products of the monomials two orders lower with x², y² and z²."""
     return np.array(
         [[monomial_index(*(row + 2 * unit)) for row in monomials(order - 2)] for unit in np.eye(3, dtype=int)]
     )

@@ -35,7 +35,7 @@ def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float6
 
 
 def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
-    """Return (k, 3, ..., 3) the symmetric tensor's entries along the axes of k frames."""
+    """Return the (k, 3, ..., 3) entries of a symmetric tensor along the axes of k frames."""
     degree = tensor.ndim
     out = np.broadcast_to(tensor, (len(frames), *tensor.shape))
     for _ in range(degree):

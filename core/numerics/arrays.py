@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences, Morton order."""
+"""Vectors in rows, ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences, Morton order."""
 
 from __future__ import annotations
 
@@ -14,10 +14,28 @@ from numpy.typing import NDArray
 PerBody: TypeAlias = Any
 
 
+NEXT_AXIS, PREVIOUS_AXIS = np.array([1, 2, 0]), np.array([2, 0, 1])
+
+
+def cross_rows(u: NDArray, v: NDArray) -> NDArray:
+    """Return the cross products of vectors (..., 3), equal to those of `np.cross`, whose overhead is ten times this."""
+    after, before = u.take(NEXT_AXIS, -1) * v.take(PREVIOUS_AXIS, -1), u.take(PREVIOUS_AXIS, -1) * v.take(NEXT_AXIS, -1)
+    return after - before
+
+
+def lengths(vectors: NDArray) -> NDArray:
+    """Return the lengths (..., 1) of vectors (..., 3)."""
+    return np.sqrt(np.add.reduce(vectors * vectors, axis=-1, keepdims=True))
+
+
 def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
     """Return whether all indices are from 0 to count - 1."""
-    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # a negative index becomes a large one
-    return not indices.size or bool(unsigned.max() < count)
+    return not indices.size or bool(as_unsigned(indices).max() < count)
+
+
+def as_unsigned(indices: NDArray[np.integer]) -> NDArray[np.unsignedinteger]:
+    """Return a view in which a negative index is a large one."""
+    return indices.view(indices.dtype.str.replace("i", "u"))
 
 
 def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -36,7 +54,7 @@ def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
 
 def segment_starts(counts: NDArray) -> NDArray[np.intp]:
     """Return 0, counts[0], counts[0] + counts[1], …: the start of each segment of these lengths."""
-    return np.cumsum(counts) - counts
+    return counts.cumsum() - counts
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:

@@ -86,7 +86,7 @@ class SplineSpace:
 
     @cached_property
     def intervals(self) -> NDArray[np.float64]:
-        """(s, 2) the bounds of the spans."""
+        """The (s, 2) bounds of the spans."""
         knots = np.asarray(self.knots)
         return np.stack([knots[self.spans], knots[self.spans + 1]], axis=1)
 
@@ -103,7 +103,7 @@ class SplineSpace:
 
     @cached_property
     def active_controls(self) -> NDArray[np.int64]:
-        """(s, order) the control points that act in each span."""
+        """The (s, order) control points that act in each span."""
         return self.controls_of_spans(self.spans)
 
     @cached_property
@@ -133,7 +133,7 @@ class SplineSpace:
         return values
 
     def controls_of_spans(self, spans: NDArray[np.integer]) -> NDArray[np.int64]:
-        """Return (..., order) the control points that act in each span."""
+        """Return the (..., order) control points that act in each span."""
         return (np.asarray(spans)[..., None] + np.arange(1 - self.order, 1)) % self.count
 
     def find_spans(self, parameters: NDArray) -> NDArray[np.int64]:

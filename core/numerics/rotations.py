@@ -68,6 +68,7 @@ def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
     return np.where(column[0] >= 0.0, column, -column).T + 0.0  # no negative zeros
 
 
+OFF_DIAGONAL = 1.0 - np.eye(3)
 MAX_AXIS_COSINE = 1e-5  # float32 rotations never have axes with a larger cosine
 
 
@@ -78,10 +79,10 @@ def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.b
     they are left-handed if the map mirrors.
     """
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
-    length = np.sqrt((linear * linear).sum(axis=1, keepdims=True))
+    length = np.sqrt(np.add.reduce(linear * linear, axis=1, keepdims=True))
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)
     u, _, v = np.linalg.svd(columns)
-    skew = np.abs(columns.transpose(0, 2, 1) @ columns) * (1.0 - np.eye(3))
+    skew = np.abs(columns.transpose(0, 2, 1) @ columns) * OFF_DIAGONAL
     return u @ v, skew.max(axis=(1, 2)) > MAX_AXIS_COSINE
 
 

@@ -21,6 +21,8 @@ from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from .patch import Patch
 
+VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
+ROUNDING = 64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
 Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a Gauss rule, or of two side by side
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
 # Up to this many cells of a patch keep a common anchor: none is so small that rounding by the patch's size matters.

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..numerics.bspline import SplineSpace
 from .bezier import homogeneous
 from .blender_knots import blender_space
+from .curve import Curve
 from .patch import Patch
 
 SAME_KNOT_RTOL = 1e-12  # Relative to the domain: ends of a part that are nearer to a knot are moved to it.
@@ -37,14 +38,29 @@ def bezier_patches(patch: Patch, domain: tuple[tuple[float, float] | None, tuple
     old_net = patch.points if patch.weights is None else homogeneous(patch.points, patch.weights)
     found, (s_space, t_space) = [], patch.spaces
     for s_matrix, t_matrix in product(*pieces):
-        spaces = _bezier_space(len(s_matrix), s_space.order), _bezier_space(len(t_matrix), t_space.order)
+        spaces = bezier_space(len(s_matrix), s_space.order), bezier_space(len(t_matrix), t_space.order)
         net = np.einsum("bj,ajd->abd", t_matrix, np.einsum("ai,ijd->ajd", s_matrix, old_net))
         weights = None if patch.weights is None else net[..., 3]
         found.append(Patch(spaces, net if weights is None else net[..., :3] / weights[..., None], weights))
     return found
 
 
-def _bezier_space(count: int, order: int) -> SplineSpace:
+def bezier_curves(curve: Curve, part: tuple[float, float] | None = None) -> list[Curve]:
+    """Convert a part (low, high) of a curve, None for all of it, in the same way, into curves without jumps."""
+    net = curve.points
+    if curve.weights is not None:
+        net = homogeneous(curve.points, curve.weights)
+    found = []
+    for matrix in _pieces(curve.space, part):
+        row = matrix @ net
+        weights = None if curve.weights is None else row[:, 3]
+        points = row if weights is None else row[:, :3] / weights[:, None]
+        found.append(Curve(bezier_space(len(matrix), curve.space.order), points, weights))
+    return found
+
+
+def bezier_space(count: int, order: int) -> SplineSpace:
+    """Return the space of Bézier pieces side by side that Blender's flags *Bézier* and *Endpoint* describe."""
     return cast("SplineSpace", blender_space(count, order, cyclic=False, bezier=True, endpoint=True))
 
 

@@ -14,29 +14,35 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.vectors import cross
-from .patch import Patch
-from .patch_topology import SIDES, PatchTopology
+from .flat_face import FlatFace, split_faces
+from .patch import SIDES, Face, Patch
+from .patch_topology import PatchTopology
 
 SAMPLES_PER_SIDE = 17  # samples of a side
 POLE_RTOL = 1e-9  # Relative to the largest normal: normals at a pole are shorter.
 
 
-def sharpest_crease(patches: Sequence[Patch], topology: PatchTopology) -> float:
+def sharpest_crease(faces: Sequence[Face], topology: PatchTopology) -> float:
     """Return the largest angle, in radians, between the normals on both sides of a crease, 0 if there is none."""
-    worst = max(_inner_crease_angle(patch) for patch in patches)
-    for left, right in topology.seams.tolist():
+    worst = max(map(_inner_crease_angle, split_faces(faces)[0]), default=0.0)
+    sides = [(face, k, curve) for face, one in enumerate(faces) for k, (curve, _) in enumerate(one.sides)]
+    for seam in topology.seams.tolist():
         first_side, second_side = (
-            _along_side(patches[k // 4], *SIDES[k % 4][:2]) * (-1.0 if topology.flipped[k // 4] else 1.0)
-            for k in (left, right)
+            _along_side(faces[face], k) * (-1.0 if topology.flipped[face] else 1.0)
+            for face, k, _ in map(sides.__getitem__, seam)
         )
-        points = [patches[k // 4].side(*SIDES[k % 4][:2]).samples(SAMPLES_PER_SIDE) for k in (left, right)]
+        points = [sides[k][2].samples(SAMPLES_PER_SIDE) for k in seam]
         nearest = np.linalg.norm(points[0][:, None] - points[1], axis=2).argmin(axis=1)
         worst = max(worst, _largest_angle(first_side, second_side[nearest]))
     return worst
 
 
-def _along_side(patch: Patch, axis: int, end: int) -> NDArray[np.float64]:
-    """Return (m, 3) a patch's unit normals along a side, at the samples of the side's curve; zero at poles."""
+def _along_side(patch: Face, number: int) -> NDArray[np.float64]:
+    """Return (m, 3) a face's unit normals along a side, at the samples of the side's curve; zero at poles."""
+    if isinstance(patch, FlatFace):
+        return np.tile(patch.normal, (len(patch.sides[number][0].space.uniform_parameters(SAMPLES_PER_SIDE)), 1))
+    assert isinstance(patch, Patch)
+    axis, end, _ = SIDES[number]
     held, run = patch.spaces[axis], patch.spaces[1 - axis]
     tables = [(np.array([held.domain[end]]), None), (run.uniform_parameters(SAMPLES_PER_SIDE), None)]
     return _normals(patch, *(tables if axis == 0 else tables[::-1])).reshape(-1, 3)

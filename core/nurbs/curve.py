@@ -79,7 +79,7 @@ class Curve:
         object.__setattr__(self, "weights", weights)
 
     def evaluate(self, parameters: ArrayLike) -> NDArray[np.float64]:
-        """Return its (n, 3) points at n parameters."""
+        """Return the (n, 3) points of the curve at n parameters."""
         return self.apply_weights(self.space.collocation_matrix(parameters))
 
     def apply_weights(self, table: NDArray) -> NDArray[np.float64]:
@@ -102,7 +102,7 @@ class Curve:
         return (np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)) / bottom
 
     def transform(self, matrix: ArrayLike) -> Curve:
-        """Return its image under an affine map (4, 4)."""
+        """Return the image of the curve under a (4, 4) affine map."""
         matrix = float_array("matrix", matrix, 4, 4)
         return Curve(self.space, self.points @ matrix[:3, :3].T + matrix[:3, 3], self.weights)
 

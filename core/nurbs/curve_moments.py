@@ -24,9 +24,8 @@ from numpy.typing import NDArray
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import check_type
 from ..verdict.tolerances import check_size
-from .bezier import bernstein, halves
+from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves
 from .curve import Curve
-from .patch_moments import ROUNDING, VOLUME_RTOL
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.
@@ -35,7 +34,7 @@ MAX_WEIGHT_RATIO = 1e8  # Largest by smallest weight of a piece: beyond it two r
 
 
 def curves_center(curves: Sequence[Curve]) -> NDArray[np.float64]:
-    """Return (3,) the middle of the box around all control points: the reference point."""
+    """Return the (3,) middle of the box around all control points: the reference point."""
     for curve in curves:
         check_type("curves", curve, Curve)
     low = np.min([curve.points.min(axis=0) for curve in curves], axis=0)
@@ -192,7 +191,7 @@ def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
 def _piece_integrals(
     net: NDArray, anchor: NDArray, points: int, density: Callable, order: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (c, K) the contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
+    """Return the (c, K) contributions of pieces of a curve by a Gauss rule, and (c,) their lengths."""
     tables, weights = bernstein(net.shape[1], (points,))
     place, velocity = np.einsum("jnk,ckd->jdcn", tables, net)
     if len(place) == 4:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import Protocol, Self, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +20,36 @@ from ..numerics.arguments import check_type, float_array
 from ..numerics.bspline import SplineSpace
 from ..verdict.tolerances import check_size
 from .curve import Curve, checked_points
+
+SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
+
+
+@runtime_checkable
+class Face(Protocol):
+    """A face of a body: a patch, or a region of a plane (`flat_face`)."""
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(m, n, 3) control points."""
+        ...
+
+    @property
+    def spaces(self) -> tuple[SplineSpace, ...]:
+        """Function spaces."""
+        ...
+
+    @property
+    def sides(self) -> tuple[tuple[Curve, bool], ...]:
+        """The curves around the face, each with True if the face is on its left."""
+        ...
+
+    def reverse_orientation(self) -> Self:
+        """Return the same face, facing the other way."""
+        ...
+
+    def transform(self, matrix: ArrayLike) -> Self:
+        """Return its image under an affine map (4, 4)."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +102,7 @@ class Patch:
         return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
 
     def transform(self, matrix: ArrayLike) -> Patch:
-        """Return its image under an affine map (4, 4)."""
+        """Return the image of the patch under a (4, 4) affine map."""
         matrix = float_array("matrix", matrix, 4, 4)
         return replace(self, points=self.points @ matrix[:3, :3].T + matrix[:3, 3])
 
@@ -106,6 +137,11 @@ class Patch:
         top = np.tensordot(weigh, points * weights[..., None], (0, axis))
         return Curve(self.spaces[1 - axis], top / bottom[:, None], bottom)
 
+    @property
+    def sides(self) -> tuple[tuple[Curve, bool], ...]:
+        """The four boundary curves, in the order of `SIDES`, each with True if the patch is on its left."""
+        return tuple((self.side(axis, end), forward) for axis, end, forward in SIDES)
+
     def samples(self, each: int) -> NDArray[np.float64]:
         """Return a grid of points at `each` equal steps in every span of both directions, ends included."""
         return self.apply_weights(*(_sample_table(space, each) for space in self.spaces))
@@ -117,23 +153,23 @@ def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
     return space.collocation_matrix(space.uniform_parameters(each))
 
 
-def control_box(patches: Sequence[Patch]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def control_box(patches: Sequence[Face]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the least (3,) and the largest (3,) coordinates of all control points."""
     for patch in patches:
-        check_type("patches", patch, Patch)
+        check_type("patches", patch, Face)
     return (
         np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
         np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
     )
 
 
-def patches_center(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """Return (3,) the middle of the box around all control points: the reference point."""
+def patches_center(patches: Sequence[Face]) -> NDArray[np.float64]:
+    """Return the (3,) middle of the box around all control points: the reference point."""
     low, high = control_box(patches)
     return low + (high - low) / 2.0
 
 
-def patches_size(patches: Sequence[Patch]) -> float:
+def patches_size(patches: Sequence[Face]) -> float:
     """Return the diagonal of the box around all control points."""
     low, high = control_box(patches)
     check_size(*(high - low).tolist())

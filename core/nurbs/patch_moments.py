@@ -24,16 +24,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.exponents import monomial_count
-from ..moments.moments import Measure, Moments, U, monomials
+from ..moments.moments import Measure, Moments, U, monomials, sum_moments
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
-from .bezier import BezierCells, Rule, Weights, cells_of
+from .bezier import ROUNDING, VOLUME_RTOL, BezierCells, Rule, Weights, cells_of
 from .findings import WALL_THICKER_THAN_CURVATURE
-from .patch import Patch, patches_center, patches_size
+from .flat_face import split_faces
+from .patch import Face, Patch, patches_center, patches_size
 
-VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
 AREA_RTOL = 1e-11
 # Factor on the difference of two rules that do not agree yet when all points are spent.
 UNCONVERGED_FACTOR = 8.0
@@ -49,7 +49,6 @@ MAX_DEPTH = 14  # Limit of successive cuts of a cell.
 MAX_POINTS = 6_000_000  # Limit of evaluated points.
 POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
-ROUNDING = 64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
 
 Integrand = Callable[[BezierCells, Rule], NDArray]
 
@@ -65,14 +64,15 @@ class Integral:
 
 
 def volume_moments(
-    patches: Sequence[Patch], order: int = 3, about: NDArray | None = None, tolerance: float = VOLUME_RTOL
+    faces: Sequence[Face], order: int = 3, about: NDArray | None = None, tolerance: float = VOLUME_RTOL
 ) -> tuple[Moments, bool]:
     """Return the volume moments of the body that closed, outward patches bound, and whether they converged.
 
     about: (3,), by default the middle of the control points' box. Patches that do not close are closed by a cone to it.
     `rounding_error` holds an estimate of truncation (zero for polynomial patches) and rounding.
     """
-    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    about = patches_center(faces) if about is None else np.asarray(about, np.float64)
+    patches, flat = split_faces(faces)
     degree, flux = _degrees(order), partial(flux_sums, order=order)
     values, estimate, size, converged = np.zeros(len(degree)), 0.0, 0.0, True
     reach, orders, rational = 0.0, 0, []
@@ -91,7 +91,8 @@ def volume_moments(
         values, estimate, converged = values + integral.values, integral.estimate, integral.converged
         size += integral.size
     error = (estimate + (ROUNDING * U * size) * (orders + degree)) * unit / (degree + 3.0)
-    return Moments(values / (degree + 3.0), about, Measure.VOLUME, error), converged
+    curved = Moments(values / (degree + 3.0), about, Measure.VOLUME, error)
+    return sum_moments([curved, *(face.volume_moments(order, about) for face in flat)]), converged
 
 
 def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) -> NDArray[np.float64]:
@@ -103,13 +104,19 @@ def flux_sums(cells: BezierCells, rule: Rule, order: int, area: bool = False) ->
     return sum_over_points(terms, weights)
 
 
-def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
-    """Return the area moments of patches by quadrature, and whether they converged; about: as for `volume_moments`.
+def area_moments(faces: Sequence[Face], order: int = 0, about: NDArray | None = None) -> tuple[Moments, bool]:
+    """Return the area moments of faces, and whether they converged; about: as for `volume_moments`.
+
+    Flat faces have closed forms; patches are integrated by quadrature.
 
     If a patch turns over between two neighboring points, or a cell's side and the next point, the area between them
     counts as error, so that such a cell is cut.
     """
-    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
+    about = patches_center(faces) if about is None else np.asarray(about, np.float64)
+    patches, flat = split_faces(faces)
+    of_flat = [face.area_moments(order, about) for face in flat]
+    if not patches:
+        return sum_moments(of_flat), True
     parts = list(cells_of(patches, about))
     unit = max(part.reach for part in parts) ** _degrees(order)
 
@@ -125,7 +132,8 @@ def area_moments(patches: Sequence[Patch], order: int = 0, about: NDArray | None
     integral = integrate_adaptively(parts, area, unit, AREA_RTOL)
     orders = max(sum(part.orders) for part in parts)
     error = (FOLD_FACTOR * integral.estimate + ROUNDING * U * orders * integral.size) * unit
-    return Moments(integral.values, about, Measure.AREA, error), integral.converged
+    curved = Moments(integral.values, about, Measure.AREA, error)
+    return sum_moments([curved, *of_flat]), integral.converged
 
 
 def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np.float64]:
@@ -142,9 +150,10 @@ def _reversed_areas(normal: NDArray, weights: Weights, rule: Rule) -> NDArray[np
     return total
 
 
-def area_slope(patches: Sequence[Patch]) -> float:
+def area_slope(faces: Sequence[Face]) -> float:
     """Estimate, by a fixed rule, the largest change of the area per unit of displacement of all control points."""
-    total = 0.0
+    patches, flat = split_faces(faces)
+    total = sum(face.perimeter for face in flat)
     for patch in patches:
         net = np.moveaxis(patch.points - patch.points[0, 0], -1, 0)
         if patch.weights is not None:
@@ -185,7 +194,7 @@ def _slope_tiles(space: SplineSpace) -> tuple[tuple[NDArray, NDArray, NDArray, N
 def _slope_of_tile(
     along: tuple[NDArray, NDArray], across: tuple[NDArray, NDArray], weights: NDArray, net: NDArray
 ) -> NDArray[np.float64]:
-    """Return (3, k, k') the area's gradient by control points; if rational, by control points times their weights."""
+    """Return the (3, k, k') gradient of the area by control points, which are times their weights if rational."""
     (s, s_slope), (t, t_slope) = along, across
     place, by_s, by_t = (
         np.matmul(np.matmul(s_table, net), np.ascontiguousarray(t_table.T))
@@ -211,18 +220,22 @@ def _slope_of_tile(
 
 
 def sheet_moments(
-    patches: Sequence[Patch], inner: float, outer: float, order: int = 3, about: NDArray | None = None
+    faces: Sequence[Face], inner: float, outer: float, order: int = 3, about: NDArray | None = None
 ) -> tuple[Moments, bool]:
     """Return the volume moments of {S + h n : inner ≤ h ≤ outer}, n the unit normal, and whether they converged.
 
     Across the sheet the integrand has degree order + 2 in h, so a rule of ceil((order + 3) / 2) points is exact.
     MeasureError if the sheet is thicker than its surface's radius of curvature, so that it runs through itself.
     """
-    about = patches_center(patches) if about is None else np.asarray(about, np.float64)
-    parts = list(cells_of(patches, about))
-    unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
+    about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     nodes, steps = gauss_legendre(ceil((order + 3) / 2))
     heights, steps = inner + (outer - inner) * nodes, (outer - inner) * steps
+    patches, flat = split_faces(faces)
+    of_flat = [face.slab_moments(heights, steps, order, about) for face in flat]
+    if not patches:
+        return sum_moments(of_flat), True
+    parts = list(cells_of(patches, about))
+    unit = (max(part.reach for part in parts) + max(abs(inner), abs(outer))) ** _degrees(order)
 
     def sheet(cells: BezierCells, rule: Rule) -> NDArray:
         (s, along, across, *second), weights = cells.evaluate(rule, 2)
@@ -250,11 +263,12 @@ def sheet_moments(
     integral = integrate_adaptively(parts, sheet, unit, AREA_RTOL, thickness=outer - inner)
     orders = max(sum(part.orders) for part in parts)
     error = (integral.estimate + ROUNDING * U * orders * integral.size) * unit
-    return Moments(integral.values, about, Measure.VOLUME, error), integral.converged
+    curved = Moments(integral.values, about, Measure.VOLUME, error)
+    return sum_moments([curved, *of_flat]), integral.converged
 
 
 def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
-    """Return (3,) the integral of the unit normals: exact along directions of constant weights, else estimated."""
+    """Return the (3,) integral of the unit normals: exact along directions of constant weights, else estimated."""
     total = np.zeros(3)
     for cells in cells_of(patches, np.zeros(3)):
         s, t = ((max(1, order - 1) if same else RULES[0],) for order, same in zip(cells.orders, cells.constant_weights))
@@ -278,12 +292,10 @@ def with_area_error(area: Moments, slope: float, stored: float, reach: float) ->
     return with_swept_error(area, stored * (slope + area.total / reach), reach)
 
 
-def stored_area_moments(
-    patches: Sequence[Patch], order: int, about: NDArray | None = None, *, stored: float
-) -> Moments:
-    """Return the area moments of patches, by default about their box's center, with errors of stored points."""
-    area = area_moments(patches, order, about)[0]
-    return with_area_error(area, area_slope(patches), stored, patches_size(patches) + 4.0 * stored)
+def stored_area_moments(faces: Sequence[Face], order: int, about: NDArray | None = None, *, stored: float) -> Moments:
+    """Return the area moments of faces, by default about their box's center, with errors of stored points."""
+    area = area_moments(faces, order, about)[0]
+    return with_area_error(area, area_slope(faces), stored, patches_size(faces) + 4.0 * stored)
 
 
 def exact_points(order: int, degree: int) -> int:
@@ -427,7 +439,7 @@ def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
 
 @lru_cache
 def _degrees(order: int) -> NDArray[np.float64]:
-    """Return (K,) the degree of each monomial."""
+    """Return the (K,) degrees of the monomials."""
     return monomials(order).sum(axis=1).astype(np.float64)
 
 

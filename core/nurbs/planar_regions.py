@@ -28,15 +28,25 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
     in the order z, y, x is positive. stored: largest displacement of the points by storing them. MeasureError if the
     curves are not closed, too small, not in one plane, or cross.
     """
+    loops, normal = planar_loops([[curve] for curve in curves], stored)
+    return [curve for (curve,) in loops], normal
+
+
+def planar_loops(
+    loops: Sequence[Sequence[Curve]], stored: float = 0.0
+) -> tuple[list[list[Curve]], NDArray[np.float64]]:
+    """Return loops of curves end to end, oriented as by `planar_region`, and the normal of their plane."""
+    curves = [curve for loop in loops for curve in loop]
     center = curves_center(curves)
     size = max(float(np.abs(curve.points - center).max()) for curve in curves)
     tolerance = 4.0 * (WELDING_RTOL * size + stored + 2.0**-52 * float(np.abs(center).max()))
-    loops = [curve.samples(SAMPLES_PER_SPAN) for curve in curves]
-    if any(np.linalg.norm(loop[0] - loop[-1]) > tolerance for loop in loops) or any(
-        curve.space.is_discontinuous for curve in curves
-    ):
-        raise MeasureError(CURVE_OPEN)
+    for loop in loops:
+        ends = [curve.evaluate(curve.space.domain) for curve in loop]
+        gaps = [np.linalg.norm(before[1] - after[0]) for before, after in zip(ends, [*ends[1:], ends[0]])]
+        if max(gaps) > tolerance or any(curve.space.is_discontinuous for curve in loop):
+            raise MeasureError(CURVE_OPEN)
     points = np.concatenate([curve.points for curve in curves]) - center
+    points -= points.mean(axis=0)  # The middle of a box need not be in the plane.
     _, _, axes = np.linalg.svd(np.concatenate([points, np.zeros((3, 3))]), full_matrices=False)
     if np.abs(points @ axes[2]).max() > tolerance:
         raise MeasureError(CURVES_NOT_COPLANAR)
@@ -46,7 +56,8 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
     frame = np.stack([axes[0], np.cross(normal, axes[0])], axis=1)
 
     def polygons(each: int) -> list[NDArray]:
-        return [_without_repeats((curve.samples(each)[:-1] - center) @ frame, tolerance) for curve in curves]
+        samples = [np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in loops]
+        return [_without_repeats((points - center) @ frame, tolerance) for points in samples]
 
     flat = polygons(SAMPLES_PER_SPAN)
     if min(map(len, flat)) < 3:
@@ -58,11 +69,12 @@ def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Cu
             raise MeasureError(CURVES_CROSS)
         flat = polygons(finer.pop(0))
     oriented = []
-    for i, (curve, loop) in enumerate(zip(curves, flat)):
-        depth = sum(_is_inside(loop[0], outer) for j, outer in enumerate(flat) if j != i)
-        following = np.roll(loop, -1, axis=0)
-        area = float((loop[:, 0] * following[:, 1] - loop[:, 1] * following[:, 0]).sum())
-        oriented.append(curve if (area > 0.0) == (depth % 2 == 0) else curve.reverse())
+    for i, (loop, polygon) in enumerate(zip(loops, flat)):
+        depth = sum(_is_inside(polygon[0], outer) for j, outer in enumerate(flat) if j != i)
+        following = np.roll(polygon, -1, axis=0)
+        area = float((polygon[:, 0] * following[:, 1] - polygon[:, 1] * following[:, 0]).sum())
+        is_right = (area > 0.0) == (depth % 2 == 0)
+        oriented.append(list(loop) if is_right else [curve.reverse() for curve in reversed(loop)])
     return oriented, normal
 
 

@@ -10,6 +10,7 @@ patches: an overlap that is thinner than a hundredth of a part may be missed.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -45,7 +46,8 @@ from .findings import (
     PATCH_BOUNDARY_CROSSES_ITSELF,
     PATCH_HOLES_CAPPED,
 )
-from .patch import Patch, patches_center, patches_size
+from .flat_face import FlatFace, split_faces
+from .patch import Face, Patch, patches_center, patches_size
 from .patch_moments import (
     area_moments,
     area_slope,
@@ -66,7 +68,7 @@ class PatchIntegrals:
 
     `area`: moments of the patches, without caps. `health`: state of the input.
     `method`: EXACT, CAPPED, REORIENTED or OPEN.
-    `patches`: the counted patches and caps, oriented so that their sum is `volume`.
+    `patches`: the counted faces and caps, oriented so that their sum is `volume`.
     `signs`: (n,) how each given patch counts: 1, -1, or 0 if its part is left out.
     """
 
@@ -75,7 +77,7 @@ class PatchIntegrals:
     health: MeshHealth
     method: Verdict
     findings: tuple[Finding, ...]
-    patches: tuple[Patch, ...]
+    patches: tuple[Face, ...]
     signs: NDArray[np.float64]
     topology: PatchTopology
 
@@ -92,15 +94,15 @@ class _PatchVerdict:
 
 
 def measure_patches(
-    patches: Sequence[Patch], *, order: int = 3, area_order: int = 0, stored: float = 0.0
+    patches: Sequence[Face], *, order: int = 3, area_order: int = 0, stored: float = 0.0
 ) -> PatchIntegrals:
-    """Measure the body that B-spline patches bound.
+    """Measure the body that B-spline patches bound, and flat faces with curved boundaries.
 
     Its moments are about the middle of the control points' bounding box.
 
     Parameters
     ----------
-    patches : sequence of Patch
+    patches : sequence of Patch or FlatFace
         In any order and orientation.
     order, area_order : int
         Orders of the volume's moments and of the area's.
@@ -144,9 +146,9 @@ def measure_patches(
     return assess(patches, topology, parts, measured, area, area_slope(patches), stored, findings)
 
 
-def oriented_parts(patches: Sequence[Patch], topology: PatchTopology) -> list[list[Patch]]:
-    """Return the patches of each component, facing the same way, with the caps of its holes."""
-    parts: list[list[Patch]] = [[] for _ in range(topology.number)]
+def oriented_parts(patches: Sequence[Face], topology: PatchTopology) -> list[list[Face]]:
+    """Return the faces of each component, facing the same way, with the caps of its holes."""
+    parts: list[list[Face]] = [[] for _ in range(topology.number)]
     for patch, turn, part in zip(patches, topology.flipped, topology.component):
         parts[part].append(patch.reverse_orientation() if turn else patch)
     for loop in topology.loops:
@@ -155,9 +157,9 @@ def oriented_parts(patches: Sequence[Patch], topology: PatchTopology) -> list[li
 
 
 def assess(
-    patches: Sequence[Patch],
+    patches: Sequence[Face],
     topology: PatchTopology,
-    parts: Sequence[list[Patch]],
+    parts: Sequence[list[Face]],
     measured: Sequence[tuple[Moments, bool]],
     area: Moments,
     slope: float,
@@ -184,7 +186,8 @@ def assess(
     reach = size + 4.0 * stored
     # Caps move with their boundaries: their area counts too.
     skin = area.total + sum(loop.area for loop in topology.loops)
-    volume = with_swept_error(volume, stored * skin + topology.seam_gap, reach)
+    uneven = sum(face.deviation * face.area_moments(0, face.center).total for face in split_faces(patches)[1])
+    volume = with_swept_error(volume, stored * skin + topology.seam_gap + uneven, reach)
     area = with_area_error(area, slope, stored, reach)
     misoriented = np.flatnonzero(topology.flipped).tolist()
     further = list(findings)
@@ -217,7 +220,7 @@ def assess(
 
 
 def _judge_parts(
-    parts: Sequence[list[Patch]],
+    parts: Sequence[list[Face]],
     topology: PatchTopology,
     measured: Sequence[tuple[Moments, bool]],
     area: float,
@@ -258,7 +261,7 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
 
 
 def measure_sheet(
-    patches: Sequence[Patch], inner: float, outer: float, *, stored: float = 0.0
+    patches: Sequence[Face], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
     """Measure a sheet of real thickness along patches, about the middle of the control points' bounding box.
 
@@ -279,14 +282,14 @@ def measure_sheet(
 
 
 def _compare_parts(
-    parts: Sequence[list[Patch]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
+    parts: Sequence[list[Face]], total: NDArray, solid: NDArray[np.bool_], tolerance: float
 ) -> ComponentComparison | None:
     """Compare parts with each other and find the ones to turn; None for a single part, or if none is solid."""
     if len(parts) == 1 or not solid.any():
         return None
     components, relations = _classify_parts(parts, solid, SAMPLES_PER_SPAN, tolerance)
     shared = np.unique(relations.intersecting)
-    spans = sum(len(patch.spaces[0].spans) * len(patch.spaces[1].spans) for k in shared for patch in parts[k])
+    spans = sum(math.prod(len(space.spans) for space in face.spaces[:2]) for k in shared for face in parts[k])
     each = min(FINE_SAMPLES_PER_SPAN, int(np.sqrt(MAX_TRIANGLES / (2.0 * max(spans, 1)))))
     if len(shared) and each > SAMPLES_PER_SPAN:  # Parts with crossing samples may be merely near.
         nearer = _classify_parts([parts[k] for k in shared], np.ones(len(shared), bool), each, tolerance)[1]
@@ -324,7 +327,7 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
 
 
 def _classify_parts(
-    parts: Sequence[Sequence[Patch]], solid: NDArray[np.bool_], each: int, tolerance: float
+    parts: Sequence[Sequence[Face]], solid: NDArray[np.bool_], each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
     """Compare parts by `each` samples per span of their patches; return the sampled components and their relations.
 
@@ -333,21 +336,31 @@ def _classify_parts(
     points, triangles, component = [], [], []
     count, off = 0, 0.0
     for number, part in enumerate(parts):
-        for patch in part:
-            grid = patch.samples(each)
-            corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2]) + count
-            a, b, c, d = (corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:])
-            faces = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)]).reshape(-1, 3)
-            points.append(grid.reshape(-1, 3))
-            triangles.append(faces)
-            component.append(np.full(len(faces), number))
-            count += len(points[-1])
-            off = max(off, _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each))
+        for face in part:
+            corners, quads, sagitta = _sampled(face, each)
+            points.append(corners)
+            triangles.append(np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]) + count)
+            component.append(np.full(len(triangles[-1]), number))
+            count += len(corners)
+            off = max(off, sagitta)
     points, triangles, component = [np.concatenate(arrays) for arrays in (points, triangles, component)]
     components = sort_components(points, triangles, component, len(parts))
     return components, classify_pairs(
         points, components, solid, tolerance if each == SAMPLES_PER_SPAN else max(tolerance, 2.0 * off)
     )
+
+
+def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
+    """Return points (n, 3) of a face, quads (f, 4) between them, and how far the face may be from the quads."""
+    if isinstance(face, FlatFace):
+        quads = face.quads(each)
+        sagitta = max(_sagitta(curve.samples(each)[:, None], each) for curve in face.curves)
+        return quads.reshape(-1, 3), np.arange(4 * len(quads)).reshape(-1, 4), sagitta
+    assert isinstance(face, Patch)
+    grid = face.samples(each)
+    corners = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2])
+    quads = np.stack([corners[:-1, :-1], corners[1:, :-1], corners[1:, 1:], corners[:-1, 1:]], axis=-1)
+    return grid.reshape(-1, 3), quads.reshape(-1, 4), _sagitta(grid, each) + _sagitta(grid.swapaxes(0, 1), each)
 
 
 def _sagitta(grid: NDArray, each: int) -> float:
@@ -358,11 +371,11 @@ def _sagitta(grid: NDArray, each: int) -> float:
 
 
 def _orientation_findings(
-    topology: PatchTopology, mixed: list[list[Patch]], turned: list[list[Patch]], size: float, volume: float
+    topology: PatchTopology, mixed: list[list[Face]], turned: list[list[Face]], size: float, volume: float
 ) -> list[Finding]:
     """Return findings about single patches turned to agree with their part, and about whole parts turned."""
 
-    def are_slight(groups: list[list[Patch]]) -> bool:  # an area is at most twice the square of a box's diagonal
+    def are_slight(groups: list[list[Face]]) -> bool:  # an area is at most twice the square of a box's diagonal
         return 2.0 * sum(patches_size(patches) ** 2 for patches in groups) * size < NEGLIGIBLE * volume
 
     findings = []

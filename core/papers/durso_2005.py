@@ -43,7 +43,7 @@ FORMULAS = (ZEROTH, FIRST, SECOND, THIRD)
 
 
 def tensor(points: Sequence[Vector], faces: Sequence[Sequence[int]], formula: tuple[int, dict[str, int]]) -> NDArray:
-    """Return M_t = ∫ x ⊗ … ⊗ x dV by one of the formulas above.
+    """Return M_t = ∫ x ⊗ … ⊗ x dV by one of the formulas of this module.
 
     Parameters
     ----------

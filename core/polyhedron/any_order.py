@@ -47,7 +47,7 @@ MAX_EXPONENT = 1000.0  # powers of two beyond which a moment overflows
 
 @lru_cache
 def area_factors(order: int) -> NDArray[np.float64]:
-    """Return (K,) the factors p! q! r! / (p+q+r+2)! of the monomials."""
+    """Return the (K,) factors p! q! r! / (p+q+r+2)! of the monomials."""
     return factorial_ratios(monomials(order), 2)
 
 

@@ -16,8 +16,8 @@ FACES_PER_BLOCK = 1 << 13  # faces whose intermediate arrays stay in the cache
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
     """Return the volume that a closed surface encloses, negative if inside out, and its (3,) centroid, if finite.
 
-    Sum over the tetrahedra from a point near the middle (Zhang and Chen 2001, eq. 6 and 7). The two of a quad abcd, cut
-    along ac, share the face of a, c and that point: with w = a × c, six times their volumes are -b·w and d·w.
+    The tetrahedra have their apex near the middle (Zhang and Chen 2001, eq. 6 and 7). The two tetrahedra of a quad
+    abcd, cut along ac, share the face of a, c and the apex: with w = a × c, six times their volumes are -b·w and d·w.
     """
     points = np.ascontiguousarray(surface.points.T, np.float64)
     middle = points.mean(axis=1)
@@ -50,7 +50,7 @@ def _quads(points: NDArray[np.float64], quads: NDArray[np.integer]) -> NDArray[n
 
 
 def _sums(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Return (4,) the sums of volumes, and of volumes times sums of corners, (3, k)."""
+    """Return the (4,) sums of volumes, and of volumes times sums of corners, (3, k)."""
     return sum(
         [np.append(volumes.sum(), np.einsum("ij,j->i", corners, volumes)) for volumes, corners in parts], np.zeros(4)
     )

@@ -48,17 +48,17 @@ def polyhedron_moments(
 ) -> tuple[Moments, Moments | Any]:
     """Return the moments of the body that a closed surface bounds, and of the surface itself.
 
-    They are about the center of the bounding box, unless `about` says otherwise. The volume's are positive for outward
-    faces, signed otherwise. The moments of an open surface would depend on the reference point: it is refused unless
-    `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error` bounds the
-    rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of a closed
-    surface).
+    All moments are about the center of the bounding box, unless `about` is given. The volume is positive for outward
+    faces, and signed otherwise. The moments of an open surface would depend on the reference point: it is refused
+    unless `allow_open`. `solid.measure_solid` repairs it, and its body has moments of any order. `rounding_error`
+    bounds the rounding of every moment, `input_error` the change that storing coordinates as float32 may have made (of
+    a closed surface).
 
     Parameters
     ----------
     body : Surface, or an iterable of pieces of one body
-        Pieces, in the same coordinates, are Surfaces or (m, 3, 3) arrays of the corners of outward counter-clockwise
-        triangles. Of a stream only a few are held at a time.
+        Pieces, in the same coordinates, are Surfaces or (m, 3, 3) arrays of the corners of triangles, counter-clockwise
+        from outside. Of a stream only a few are held at a time.
     order : int
         The highest order p+q+r of the volume's moments.
     area_order : int, optional
@@ -158,7 +158,7 @@ def _as_surface(piece: Surface | NDArray) -> Surface:
 
 
 def _center(surfaces: list[Surface]) -> NDArray[np.float64] | None:
-    """Return (3,) the center of the box around all surfaces; None if there are no points."""
+    """Return the (3,) center of the box around all surfaces; None if there are no points."""
     boxes = [finite_box(surface) for surface in surfaces if len(surface.points)]
     if not boxes:
         return None

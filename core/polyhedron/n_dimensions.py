@@ -82,7 +82,7 @@ def enclosed_moments(
 ) -> SimplexMoments:
     """Return the moments of the inside of a boundary of simplices, in any dimension.
 
-    They are about the middle of the bounding box of the used points, unless `about` says otherwise. The moments of an
+    The moments are about the middle of the bounding box of the used points, unless `about` is given. The moments of an
     open boundary would depend on that point: it is refused unless `allow_open`.
 
     Parameters
@@ -126,7 +126,7 @@ def facet_moments(
 ) -> SimplexMoments:
     """Return the moments of the boundary itself: length in the plane, area in space, points on a line.
 
-    They are about the middle of the bounding box of the used points, unless `about` says otherwise.
+    The moments are about the middle of the bounding box of the used points, unless `about` is given.
 
     Parameters
     ----------

@@ -294,15 +294,15 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
 
 
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
-    """Return the four corners, (k/2,) each, of quads if triangles 2i and 2i+1 are halves of one for every i; else None.
+    """Return the four corners of quads, (k/2,) each, if triangles 2i and 2i+1 are always halves of a quad; else None.
 
-    Two triangles that share an edge cost less than two loose ones. The first pair shows which of their corners meet.
+    Two triangles that share an edge cost less than two loose ones. The first pair shows their common corners.
     """
     return _quad_corners_of(triangles[0::2], triangles[1::2])
 
 
 def _quad_corners_of(first: NDArray, second: NDArray) -> list[NDArray] | None:
-    """Return the corners of quads if triangles i of `first` and `second` are halves of one for every i; else None."""
+    """Return the four corners of k quads, (k,) each, if the i-th triangles are always halves of a quad; else None."""
     if not len(second) or len(first) != len(second):
         return None
     for i in range(3):

@@ -84,7 +84,7 @@ class _BlockCalls:
 
     start: the calls from the corners to the normals, weigh: the calls to the weights. largest, least: (3, c-1, chunks)
     of the edges, sizes: (1 or 2, c-2, chunks) of the weights' absolute values. volume: 6 times the tetrahedron of each
-    quad's corners, room: two rows that are free then. prepare: the calls that the moments with all weights share,
+    quad's corners, room: two rows that are free meanwhile. prepare: the calls that the moments with all weights share,
     moments: the calls for each weight, and the calls that return sums.
     """
 
@@ -222,7 +222,7 @@ class BlockAccumulator:
     def _find_flipped(
         self, workspace: _BlockCalls, largest: NDArray, k: int
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return the columns below k with quads that Blender may, and that it does, cut along their other diagonal.
+        """Return the columns below k of quads that Blender may cut along the other diagonal, and of those that it does.
 
         The two normals of such a quad face away from each other in float32. That can differ from float64 only if the
         product is within float32's rounding of zero. The quads are appended to `flipped`.
@@ -341,5 +341,5 @@ def _in_slices(table: NDArray) -> NDArray[np.float64]:
 
 
 def _scalar_products(vectors: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """Return (m, n) the scalar products of m rows with n."""
+    """Return the (m, n) scalar products of m rows with n."""
     return np.add.reduce(np.einsum("cjk,pjk->cpk", vectors, second), axis=2)

@@ -32,7 +32,7 @@ class VertexWeights:
         object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
 
     def normalized(self) -> NDArray[np.float64]:
-        """Return (w,) the weights divided by their sum at each vertex, as an armature modifier does."""
+        """Return the (w,) weights divided by their sum at each vertex, as an armature modifier does."""
         total = np.bincount(self.vertex, self.weight)[self.vertex]
         return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
 
@@ -48,7 +48,7 @@ def dominant_bones(
     weights: VertexWeights,
     bones: NDArray[np.floating],
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return (f,) the bone of each face, -1 without corners, and (k,) faces without weights, given to the nearest bone.
+    """Return the (f,) bones of faces, -1 without corners, and the (k,) unweighted faces, which get the nearest bone.
 
     faces, corners: (c,) the face, 0 to f - 1, and the vertex of each corner of the surface. points: (n, 3) in the
     bones' coordinates. bones: (b, 2, 3) the two ends of each bone.
@@ -93,7 +93,7 @@ def _scores(
 
 
 def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:
-    """Return (k,) for each row the nearest bone of its face, or the first of equally near ones. Rows are by face."""
+    """Return for each of k rows the nearest bone of its face, the first of equally near ones. Rows are by face."""
     starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
     least = np.repeat(np.minimum.reduceat(away, starts), sizes)
     near = away <= least * (1.0 + NEAR_RTOL)

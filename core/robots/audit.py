@@ -16,6 +16,7 @@ from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..solid.measure import measure_solid
+from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, finding
 from ..verdict.method import Verdict
 from .diagnosis import Reference, diagnose
@@ -29,7 +30,7 @@ from .findings import (
     INERTIAL_TRIANGLE_SLIGHTLY,
 )
 from .model import Pose, Shape
-from .plausibility import Hull, impossible, spread_directions
+from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
 from .read.meshes import read_mesh
 from .read.paths import Roots
 from .stated import Description, StatedInertial, StatedLink, StatedShape, rotation_of_angles
@@ -82,7 +83,7 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 @dataclass(frozen=True, eq=False)
 class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its relative difference from an even filling of it."""
+    """Comparison of an inertial with some geometry. apart: its relative difference from evenly filled geometry."""
 
     findings: list[Finding]
     impossible: bool
@@ -100,7 +101,14 @@ class Auditor:
 
     def audit(self, description: Description) -> Audit:
         """Return the findings about each link of a description."""
-        return Audit(description, tuple(self._link(link) for link in description.links))
+        return Audit(description, tuple(map(self._link_alone, description.links)))
+
+    def _link_alone(self, link: StatedLink) -> LinkAudit:
+        """Return the findings about one link; an unforeseen error is one of them, and ends nothing else."""
+        try:
+            return self._link(link)
+        except Exception as error:
+            return LinkAudit(link, (*link.findings, internal_error.finding_of(error)))
 
     def _link(self, link: StatedLink) -> LinkAudit:
         findings = list(link.findings)
@@ -111,11 +119,12 @@ class Auditor:
         if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
             return LinkAudit(link, (*findings, finding(INERTIAL_OF_FRAME)))
         pieces, unread = self._pieces(link.shapes)
+        incomplete = bool(unread or findings)  # findings of the reader: about shapes, as there is an inertial
         findings += unread
-        found = _judge(link.inertial, pieces, bool(unread))
+        found = _judge(link.inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
-            other = _judge(link.inertial, turned, bool(unread))
+            other = _judge(link.inertial, turned, incomplete)
             if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
                 found = other
                 findings.append(finding(AUDIT_UP_AXIS))
@@ -157,7 +166,7 @@ def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgmen
         for one, piece in several
     ]
     findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
-    if not stated.mass > 0.0 or any(one.code == INERTIAL_NOT_FINITE for one in findings):
+    if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in findings):
         return _Judgment(findings, True)
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))

@@ -75,7 +75,7 @@ INCLUDE_UNREADABLE = error(
 )
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
-    "description_number", "Line {line}: <{element}> has “{text}” in the place of numbers. Correct it."
+    "description_number", "Line {line}: <{element}> has “{text}”, which is no usable number. Correct it."
 )
 MESH_ON_NETWORK = warning("mesh_on_network", "A mesh is on a network, and was not loaded: {name}. Download it.")
 MESH_MISSING = warning(
@@ -87,7 +87,7 @@ MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {ca
 INERTIAL_MISSING = warning(
     "inertial_missing", "No inertial. Readers differ: some take 1 kg, some none. Add mass and inertia."
 )
-INERTIAL_NOT_FINITE = error("inertial_not_finite", "Mass, center or inertia is not a number.")
+INERTIAL_NOT_FINITE = error("inertial_not_finite", "Mass, center or inertia is not a number, or is too large.")
 INERTIAL_OF_FRAME = note(
     "inertial_of_frame", "Zero mass, inertia and no geometry: a mere frame. Leave the inertial out."
 )

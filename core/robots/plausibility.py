@@ -27,6 +27,7 @@ from .findings import (
 from .stated import StatedInertial
 
 ROUNDING = 1e-3  # Relative excess that numbers printed with few digits may cause.
+LEAST_MASS, LARGEST = 1e-60, 1e60  # SI units: products of two such numbers stay in the range of float64.
 ZERO_RTOL = 1e-14  # Relative to the largest moment: zero after finding the principal axes.
 CENTER_RTOL = 1e-3  # Relative to the hull's size.
 SPREAD_RTOL = 5e-3
@@ -76,9 +77,9 @@ class Hull:
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
     """Return the reasons why no body, or no body within a known hull, has an inertial; empty if it is possible."""
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
-    if not np.isfinite(numbers).all():
+    if not (np.abs(numbers) <= LARGEST).all():
         return [finding(INERTIAL_NOT_FINITE)]
-    if not stated.mass > 0.0:
+    if not stated.mass > LEAST_MASS:
         return [finding(INERTIAL_NOT_POSITIVE, part="mass", value=float(stated.mass), unit="kg")]
     moments = np.linalg.eigvalsh(stated.inertia)
     if not moments[0] > ZERO_RTOL * moments[2]:

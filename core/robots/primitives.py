@@ -33,9 +33,9 @@ def ellipsoid_axes(mass: float, moments: NDArray) -> NDArray[np.float64]:
 def capsule_size(mass: float, moments: NDArray) -> tuple[float, float]:
     """Return radius and length, without its caps, of the capsule along the first principal axis; moments ascend.
 
-    It has the least moment along its axis and the mean of the others across it, if possible; else it is a ball.
-    With t = L/r, r = 1: V = π(t + 4/3); ∫x² dV is π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis.
-    Their ratio grows with t from that of a ball, 1.
+    It has the least moment along its axis and the mean of the others across it, if possible; else it is a ball. With t
+    = L/r, r = 1: V = π(t + 4/3); ∫x² dV is π(t/4 + 4/15) across and π(t³/12 + t²/3 + t/2 + 4/15) along the axis. Their
+    ratio grows with t from 1, the ratio of a ball.
     """
     along = (moments[1] + moments[2] - moments[0]) / 2.0  # ∫x² dm
     across = max(moments[0] / 2.0, LEAST_SPREAD * along)

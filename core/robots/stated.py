@@ -14,9 +14,10 @@ from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding
 from .model import Inertial, Shape
 
-# The tensor's entries as URDF and SDF name them.
+# The names of the tensor's entries in URDF and SDF.
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
 Angles = tuple[float, float, float]
+LEAST, MOST = 1e-30, 1e30  # of lengths in m and scales: fifth powers and their products stay in the range of float64
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +40,9 @@ class StatedInertial:
 
     @property
     def inertia(self) -> NDArray[np.float64]:
-        """(3, 3) the tensor along the link's axes."""
-        return self.rotation @ self.tensor @ self.rotation.T
+        """The (3, 3) tensor along the link's axes."""
+        with np.errstate(invalid="ignore", over="ignore"):  # numbers of a file, not yet audited
+            return self.rotation @ self.tensor @ self.rotation.T
 
     def along_link(self, inertia: NDArray | None = None, **changes) -> StatedInertial:
         """Return a copy in a frame along the link's axes, with its own or a given inertia, and other changes."""
@@ -63,6 +65,8 @@ class StatedShape:
     `shape`: for a mesh, its `file` is the name in the description.
     `angles`: roll, pitch and yaw, if the pose was stated so.
     `points`, `triangles`: of a mesh in the description itself, else None.
+    ValueError, with the numbers as text, if a size is not positive, a factor of a mesh is zero, or a size or the place
+    is not finite, or too large or small to compute with.
     """
 
     shape: Shape
@@ -70,6 +74,15 @@ class StatedShape:
     angles: Angles | None = None
     points: NDArray[np.float64] | None = None
     triangles: NDArray[np.integer] | None = None
+
+    def __post_init__(self) -> None:
+        shape = self.shape
+        sizes = np.abs(shape.size) if shape.kind == "mesh" else np.array(shape.size)
+        if not ((sizes >= LEAST) & (sizes <= MOST)).all():
+            raise ValueError(" ".join(map("{:.16g}".format, shape.size)))
+        for values in (shape.pose.position, shape.pose.rotation, self.points):
+            if values is not None and not (np.abs(values) <= MOST).all():
+                raise ValueError(" ".join(map("{:.16g}".format, values.ravel()[:9])))
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,11 +30,23 @@ from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16
 UNITS = {
-    **dict.fromkeys(("m", "meter", "meters"), 1.0),
-    **dict.fromkeys(("mm", "millimeter", "millimeters"), 1e-3),
-    **dict.fromkeys(("um", "µm", "micron", "microns"), 1e-6),
-    **{"cm": 1e-2, "nm": 1e-9},
+    name: unit
+    for names, unit in {
+        "m,meter,meters,metre,metres": 1.0,
+        "dm,decimeter,decimeters,decimetre,decimetres": 1e-1,
+        "cm,centimeter,centimeters,centimetre,centimetres": 1e-2,
+        "mm,millimeter,millimeters,millimetre,millimetres": 1e-3,
+        "um,\u00b5m,\u03bcm,micron,microns,micrometer,micrometers,micrometre,micrometres": 1e-6,
+        "nm,nanometer,nanometers,nanometre,nanometres": 1e-9,
+        "km,kilometer,kilometers,kilometre,kilometres": 1e3,
+        "in,inch,inches": 0.0254,
+        "ft,foot,feet": 0.3048,
+    }.items()
+    for name in names.split(",")
 }
+TIMES = {"s", "sec", "second", "seconds", "ms", "millisecond", "milliseconds", "us", "\u00b5s", "ns", "hz"}
+SPACE_KINDS = {"domain", "space", "stub", "none", "???"}  # The samples along other axes are no places.
+SAME_EXTENT_RTOL = 1e-3  # of a spacing times the count of samples, and the difference of axis maximum and minimum
 TYPES = {
     name: dtype
     for dtype, names in {
@@ -52,6 +64,7 @@ TYPES = {
     for name in names.split(",")
 }
 _HEADER_END = re.compile(rb"\r?\n\r?\n")
+_WORD = re.compile(r'"([^"]*)"|([^\s"]+)')
 
 
 def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]:
@@ -68,12 +81,19 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
     if not head:
         raise FileError(FILE_UNRECOGNIZED, format="NRRD")
     fields = {}
-    text = head[: end.start() if end else len(head)].decode("latin-1")
-    for line in text.splitlines()[1:]:
+    text = bytes(head[: end.start() if end else len(head)])
+    for line in _decoded(text).splitlines()[1:]:
         name, colon, value = line.partition(":")
         if colon and not value.startswith("="):  # “:=” sets a key's value
             fields[name.strip().lower()] = value.strip()
     return fields, end.end() if end else None
+
+
+def _decoded(text: bytes) -> str:
+    try:
+        return text.decode()
+    except UnicodeDecodeError:
+        return text.decode("latin-1")
 
 
 def data_file(fields: dict[str, str]) -> str | None:
@@ -99,7 +119,10 @@ def read_nrrd(path: Path, limits: Limits) -> Scan:
     if dtype.itemsize > 1 and endian not in ("little", "big"):
         raise _field(fields, "endian", "little or big")
     dtype = dtype.newbyteorder(">" if endian == "big" else "<")
-    matrix, placed, unit = _sample_matrix(fields)
+    kinds = fields.get("kinds", "").lower().split()
+    if kinds and (len(kinds) != len(sizes) or not SPACE_KINDS.issuperset(kinds[:3])):
+        raise _field(fields, "kinds", "three axes in space")
+    matrix, placed, unit = _sample_matrix(fields, shape)
     encoding = fields.get("encoding", "").lower()
     if encoding not in ("raw", "gzip", "gz"):
         raise _field(fields, "encoding", "raw or gzip")
@@ -165,41 +188,102 @@ def _skip_lines(path: Path, start: int, count: int, limits: Limits) -> int:
         return file.tell()
 
 
-def _sample_matrix(fields: dict[str, str]) -> tuple[NDArray[np.float64], bool, float | None]:
-    """Return the matrix of the sample positions, whether the header states it, and its unit."""
+def _sample_matrix(
+    fields: dict[str, str], shape: tuple[int, int, int]
+) -> tuple[NDArray[np.float64], bool, float | None]:
+    """Return the matrix of the sample positions, whether the header states the spacing, and the matrix's unit."""
     matrix = np.eye(4)
-    words = re.findall(r'"([^"]*)"', fields.get("space units", fields.get("units", "")))
-    units = {UNITS.get(word.strip().lower()) for word in words[:3]}
-    unit = units.pop() if len(units) == 1 else None
+    field = _alias(fields, "space units") if _alias(fields, "space units") in fields else "units"
+    units, unit = _units(fields, field)
     if "space directions" in fields:
         directions = _vectors(fields, "space directions")
-        if len(directions) != 3:
+        vectors = [row for row in directions if row is not None]
+        if len(vectors) != 3 or len(directions) == len(fields["sizes"].split()) and None in directions[:3]:
             raise _field(fields, "space directions", "three vectors")
-        matrix[:3, :3] = np.array(directions).T
+        matrix[:3, :3] = np.array(vectors).T
         if "space origin" in fields:
             origin = _vector(fields["space origin"], "space origin")
             matrix[:3, 3] = np.zeros(3) if origin is None else origin
-        return matrix, True, unit
-    spacings = _numbers(fields, "spacings", parse_number)
-    if spacings:
-        if len(spacings) < 3 or not all(0.0 < abs(spacing) < math.inf for spacing in spacings[:3]):
-            raise _field(fields, "spacings", "three spacings that are not zero")
-        matrix[:3, :3] = np.diag(spacings[:3])
-    mins = _numbers(fields, _alias(fields, "axis mins"), parse_number)
-    if len(mins) >= 3 and np.isfinite(mins[:3]).all():
-        matrix[:3, 3] = mins[:3]
-    return matrix, bool(spacings), unit
+        placed = True
+    else:
+        spacings, matrix[:3, 3] = _even_axes(fields, shape)
+        placed = spacings is not None
+        matrix[:3, :3] = np.diag(spacings if placed else np.ones(3))
+    if units is not None and unit is None:
+        if "space directions" in fields and field == "units":
+            return matrix, placed, None  # Units of the axes do not tell those of their directions' coordinates.
+        matrix[:3], unit = matrix[:3] * units[:, None], 1.0
+    return matrix, placed, unit
 
 
-def _vectors(fields: dict[str, str], name: str) -> list[list[float]]:
-    """Parse vectors in parentheses, with “none” between them, in time linear in the text."""
+def _units(fields: dict[str, str], field: str) -> tuple[NDArray[np.float64] | None, float | None]:
+    """Return the (3,) units of three axes in meters, None if one is unknown; and the one unit if they are equal."""
+    words = [(quoted or word).strip() for quoted, word in _WORD.findall(fields.get(field, "").lower())]
+    if field == "units" and TIMES.intersection(words[:3]):
+        raise _field(fields, field, "units of length")
+    units = [UNITS.get(word) for word in words[:3]]
+    if len(units) < 3 or None in units:
+        return None, None
+    return np.array(units, np.float64), units[0] if len(set(units)) == 1 else None
+
+
+def _even_axes(fields: dict[str, str], shape: tuple[int, int, int]) -> tuple[list[float] | None, list[float]]:
+    """Return the spacing along each axis, None if the header states none, and the position of the first sample.
+
+    A spacing that is not stated follows from the axis' minimum and maximum: they are the outer faces of the first and
+    last sample on axes of cells, and their centers on axes of nodes. If neither is stated, the distance of the minimum
+    and maximum tells them apart; without spacing, cells are assumed, as by the format's own library. The last resort is
+    the thickness.
+    """
+    names = "spacings", "axis mins", "axis maxs", "thicknesses"
+    stated, lows, highs, thicknesses = (_per_axis(fields, name) for name in names)
+    field = "centers" if "centers" in fields else "centerings"
+    centers = [*fields.get(field, "").lower().split(), *["???"] * 3][:3]
+    if not {"cell", "node", "none", "???"}.issuperset(centers):
+        raise _field(fields, field, "cell or node for each axis")
+    unfit = _field(fields, "spacings", "three spacings that are not zero")
+    if 0.0 in stated or any(map(math.isinf, stated)) or fields.get("spacings") and len(fields["spacings"].split()) < 3:
+        raise unfit
+    spacings, origin, are_stated = [], [], "spacings" in fields
+    for spacing, low, high, thickness, center, count in zip(stated, lows, highs, thicknesses, centers, shape):
+        steps = count - (center == "node")
+        if math.isnan(spacing):
+            spacing = (high - low) / steps if steps else math.nan
+        else:
+            across = (high - low) / spacing
+            if center not in ("cell", "node"):
+                steps = count if across > count - 0.5 else count - 1
+            if abs(across - steps) > SAME_EXTENT_RTOL * count:
+                raise _field(fields, _alias(fields, "axis maxs"), "in agreement with “spacings”")
+        are_stated = are_stated or _is_spacing(spacing)
+        spacings.append(spacing if _is_spacing(spacing) else thickness)
+        origin.append(low + spacings[-1] / 2.0 if steps == count else low)
+    if not all(map(_is_spacing, spacings)):
+        if are_stated:
+            raise unfit
+        spacings, origin = None, lows
+    return spacings, origin if np.isfinite(origin).all() else [0.0] * 3
+
+
+def _is_spacing(number: float) -> bool:
+    return 0.0 < abs(number) < math.inf
+
+
+def _per_axis(fields: dict[str, str], name: str) -> list[float]:
+    """Return a field's numbers for the first three axes; NaN if it has fewer."""
+    numbers = _numbers(fields, _alias(fields, name), parse_number)
+    return numbers[:3] if len(numbers) >= 3 else [math.nan] * 3
+
+
+def _vectors(fields: dict[str, str], name: str) -> list[list[float] | None]:
+    """Parse vectors in parentheses, and “none” between them as None, in time linear in the text."""
     vectors, rest = [], fields[name].strip()
     for _ in range(MAX_AXES):
         vector, end, rest = rest.partition("none" if rest.startswith("none") else ")")
         vectors.append(_vector(vector + end, name))
         rest = rest.lstrip()
         if not rest:
-            return [row for row in vectors if row is not None]
+            return vectors
     raise _field(fields, name, "three vectors")
 
 

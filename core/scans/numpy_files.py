@@ -54,7 +54,7 @@ def read_npz(path: Path, limits: Limits) -> Scan:
 
 
 def read_arrays(path: Path, names: Sequence[str], limits: Limits) -> dict[str, NDArray]:
-    """Return the arrays of an .npz file that have one of the names, of any type but objects. FileError, or OSError."""
+    """Return the arrays of an .npz file with these names, of any type but objects. Raises FileError and OSError."""
     with _archive(path, limits) as (archive, shapes):
         return {name: _unpack(archive, path, name, limits) for name in names if name in shapes}
 

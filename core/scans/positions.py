@@ -21,7 +21,7 @@ EVEN: Positions = (None, None, None)
 
 
 def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float64]:
-    """Return the (count,) ascending positions of samples along an axis from a .npy file. FileError, or OSError."""
+    """Return the (count,) ascending positions of samples along an axis from a .npy file. Raises FileError, OSError."""
     path = Path(path)
     whose = {"file": path.name, "axis": axis}
     if not path.is_file():
@@ -38,7 +38,7 @@ def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float6
 
 
 def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
-    """Return the positions along each axis that has a file. FileError and OSError as for `read_positions`."""
+    """Return the positions along each axis that has a file. Raises the errors of `read_positions`."""
     x, y, z = (read_positions(files[axis], axis, count) if axis in files else None for axis, count in zip(AXES, shape))
     return x, y, z
 

@@ -24,7 +24,7 @@ def counts() -> tuple[int, int]:
 
 @lru_cache
 def _turning(order: int) -> list[Key]:
-    """Return (p, q) of the complex moments that change by a turn, from second order on, as the first are zero."""
+    """Return (p, q) of the complex moments of order 2 to `order` that a rotation changes; first moments are zero."""
     return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
 
 
@@ -41,7 +41,7 @@ def triples() -> list[tuple[Key, Key, Key]]:
 
 
 def _sum(keys: tuple[Key, ...], plus: int) -> int:
-    """Return the sum of p - q, subtracting the moments behind the first `plus`."""
+    """Return the sum of p - q over the first `plus` moments, minus the sum over all later moments."""
     return sum((p - q) * (1 if i < plus else -1) for i, (p, q) in enumerate(keys))
 
 

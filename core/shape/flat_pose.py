@@ -115,7 +115,7 @@ def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
 
 
 def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
-    """Return (k,) the angles of the largest overlap of the turned source with the target, the largest first."""
+    """Return the (k,) angles of the largest overlap of the turned source with the target, the largest first."""
     order = next(n for n in count() if len(disc_degrees(n)) == len(source))
     m = np.array([m for _, m in disc_degrees(order)])
     terms = target.conj() * source

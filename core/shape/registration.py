@@ -66,14 +66,14 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
 
 
 def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np.float64]:
-    """Return (k, 3, 3) the rotations from a frame of the source to the frames of the target and their half turns."""
+    """Return the (k, 3, 3) rotations from a frame of the source to the frames of the target and their half turns."""
     frames = (target.frames[:, None] * HALF_TURN_SIGNS[:, None, :]).reshape(-1, 3, 3)
     frames = np.array([complete_free_axes(frame, undetermined_axes(target.revolution_axes), first) for frame in frames])
     return distinct_arrays(frames @ first.T, 1e-9)
 
 
 def best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
-    """Return the one of (k, 3, 3) maps with the least residual, and its distances; of equals, the smallest turn."""
+    """Return that of (k, 3, 3) maps with the least residual, else the smallest turn, and its distances."""
     least = np.array([residual(way, FIRST_SAMPLES).max() for way in candidates])
     worst, distances = np.full(len(candidates), np.inf), {}
     for i in np.argsort(least, kind="stable"):

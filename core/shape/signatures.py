@@ -50,7 +50,7 @@ MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
 MAX_SIZE = 1e150  # meters; the ratio of two sizes is still a number
 MAX_DESCRIPTOR = 1e100  # its square is still a number
 MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
-CHIRALITY_NOISE_FACTOR = 10.0  # chirality that noise may cause, by the difference of shapes that it causes
+CHIRALITY_NOISE_FACTOR = 10.0  # noise that changes the shape by 1 may cause this much chirality
 # chiralities with a difference below this share of their sum, or the reverse, decide the hand
 CLEAR_CHIRALITY_SHARE = 0.2
 
@@ -86,7 +86,7 @@ class Signature:
 
     @classmethod
     def from_record(cls, record: dict) -> Signature:
-        """Read a signature from JSON; FileError if the record is none."""
+        """Read a signature from JSON. FileError if the record is not a signature."""
         try:
             arrays = [
                 np.array(record[name], np.float64).reshape(-1)
@@ -126,10 +126,10 @@ class Likeness:
     is_mirror_image: bool | None
 
     def distance(self, any_size: bool = False, any_hand: bool = False) -> float:
-        """Return 0 for a copy; also for one of another size, and for a mirror image, if that does not matter.
+        """Return the norm of the differences of shape, size and hand, 0 for a copy.
 
-        Else a difference of size or hand counts as much as one of shape, but never for more than
-        MAX_SIMILAR_DIFFERENCE.
+        The differences of size and of hand count as at most MAX_SIMILAR_DIFFERENCE, and not at all with `any_size` or
+        `any_hand`.
         """
         size, hand = (
             MAX_SIMILAR_DIFFERENCE * tanh(abs(value) / MAX_SIMILAR_DIFFERENCE)
@@ -274,7 +274,7 @@ def _couplings(harmonic: Multiplets, triples: list[tuple[Key, Key, Key]]) -> lis
 
 
 def _multiplets(order: int) -> list[Key]:
-    """Return (n, l) of the harmonic moments that change by a turn, l > 0, from second order on: first ones are zero."""
+    """Return (n, l) of the harmonic moments of order 2 to `order` that a rotation changes: those with l > 0."""
     return [(n, l) for n, l in degrees(order) if l and n > 1]
 
 

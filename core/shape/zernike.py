@@ -145,7 +145,7 @@ def _jacobi(beta: float, x: NDArray) -> Iterator[NDArray[np.float64]]:
 
 
 def radial_power(moments: Multiplets, wave_numbers: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return (k, …) the mean of |F(q)|² over all directions of q, and a bound of the change by the missing orders.
+    """Return the (k, …) means of |F(q)|² over all directions of q, and a bound of the change by the missing orders.
 
     moments: of a body in the unit ball, (2l+1, …). wave_numbers: (k,) |q|, in units of the ball's inverse radius.
     """

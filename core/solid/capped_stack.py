@@ -19,8 +19,7 @@ from ..mesh.welding import may_have_neighbor
 from ..moments.moments import Moments, U, sum_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES
 from ..polyhedron.third_order_small import small_moments
-from .boundary_loops import BoundaryLoops, find_loops, join_sides, side_ends
-from .repaired_mesh import has_distinct_vertices
+from .boundary_loops import OwnedLoops, has_distinct_vertices, side_ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +76,7 @@ class StackCaps:
 def cap_stack(
     stack: SurfaceStack, links: Connections, usable: NDArray[np.bool_], tolerance: NDArray[np.float64]
 ) -> StackCaps | None:
-    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) nearer points touch."""
+    """Cap `usable` surfaces that need nothing but caps; None if there are none. tolerance: (n,) distances of touch."""
     can = usable & links.is_open
     start, stop = links.open_sides
     owner, total = stack.point_owners, len(stack.points)
@@ -90,23 +89,21 @@ def cap_stack(
     onto[start] = stop
     begins, ends = side_ends(stack.triangles, np.arange(stack.triangles.size))
     is_side = onto[begins] == ends
-    found = np.add.reduceat(is_side, 3 * stack.first_triangle, dtype=np.intp)
+    side_counts = np.add.reduceat(is_side, 3 * stack.first_triangle, dtype=np.intp)
     sides = np.repeat(can, 3 * stack.triangle_counts)
     key = np.sort(begins[sides] * total + ends[sides])
     can[owner[key[1:][key[1:] == key[:-1]] // total]] = False  # diagonals may run along edges
-    can &= found + stack.triangle_counts <= MAX_SMALL_TRIANGLES
+    can &= side_counts + stack.triangle_counts <= MAX_SMALL_TRIANGLES
     can &= np.logical_and.reduceat(has_distinct_vertices(stack.triangles), stack.first_triangle)
     side = np.flatnonzero(is_side)
     while can.any():
         side = side[can[owner[begins[side]]]]
         start, stop = begins[side], ends[side]
-        begin, end = stack.points[start].astype(np.float64), stack.points[stop].astype(np.float64)
-        loops = find_loops(begin, end, join_sides(begin, end, start, stop, directed=True))
-        of_loop = loops.of_each(owner[start])
-        bad = ~loops.complete | ~loops.has_area(tolerance[of_loop])
+        found = OwnedLoops.of_sides(stack.points, start, stop, owner[start])
+        bad = ~found.loops.complete | ~found.loops.has_area(tolerance[found.owner])
         if not bad.any():
-            return _capped(stack, links.component[stack.triangle_faces], can, tolerance, side, loops, of_loop)
-        can[of_loop[bad]] = False
+            return _capped(stack, links.component[stack.triangle_faces], can, tolerance, side, found)
+        can[found.owner[bad]] = False
     return None
 
 
@@ -116,31 +113,28 @@ def _capped(
     is_capped: NDArray[np.bool_],
     tolerance: NDArray[np.float64],
     side: NDArray[np.intp],
-    loops: BoundaryLoops,
-    of_loop: NDArray[np.intp],
+    found: OwnedLoops,
 ) -> StackCaps:
-    """Add the cones over loops to their surfaces. part: (t,) of each triangle; of_loop: the surface of each loop."""
-    count, owner, (start, stop) = len(stack), stack.point_owners, side_ends(stack.triangles, side)
-    body, caps = owner[start], loops.cones(start, stop, len(owner))
-    kept = has_distinct_vertices(caps)
+    """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides of the loops."""
+    count, owner, caps = len(stack), stack.point_owners, found.caps(tolerance, is_capped)
+    body, kept = owner[found.start], caps.side
     cap_counts = np.bincount(body[kept], minlength=count)
-    point_order = np.concatenate([owner, of_loop]).argsort(kind="stable")
+    point_order = np.concatenate([owner, found.owner]).argsort(kind="stable")
     bodies = np.concatenate([np.repeat(np.arange(count), stack.triangle_counts), body[kept]])
     order = bodies.argsort(kind="stable")
     triangles = TriangleStack(
-        np.concatenate([stack.points, loops.centroid.astype(stack.points.dtype)])[point_order],
-        point_order.argsort()[np.concatenate([stack.triangles, caps[kept]])[order]],
-        stack.point_counts + np.bincount(of_loop, minlength=count),
+        np.concatenate([stack.points, caps.apexes])[point_order],
+        point_order.argsort()[np.concatenate([stack.triangles, caps.triangles])[order]],
+        stack.point_counts + np.bincount(found.owner, minlength=count),
         stack.triangle_counts + cap_counts,
     )
-    counts = [np.bincount(of_loop, column, count) for column in loops.caps(tolerance[of_loop])]
-    edges = np.sort(np.stack([start, stop], axis=1), axis=1) - stack.first_point[body][:, None]
+    edges = np.sort(np.stack([found.start, found.stop], axis=1), axis=1) - stack.first_point[body][:, None]
     return StackCaps(
         is_capped,
         triangles,
         np.concatenate([part, part[side[kept] // 3]])[order],
         cap_counts,
-        np.stack(counts, axis=1, dtype=np.float64),
+        caps.counts,
         edges[np.lexsort((edges[:, 1], edges[:, 0], body))],
         np.bincount(body, minlength=count),
     )

@@ -48,7 +48,7 @@ class CheckedSurface:
 
 @dataclass(frozen=True, eq=False)
 class GivenIntegrals:
-    """Integrals over the faces as given: `volume` to order 3, and `area`, also of faces that a repair leaves out.
+    """Integrals over the faces as given: `volume` to order 3, and `area`.
 
     `all_cones_agree`: True if all cones from the reference point over the faces are known to have the same sign.
     `proven`: the mesh if its own edges prove it closed and oriented, else None.
@@ -131,7 +131,7 @@ def integrate_and_prove(checked: CheckedSurface, shell: bool, threads: int) -> G
 
 
 def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray[np.bool_]:
-    """Return whether numbers with the sum `signed`, and `total` for their sizes, have one sign but for rounding."""
+    """Return whether numbers have one sign, to rounding. total: the sum of their sizes; signed: their own sum."""
     return total - abs(signed) <= SUM_ROUNDING * total
 
 

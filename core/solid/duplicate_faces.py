@@ -4,12 +4,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, find_edges
+from ..mesh.edges import Edges, face_of_each, find_edges, ring_sizes
 from ..mesh.surface import Surface, normals
 from ..mesh.welding import same_vertices_groups
 from ..numerics.arrays import first_occurrence
@@ -21,7 +19,7 @@ from .findings import (
     DUPLICATE_FACES_COUNTED,
     DUPLICATE_FACES_IGNORED,
 )
-from .repaired_mesh import RepairedMesh
+from .repaired_mesh import RepairedMesh, copy_with
 
 
 def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -60,12 +58,12 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
             mesh = mesh.with_findings(finding(code, copies, slight=slight, count=len(copies)))
     if not len(ignored):
         return mesh
-    mesh = replace(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True)
+    mesh = copy_with(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True, left_out=ignored)
     return mesh.with_state(edges=find_edges(mesh.triangles))
 
 
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
-    """Return (k,) the mesh faces on the same vertices as an earlier one, sorted.
+    """Return the (k,) mesh faces on the same vertices as an earlier one, sorted.
 
     In a solid two such faces bound nothing, and their edges close, so that no repair looks for them; in a sheet their
     area counts twice.
@@ -74,8 +72,27 @@ def copied_faces(surface: Surface) -> NDArray[np.integer]:
     return np.unique(face[same_vertices_groups(triangles, face) != face])
 
 
+def without_faces(surface: Surface, faces: NDArray[np.integer]) -> Surface:
+    """Return the surface without some mesh faces. The others keep their numbers."""
+    quad_faces, triangle_faces = face_of_each(surface)
+    quads, triangles = ~np.isin(quad_faces, faces), ~np.isin(triangle_faces, faces)
+    sizes = ring_sizes(triangle_faces, quad_faces)
+    corners = ~np.isin(np.repeat(np.arange(len(sizes)), sizes), faces)
+    rings = surface.corner_vertices, surface.corner_edges
+    vertices, edges = [ring[corners] if ring is not None and len(ring) == len(corners) else None for ring in rings]
+    return replace(
+        surface,
+        triangles=surface.triangles[triangles],
+        quads=surface.quads[quads],
+        triangle_faces=triangle_faces[triangles],
+        quad_faces=quad_faces[quads],
+        corner_vertices=vertices,
+        corner_edges=edges,
+    )
+
+
 def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles of faces on another face's vertices. group: from `same_vertices_groups`."""
+    """Return an (m,) mask of triangles of faces on another face's vertices. group: from `same_vertices_groups`."""
     copied = np.zeros(int(face.max()) + 1, bool)
     copied[group[group != face]] = True
     return copied[group]
@@ -84,7 +101,7 @@ def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDAr
 def _regions_of_one_layer(
     edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles in regions to be reduced to one layer.
+    """Return an (m,) mask of triangles in regions to be reduced to one layer.
 
     later, copied: masks of later copies, and of faces with copies; agree: positive if a face runs as its first copy.
     """

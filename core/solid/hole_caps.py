@@ -17,15 +17,16 @@ from ..mesh.surface import normals
 from ..numerics.graph import connected_components
 from ..verdict.finding import Finding, finding
 from .boundary_loops import (
-    BoundaryLoops,
+    OwnedLoops,
     distinct_vertex_pairs,
     find_loops,
+    has_distinct_vertices,
     join_sides,
     side_ends,
     vertex_pairs,
 )
 from .findings import DUPLICATE_FACES_COUNTED, NON_MANIFOLD_COMPONENTS, ONE_SIDED_COMPONENTS, T_JUNCTIONS
-from .repaired_mesh import FoldedLoops, RepairedMesh, ZeroAreaLoops
+from .repaired_mesh import FoldedLoops, RepairedMesh, ZeroAreaLoops, copy_with
 from .shared_walls import wall_links
 
 
@@ -64,11 +65,11 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     component, number = group_components(edges, *connected_components(count, a, b), _edges_along(mesh))
     is_open = np.zeros(number, bool)
     is_open[component[twisted]] = True
-    report = replace(mesh.report, components=number)
+    report = copy_with(mesh.report, components=number)
     if misoriented.any():
         sides = distinct_vertex_pairs(mesh.state.given, np.concatenate([first[misoriented], second[misoriented]]))
-        elements = replace(report.defective_elements, inconsistent_edges=sides)
-        report = replace(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
+        elements = copy_with(report.defective_elements, inconsistent_edges=sides)
+        report = copy_with(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
     return replace(
         mesh,
         findings=_without_walls(mesh, np.concatenate(walls)),
@@ -78,12 +79,12 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         open=is_open,
         caps=np.zeros((number, 3)),
         report=report,
-        state=replace(mesh.state, one_sided=is_open),
+        state=copy_with(mesh.state, one_sided=is_open),
     )
 
 
 def _without_walls(mesh: RepairedMesh, sides: NDArray[np.integer]) -> tuple[Finding, ...]:
-    """Return the findings, without copies of faces that are the walls of two bodies. sides: at such walls."""
+    """Return the findings without counting copies of faces that are walls of two bodies. sides: the sides at walls."""
     walls, findings = np.unique(mesh.face[sides // 3]), []
     for item in mesh.findings:
         if item.code.startswith(DUPLICATE_FACES_COUNTED):
@@ -108,7 +109,7 @@ def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> Repaired
     return replace(
         mesh,
         open=mesh.open | (unclosable & ~folded.components),
-        state=replace(mesh.state, component_edges=edges, folded=folded),
+        state=copy_with(mesh.state, component_edges=edges, folded=folded),
     )
 
 
@@ -140,7 +141,8 @@ def close_gaps(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     caps = np.concatenate([np.stack([stop, start, apex[loop[filled]]], axis=1), folded.caps])
     owner = np.concatenate([boundary[filled] // 3, folded.sides // 3])
     if len(caps):
-        mesh = mesh.with_caps(caps, owner)
+        useful = has_distinct_vertices(caps)
+        mesh = mesh.with_caps(caps[useful], owner[useful])
     return mesh.with_state(uncapped_sides=boundary[~filled])
 
 
@@ -149,28 +151,26 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     side = mesh.state.uncapped_sides
     if not len(side):
         return mesh
-    owner, (start, stop) = side // 3, mesh.oriented_ends(side)
-    component = mesh.component[owner]
-    loops = _find_component_loops(mesh, component, start, stop)
-    of_loop = loops.of_each(component)
+    component = mesh.component[side // 3]
+    found = OwnedLoops.of_sides(mesh.points, *mesh.oriented_ends(side), component)
     is_open = mesh.open.copy()
-    is_open[of_loop[~loops.complete]] = True
-    # In the points' own type: a cap's apex then carries the same coordinate error as every vertex.
+    is_open[found.owner[~found.loops.complete]] = True
+    caps = found.caps(np.full(mesh.number, tolerance), ~is_open)
     return replace(
         mesh,
-        points=np.concatenate([mesh.points, loops.centroid.astype(mesh.points.dtype)]),
+        points=np.concatenate([mesh.points, caps.apexes]),
         open=is_open,
-        caps=_count_caps(loops, of_loop, is_open, tolerance),
+        caps=caps.counts,
         capped_edges=vertex_pairs(mesh.state.given, side),
         capped_component=component,
-    ).with_caps(loops.cones(start, stop, len(mesh.points)), owner)
+    ).with_caps(caps.triangles, side[caps.side] // 3)
 
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Turn the faces that were found to disagree. Sides have other numbers from here on."""
     if not mesh.flipped.any():
         return mesh
-    return replace(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
+    return copy_with(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
 
 
 def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -184,27 +184,11 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
         findings.append(finding(NON_MANIFOLD_COMPONENTS, edges, count=count, total=mesh.number))
     closed = not (mesh.open.any() or mesh.caps.any())
-    return replace(mesh, findings=(*mesh.findings, *findings), report=replace(mesh.report, closed=closed))
-
-
-def _find_component_loops(mesh: RepairedMesh, component: NDArray, start: NDArray, stop: NDArray) -> BoundaryLoops:
-    """Return the loops of sides with these ends, which are joined within their components, head to tail."""
-    begin, end = mesh.points[start].astype(np.float64), mesh.points[stop].astype(np.float64)
-    first, second = (component * len(mesh.points) + vertex for vertex in (start, stop))
-    return find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
-
-
-def _count_caps(
-    loops: BoundaryLoops, of_loop: NDArray[np.intp], is_open: NDArray[np.bool_], tolerance: float
-) -> NDArray[np.float64]:
-    """Return (c, 3) numbers of flat and curved caps, and their area, by component. of_loop: (l,); is_open: (c,)."""
-    hole = loops.has_area(tolerance) & ~is_open[of_loop]
-    counts = [np.bincount(of_loop, column * hole, minlength=len(is_open)) for column in loops.caps(tolerance)]
-    return np.stack(counts, axis=1).astype(np.float64, copy=False)
+    return copy_with(mesh, findings=(*mesh.findings, *findings), report=copy_with(mesh.report, closed=closed))
 
 
 def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:
-    """Return a (e,) mask of the edges along gaps without area."""
+    """Return an (e,) mask of the edges along gaps without area."""
     edges = mesh.state.edges
     along = np.zeros(len(edges.count), bool)
     along[edges.of_side[mesh.state.gaps.sides]] = True
@@ -231,7 +215,7 @@ def _find_folded_loops(
     reversed_side = edges.upward[side] != (signed_count[edge] > 0.0)
     start, stop = np.where(reversed_side, stop, start), np.where(reversed_side, start, stop)
     component = mesh.component[side // 3]
-    loops = _find_component_loops(mesh, component, start, stop)
+    loops = OwnedLoops.of_sides(mesh.points, start, stop, component).loops
     closes = unclosable.copy()
     closes[component[(~loops.complete | loops.has_area(tolerance))[loops.of_side]]] = False
     caps = np.stack([stop, start, loops.of_each(start)[loops.of_side]], axis=1)

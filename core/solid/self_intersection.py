@@ -8,7 +8,8 @@ show this on the way; for the others a pass over the faces, which ends early if 
 
 Other surfaces are sampled along lines. Each place on a line must be in a closed part once or not at all, if the part
 faces outward. The lengths that break this, times the lines' distances, are the volume that counts wrongly. Every region
-as wide as these distances is found, and their number follows from that of the faces, so that looking costs little.
+as wide as these distances is found. The number of lines follows from the number of faces, so that the search costs
+little.
 """
 
 from __future__ import annotations
@@ -129,7 +130,7 @@ def measure_excess(
 ) -> Excess:
     """Measure along lines the volume that a closed part counts more than once, or as negative.
 
-    tolerance: (b,) shorter lengths do not count (unit). part: (t,) of each triangle; by default a body is one part.
+    tolerance: (b,) lengths below which nothing counts (unit). part: (t,) parts of the triangles, by default one a body.
     """
     bodies = len(grids.cell)
     if not len(crossings.row):
@@ -140,15 +141,17 @@ def measure_excess(
     order = np.lexsort((crossings.along, group))
     group, of_part, body = group[order], of_part[order], crossings.body[order]
     begins = np.flatnonzero(np.concatenate([[True], group[1:] != group[:-1]]))
-    which = np.repeat(np.arange(len(begins)), np.diff(np.append(begins, len(group))))
+    last = np.concatenate([begins[1:], [len(group)]]) - 1
+    which = np.repeat(np.arange(len(begins)), last + 1 - begins)
     depth = np.cumsum(crossings.sign[order])
-    last = np.append(begins[1:], len(group)) - 1
     depth -= (depth[begins] - crossings.sign[order][begins])[which]
     complete = depth[last] == 0
     lines = np.bincount(body[begins], minlength=bodies)
     unsure = np.where(lines > 0, np.bincount(body[begins], ~complete, minlength=bodies) / np.maximum(lines, 1), 1.0)
 
-    inner = np.flatnonzero(complete[which] & ~np.isin(np.arange(len(group)), last))
+    is_inner = complete[which]
+    is_inner[last] = False
+    inner = np.flatnonzero(is_inner)
     along, body, depth = crossings.along[order], body[inner], depth[inner]
     length = along[inner + 1] - along[inner]
     outward = np.sign(sums_by_index(of_part[inner], depth * length, int(of_part.max()) + 1))

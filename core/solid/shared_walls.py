@@ -72,7 +72,7 @@ def wall_links(
 
 
 def _layer_links(edges: Edges, within: NDArray[np.intp], wall: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return (k, 2) the sides that are joined within walls.
+    """Return the (k, 2) sides that are joined within walls.
 
     Which copy of a face is first is an accident: a copy goes with the one of its neighbors that it agrees with. within:
     (e, 4) sides on edges between two faces of a wall, by layers; wall: (t,) as of `_layers`.

@@ -5,9 +5,9 @@
 Some vertices may move. With the derivative G of the center at the start, the moves v that bring it there with the least
 Σ a |v|² / m are v = (m / a) G' λ, with one λ for each coordinate of the center. Here a is the area that a vertex stands
 for, an equal share of its faces', so that the shape found does not depend on how finely the mesh is cut, and m ≤ 1 how
-freely it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit.
-For G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
-little as they can: the center itself is that of the faces as they are cut.
+freely it moves. Moves longer than a limit are cut to it, which is the solution of the same problem with that limit. For
+G and a, every face is taken as the fan around its middle, so that the diagonals it is cut by show in the shape as
+little as they can: the center itself is computed from the faces as they are cut.
 
 The center is not a linear function of the moves, so λ is found by Newton's method, with the exact derivative at every
 step, until the center is there to rounding. The moves are then least to first order: moves of the least sum differ by
@@ -158,7 +158,7 @@ def _newton_solve(
 
 
 def _is_solvable(system: NDArray) -> bool:
-    """Return whether the (r, r) system can be solved: none of its directions is without effect."""
+    """Return whether the (r, r) system can be solved, because every direction has an effect."""
     strength = np.linalg.svd(system, compute_uv=False)
     return bool(np.isfinite(strength).all() and strength[-1] > MIN_RELATIVE_EFFECT * strength[0])
 
@@ -175,7 +175,7 @@ def _limited_moves(step_directions: NDArray, multiplier: NDArray, limit: float) 
 def _center_jacobian(
     step_directions: NDArray, multiplier: NDArray, gradient: NDArray, limit: float
 ) -> NDArray[np.float64]:
-    """Return (r, r) the derivative of the center by the multiplier; moves cut to the limit can turn but not grow."""
+    """Return the (r, r) derivative of the center by the multiplier; moves cut to the limit can turn but not grow."""
     if np.isfinite(limit):
         moves = np.einsum("rnk,r->nk", step_directions, multiplier)
         length = np.linalg.norm(moves, axis=1)
@@ -210,7 +210,7 @@ class _Problem:
         return area if self.shell else volume
 
     def evaluate(self, points: NDArray) -> tuple[NDArray, NDArray, NDArray] | None:
-        """Return (3,) the center, (r,) its distances from the target, (r, n, 3) derivatives; None if inside out."""
+        """Return the (3,) center, its (r,) distances from the target, and (r, n, 3) derivatives; None if inside out."""
         moments = self._moments(points)
         if not moments.total * self.sign > moments.rounding_error[0]:
             return None

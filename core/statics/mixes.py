@@ -69,5 +69,5 @@ def fit_mixes(surface: Surface, offsets: ArrayLike) -> Mixes:
 
 
 def _powers(values: NDArray, exponents: NDArray) -> NDArray[np.float64]:
-    """Return (f, c) the products of (f, k) values to the powers (c, k)."""
+    """Return the (f, c) products of (f, k) values to the powers (c, k)."""
     return np.prod(values[:, None, :] ** exponents, axis=2)

@@ -34,7 +34,7 @@ ALIKE_COSINE = 0.5  # For normals: across the edge of a face they mostly differ 
 class RestingPoses:
     """Stable resting poses, the likeliest first.
 
-    `normals`: (k, 3) outward unit normals of the faces that the body rests on: they point down then.
+    `normals`: (k, 3) outward unit normals of the faces that the body rests on; at rest they point down.
     `shares`: (k,) quasi-static probabilities, adding up to 1.
     `margins`: (k,) distances of the center's foot from the nearest edge of the face.
     `heights`: (k,) heights of the center above the ground.
@@ -161,11 +161,11 @@ def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
 def _coplanar(
     points: NDArray, triangles: NDArray, neighbors: NDArray, double: NDArray, least: float
 ) -> tuple[NDArray[np.intp], int]:
-    """Return (m,) the face of each triangle, and the number of faces.
+    """Return the (m,) faces of the triangles, and the number of faces.
 
-    Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. Groups that are
-    not in one plane after all, as slivers may join both their sides, are joined anew by neighbors that face alike; the
-    triangles of groups still not in one plane, such as a fine rounding, stay single.
+    Neighbors are in one plane if the corner of the smaller one is in the plane of the larger. A sliver may join
+    triangles on both its sides that are not in one plane. Such a group is divided, and only neighbors that face alike
+    are joined; the triangles of a group still not in one plane, such as a fine rounding, stay single.
     """
     lengths = np.linalg.norm(double, axis=1)
     triangle, side = np.divmod(np.arange(neighbors.size), 3)
@@ -181,7 +181,7 @@ def _coplanar(
     order = np.argsort(lengths, kind="stable")
 
     def join_triangles(pairs: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Return (m,) the group of each triangle, joined by these pairs, and (m,) True if it is not in one plane."""
+        """Return the (m,) groups of triangles joined by these pairs, and an (m,) mask of groups not in one plane."""
         face, count = connected_components(len(triangles), triangle[pairs], other[pairs])
         largest = np.empty(count, np.intp)
         largest[face[order]] = order  # the last one written is the largest

@@ -15,7 +15,7 @@ from math import atan2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.canonical_frame import frame_about
+from ..inertia.tensors import frame_about
 from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import check_filled, float_array
 
@@ -55,7 +55,7 @@ class Support:
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
     """Return a (3, 3) rotation with two columns along the ground and the third up; down: direction of gravity."""
     up = -float_array("down", down, 3)
-    return frame_about(up / float(np.linalg.norm(up)))
+    return np.transpose(frame_about((up / float(np.linalg.norm(up))).tolist()))
 
 
 def find_support(

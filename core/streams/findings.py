@@ -31,9 +31,6 @@ PLY_CONCAVE_POLYGONS = error(
     "{count} polygons of the PLY file are concave. Triangulate them, or import them with --stream never.",
 )
 STL_CUT_SHORT = error("stl_cut_short", "The STL file is cut short or damaged: it does not end {end:word}.")
-THREEMF_FIELD = error(
-    "threemf_field", "The 3MF file has “{text}” in <{element}> on line {line}, which cannot be read. Export it again."
-)
 THREEMF_EXTENSION = error(
     "threemf_extension",
     "The 3MF file needs an extension that changes its shape and is not read: {name}. Export it as plain meshes.",

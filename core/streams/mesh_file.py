@@ -17,7 +17,7 @@ KINDS = {".stl": StlFile, ".ply": PlyFile}
 
 
 def open_mesh_file(path: str | Path) -> MeshFile:
-    """Open an .stl or .ply file to be read in blocks; the vertices of a .ply are in memory. FileError, or OSError."""
+    """Open an .stl or .ply file, to read it in blocks, but a .ply's vertices at once. Raises FileError and OSError."""
     path = Path(path)
     kind = KINDS.get(path.suffix.lower())
     if kind is None:

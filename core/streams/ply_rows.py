@@ -81,7 +81,7 @@ class RowReader:
         return np.frombuffer(self._buffer, row, count)
 
     def _single_rows(self, element: Element, rows: int) -> Iterator[list[NDArray]]:
-        """Yield so many rows, read one at a time, in blocks of equally long rows."""
+        """Yield `rows` rows, read one at a time, in blocks of equally long rows."""
         by_lengths: dict[tuple[int, ...], list[bytes]] = {}
         types: dict[tuple[int, ...], np.dtype] = {}
         for _ in range(rows):

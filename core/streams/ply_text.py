@@ -137,7 +137,7 @@ def _line(data: Data, start: int, end: int) -> bytes:
 
 
 def _find_end(data: Data, start: int, rows: int) -> int:
-    """Return the offset behind so many lines, or the end of the file."""
+    """Return the offset behind the next `rows` lines, or the end of the file."""
     while rows and start < len(data):
         block = np.frombuffer(data[start : start + BLOCK], np.uint8)
         ends = np.flatnonzero(block == ord("\n"))

@@ -26,8 +26,9 @@ from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..scans.scan import damaged
 from ..verdict.finding import FileError, system_reason
 from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
-from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, THREEMF_EXTENSION, THREEMF_FIELD
+from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, LINE_MISREAD, THREEMF_EXTENSION
 
+MODEL = "model"  # the type of objects that are parts; supports and helpers have other types
 MAX_INSTANCES = 100_000  # meshes that the build places
 MAX_DEPTH = 100  # components within components
 MAX_TEXT = 60  # letters of a wrong field that are shown
@@ -46,6 +47,7 @@ class _Object:
     """An object of a model: a mesh, or components (part, id, transform)."""
 
     name: str
+    type: str = MODEL
     points: array = field(default_factory=lambda: array("d"))
     triangles: array = field(default_factory=lambda: array("q"))
     components: list[tuple[str, str, NDArray[np.float64]]] = field(default_factory=list)
@@ -53,13 +55,18 @@ class _Object:
 
 @dataclass(frozen=True)
 class Placed:
-    """A mesh at one of its places. key: the same at all places of a mesh. matrix: (4, 4), for column vectors."""
+    """A mesh at one of its places.
+
+    key: the same at all places of a mesh. matrix: (4, 4), for column vectors. hidden: the reason why it is no part of
+    what is printed, or empty.
+    """
 
     name: str
     key: tuple[str, str]
     points: NDArray[np.float64]
     triangles: NDArray[np.int64]
     matrix: NDArray[np.float64]
+    hidden: str = ""
 
 
 def read_3mf(path: str, limits: Limits = DEFAULT_LIMITS) -> tuple[list[Placed], float]:
@@ -106,7 +113,7 @@ class _Package:
         model = self.model(root)
         placed: list[Placed] = []
         for item in model.items:
-            for one in self._placed(*item, (), ""):
+            for one in self._placed(*item):
                 placed.append(one)
                 if len(placed) > MAX_INSTANCES:
                     raise FileError(FILE_TOO_LARGE, limit=MAX_INSTANCES, content="placed meshes")
@@ -120,7 +127,13 @@ class _Package:
         return "/3D/3dmodel.model"
 
     def _placed(
-        self, part: str, identifier: str, matrix: NDArray[np.float64], above: tuple[tuple[str, str], ...], name: str
+        self,
+        part: str,
+        identifier: str,
+        matrix: NDArray[np.float64],
+        hidden: str,
+        above: tuple[tuple[str, str], ...] = (),
+        name: str = "",
     ) -> Iterator[Placed]:
         key = (part, identifier)
         if key in above:
@@ -129,11 +142,13 @@ class _Package:
             raise FileError(FILE_TOO_LARGE, limit=MAX_DEPTH, content="nested components")
         found = self.model(part).objects[identifier]
         name = name or found.name
+        if found.type != MODEL:
+            hidden = hidden or "its type is {}".format(found.type)
         if len(found.triangles):
             points, triangles = self._mesh(key, found)
-            yield Placed(name or "Object " + identifier, key, points, triangles, matrix)
+            yield Placed(name or "Object " + identifier, key, points, triangles, matrix, hidden)
         for part, identifier, local in found.components:
-            yield from self._placed(part, identifier, matrix @ local, (*above, key), found.name or name)
+            yield from self._placed(part, identifier, matrix @ local, hidden, (*above, key), found.name or name)
 
     def _mesh(self, key: tuple[str, str], found: _Object) -> tuple[NDArray, NDArray]:
         if key not in self._arrays:
@@ -176,13 +191,13 @@ def _feed(parser: expat.XMLParserType, pieces: Iterator[bytes]) -> None:
 
 
 class _Model:
-    """A model part: its objects by id, the items of its build (part, id, transform), its unit."""
+    """A model part: its objects by id, the items of its build (part, id, transform, why hidden), its unit."""
 
     def __init__(self, part: str, pieces: Iterator[bytes]) -> None:
         self._part = part
         self.unit, self._tag = "millimeter", ""
         self.objects: dict[str, _Object] = {}
-        self.items: list[tuple[str, str, NDArray[np.float64]]] = []
+        self.items: list[tuple[str, str, NDArray[np.float64], str]] = []
         self._object = _Object("")
         self._spaces: dict[str, str] = {}
         parser = _parser()
@@ -191,8 +206,8 @@ class _Model:
         try:
             _feed(parser, pieces)
         except ValueError as error:  # with the text of a field
-            place = {"line": parser.CurrentLineNumber, "element": self._tag, "text": str(error)[:MAX_TEXT]}
-            raise FileError(THREEMF_FIELD, **place) from error
+            place = {"line": parser.CurrentLineNumber, "expected": "a value of a 3MF <{}>".format(self._tag)}
+            raise FileError(LINE_MISREAD, **place, text=str(error)[:MAX_TEXT]) from error
 
     def _start(self, name: str, values: dict[str, str]) -> None:
         space, _, tag = name.rpartition(" ")
@@ -206,11 +221,12 @@ class _Model:
                 parse_whole(values.get(corner, "").strip(SPACES)) for corner in ("v1", "v2", "v3")
             )
         elif tag == "object":
-            self._object = self.objects[values["id"]] = _Object(values.get("name", ""))
+            self._object = self.objects[values["id"]] = _Object(values.get("name", ""), values.get("type", MODEL))
         elif tag == "component":
             self._object.components.append(self._reference(values))
         elif tag == "item":
-            self.items.append(self._reference(values))
+            is_printed = values.get("printable", "1") not in ("0", "false")
+            self.items.append((*self._reference(values), "" if is_printed else "it is not printed"))
         elif tag == "model":
             self.unit = values.get("unit", self.unit)
             if self.unit not in UNITS:

@@ -82,7 +82,7 @@ class Finding:
     Attributes
     ----------
     code : str
-        From the one list of codes, such as ``holes_capped``.
+        The name of a declared `Code`, such as ``holes_capped``.
     values : mapping
         Values for the sentence: numbers, strings, booleans, lists of these, and findings as mappings with the
         keys ``code`` and ``values``. Everything is plain enough for JSON. ``sources`` names the objects with the

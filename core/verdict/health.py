@@ -17,7 +17,7 @@ NO_FACES = np.empty(0, np.int64)
 
 
 class Intersection(StrEnum):
-    """Result of a search for self-intersections; several surfaces have the first of these that one of them has."""
+    """Result of a search for self-intersections; for several surfaces, the first member that any of them has."""
 
     FOUND = "found"
     NOT_CHECKED = "not_checked"

@@ -31,7 +31,7 @@ SAME_PLANE_RTOL = 1e-4  # Relative to the largest eigenvalue of Σ θ n n'; φ²
 LEAST_SQUARES_RTOL = 2e-2  # The same if not all planes can be met.
 SLIVER_RTOL = 1e-9  # Relative to the longest side: lower triangles have no reliable normal.
 NOISY_HEIGHT_FACTOR = 1e3  # times the points' shift by storing: lower triangles' normals are known to 1e-3 only
-UNEVEN_RTOL = 1e-6  # relative deviation from the thickness that counts as one
+UNEVEN_RTOL = 1e-6  # smaller relative deviations from the thickness do not count
 MIN_ADVANCE = 0.1  # Share of the thickness: if a face would get less, its vertices need a better direction.
 MAXIMIN_STEPS = 400  # Steps of the search for a better direction.
 RANK_RTOL = 1e-12  # Relative to the largest eigenvalue: planes that span less are equal to rounding.
@@ -174,7 +174,7 @@ def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free
 
 
 def _group_maximum(values: NDArray, group: NDArray, count: int) -> NDArray[np.float64]:
-    """Return (count,) the largest of the (k,) values in each group, zero for empty groups."""
+    """Return the (count,) largest of the (k,) values in each group, zero for empty groups."""
     order = np.argsort(values)
     maximum = np.zeros(count)
     maximum[group[order]] = values[order]  # The last of equal indices wins.

@@ -302,7 +302,7 @@ class _Prisms:
         return np.array([self.long**2, 2.0 * self.long * self.turned_length, self.turned_length**2]) * self.far
 
     def sums(self) -> NDArray[np.float64]:
-        """Return (20, 6) the coefficients of the moments."""
+        """Return the (20, 6) coefficients of the moments."""
         sums, count = np.zeros((monomial_count(ORDER), COEFFICIENT_COUNT)), self.points.shape[2]
         place, step = (
             np.einsum("nk,kim->inm", NODES, corners).reshape(3, 6 * count) for corners in (self.points, self.vectors)
@@ -323,8 +323,9 @@ class _Prisms:
     def bounds(self, tangential_error: NDArray, normal_error: NDArray, stored: float) -> NDArray[np.float64]:
         """Return (3, 7) coefficients in s, summed over the prisms: a row of sizes of J, and two rows of changes.
 
-        Sizes are three, and four zeros. Changes are three of J, and four of J's size times the move of x, if directions
-        move by the first row of the errors; or by the second row, and the points by `stored`.
+        The row of sizes is three coefficients and four zeros. A row of changes is three coefficients of the change of
+        J, and four of J's size times the move of x. The directions move by the first row of the errors; in the last row
+        by the second row of the errors, and the points by `stored`.
         """
         sizes, coefficients = self._sizes(), [np.zeros((7, len(self.double)))]
         coefficients[0][:3] = sizes

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Add Equal-Inertia Shape: a box, an ellipsoid or a capsule with the mass, center and inertia of an object.
 
-Its origin is the center of mass and its axes are the principal ones, which Bullet assumes; and the inertia that Bullet
-computes from a box is that of the box. So a box with the object as its child falls as the object does.
+Its origin is the center of mass and its axes are the principal ones, which Bullet assumes; and from a box Bullet
+computes exactly the inertia of that box. So a box with the object as its child falls as the object does.
 """
 
 from typing import TYPE_CHECKING

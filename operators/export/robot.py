@@ -137,7 +137,7 @@ class GeometryExport(RobotExport):
 
 
 class UsdExport(GeometryExport):
-    """Base of the exporter whose layer of masses lies over Blender's layer."""
+    """Base of the USD exporter: a layer with the masses refers to the layer that Blender's exporter has written."""
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         robot, findings, usd = made.robot, made.findings, write.usd
@@ -159,7 +159,7 @@ class UsdExport(GeometryExport):
 
 
 class GltfExport(GeometryExport):
-    """Base of the exporter that adds bodies to the file of Blender's exporter."""
+    """Base of the glTF exporter: rigid bodies are added to the file that Blender's exporter has written."""
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
         findings = made.findings

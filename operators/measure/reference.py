@@ -14,6 +14,7 @@ from ...blender import read
 from ...blender.session import stored
 from ...blender.write import properties, reports
 from ...blender.write.findings import NO_STORED_RESULTS
+from ...core.inertia.tensors import tensor_rows
 from ...core.verdict.finding import Finding, finding
 from .. import selection
 from .copy import copy_text
@@ -75,13 +76,16 @@ class OBJECT_OT_body_moments_copy_reference(Operator):
 
 
 def _text(name: str, choice: ReferenceChoice, result: ReferredInertia) -> str:
+    axes, inertia = (list(map(list, rows)) for rows in (zip(*result.reference.axes), tensor_rows(result.inertia)))
     lines = [
         "{:s}, about {:s}".format(name, choice.text),
-        "origin (m, world) {!r}".format(result.reference.origin.tolist()),
-        "axes (columns, world) {!r}".format(result.reference.axes.tolist()),
+        "origin (m, world) {!r}".format(list(result.reference.origin)),
+        "axes (columns, world) {!r}".format(axes),
         "mass (kg) {!r}".format(result.mass),
-        "center of mass (m, from the origin, along the axes) {!r}".format(result.center.tolist()),
-        "inertia (kg·m², about the origin, along the axes, Ixy = −∫xy dm) {!r}".format(result.inertia.tolist()),
+        "center of mass (m, from the origin, along the axes) {!r}".format(list(result.center)),
+        "inertia (kg·m², about the origin, along the axes, Ixy = −∫xy dm) {!r}".format(
+            list(map(list, tensor_rows(result.inertia)))
+        ),
     ]
     if choice.about == "AXIS":
         lines.append("about the axis (kg·m²) {!r}".format(result.about_z))

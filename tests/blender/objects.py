@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Objects to try operators on, and what they look like in the world."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 
@@ -79,3 +81,16 @@ def measured(obj):
 
     bpy.context.view_layer.update()
     return measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions())
+
+
+def arrays(numbers):
+    """Displayed or stored numbers of a body as arrays: center, tensor, principal moments, axes as columns."""
+    from body_moments.core.inertia.tensors import tensor_rows
+
+    return SimpleNamespace(
+        mass=numbers.mass,
+        center=np.array(numbers.center),
+        inertia=np.array(tensor_rows(numbers.inertia)),
+        moments=np.array(numbers.moments),
+        axes=np.transpose(numbers.axes),
+    )

@@ -3,6 +3,7 @@
 """Files opened by the command line: every format, its unit and axes, and broken files of all kinds."""
 
 import gzip
+import json
 import os
 import struct
 import zipfile
@@ -98,11 +99,20 @@ def test_a_usd_stages_unit_counts(tmp_path):
     assert entry["center_of_mass"] == pytest.approx([0.0025, 0.005, 0.0075], rel=1e-6)
 
 
-@needs_usd
-def test_an_invisible_usd_prim_is_not_lost_without_a_word(tmp_path):
-    prims = 'token visibility = "invisible"'
-    found = document(files.write_text(tmp_path / "t.usda", files.usda_text(1.0, prims)))
-    assert [entry["name"] for entry in found["objects"] + found["errors"]] == ["Tetra"]
+def test_an_invisible_gltf_node_is_left_out_with_its_children(tmp_path):
+    path = Path(files.box_file(tmp_path / "part.gltf"))
+    found = json.loads(path.read_text(encoding="utf-8"))
+    shown = found["nodes"][0] | {"name": "Shown"}
+    found["nodes"] += [{"name": "Top", "children": [0]}, shown]
+    found["scenes"][0]["nodes"] = [1, 2]
+    found["nodes"][1]["extensions"] = {"KHR_node_visibility": {"visible": False}}
+    found["extensionsUsed"] = ["KHR_node_visibility"]
+    path.write_text(json.dumps(found), encoding="utf-8")
+    told = document(path)
+    assert [entry["name"] for entry in told["objects"]] == ["Shown"]
+    reason_ = sentence("file_hides", cause="it is invisible")
+    assert told["left_out"] == [{"name": files.BOX_NAME, "reason": reason_}]
+    assert len(document(path, "--all")["objects"]) == 2
 
 
 def test_startup_file_of_the_user_changes_nothing(tmp_path):

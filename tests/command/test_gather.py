@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Summaries, comparisons and the report page; and the options that the panel has too."""
 
+import functools
 import html
 import json
 import math
+import random
 import re
 import shutil
 import subprocess
@@ -13,6 +15,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from body_moments.command.supervisor import listing
 from body_moments.core.density.materials import BY_NAME
 from body_moments.core.measurement import documents
 from body_moments.core.measurement.page import to_html
@@ -20,6 +23,7 @@ from body_moments.operators import batch
 
 from tests.blender import batch_files as files
 from tests.blender.batch_files import document, measured
+from tests.blender.flat_objects import sheet
 from tests.blender.grids import vdb_grid, volume_object
 from tests.close import close
 
@@ -74,6 +78,128 @@ def test_summary_counts_files_by_status(main, tmp_path):
     assert main("merge", path, "--output", tmp_path / "b", "--force")[0] == 0
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A document with every kind of entry, as text."""
+    files.empty_scene()
+    box = files.add_box("Box")
+    box.rotation_euler = (0.3, 0.2, 0.1)
+    sheet([(0, 0), (3, 0), (2, 2), (0, 1)], "Sheet")
+    found = document("--flat", "--order", "3", "--pose", "--signature", "--surface-moments", "--about", "1,2,3")
+    found["assemblies"] = [{**found["objects"][0], "name": "All"}]
+    found["bones"] = [{**found["objects"][0], "name": "Arm", "armature": "Rig"}]
+    return json.dumps(found)
+
+
+def places_of(value, path=()):
+    """The paths of all values in a document."""
+    if path:
+        yield path
+    for key, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
+        yield from places_of(part, (*path, key))
+
+
+def nested(depth):
+    value = []
+    for _ in range(depth):
+        value = [value]
+    return value
+
+
+WRONG_VALUES = (
+    None,
+    True,
+    -1,
+    1e308,
+    10**400,
+    "x",
+    "\ud800",
+    [],
+    {},
+    [[]],
+    [None] * 3,
+    {"a": {}},
+    math.nan,
+    nested(99),
+)
+
+
+def test_no_damaged_document_ends_in_a_traceback(main, tmp_path, whole):
+    """Values of other types, removed and added entries, cut text: one command each, which names file and line."""
+    chance, good, path = random.Random(7), tmp_path / "good", tmp_path / "bad"
+    good.write_text(whole)
+    commands = [("merge", path), ("to-csv", path), ("summary", path), ("report", path)]
+    commands += [("compare", path, good), ("compare", good, path, "--align"), ("similar", path, "--to", "Box")]
+    codes = set()
+    for number in range(250):
+        damaged = json.loads(whole)
+        place = chance.choice([*places_of(damaged)])
+        parent = functools.reduce(lambda value, key: value[key], place[:-1], damaged)
+        if chance.random() < 0.3:
+            del parent[place[-1]]
+        else:
+            parent[place[-1]] = chance.choice(WRONG_VALUES)
+        text = json.dumps(damaged)
+        text = text[: chance.randrange(len(text))] if chance.random() < 0.1 else text
+        path.write_bytes((whole + "\n" + text).encode(chance.choice(["utf-8"] * 9 + ["utf-16"]), "surrogatepass"))
+        words = commands[number % len(commands)]
+        code, _, said = main(*words)
+        assert code in (0, 1, 2) and "Traceback" not in said, (place, said)
+        assert code != 2 or words[0] == "similar" or str(path) in said and "line " in said, said
+        codes.add((words[0], code))
+    assert {(word, code) for word in ("merge", "to-csv", "summary", "report") for code in (0, 2)} <= codes
+
+
+def part(path, options, *names):
+    """A result of a run with these options."""
+    run = {"addon": "1", "options": options}
+    return result(path, *(documents.document([], {}, [], file=name, blender="5", run=run) for name in names))
+
+
+def test_merge_refuses_parts_of_other_runs(main, tmp_path):
+    steel, first = {"--density": 7850.0}, part(tmp_path / "1", {"--density": 7850.0}, "a", "b")
+    code, out, _ = main("merge", first, part(tmp_path / "2", steel, "b", "c"))
+    assert code == 0 and [json.loads(line)["file"] for line in out.splitlines()] == ["a", "b", "c"]
+    code, out, said = main("merge", first, part(tmp_path / "2", {"--density": 1.0, "--pose": True}, "c"))
+    assert (code, out) == (2, "") and "/2 was made with other options than " in said and "--density, --pose" in said
+
+
+def test_merge_holds_parts_against_their_list(main, tmp_path):
+    names = [str(tmp_path / name) for name in "abcde"]
+    listed = tmp_path / "list"
+    listed.write_text("".join(listing.write_lines(names, 2)))
+    assert [listing.read(listed, number) for number in (1, 2)] == [names[:2], names[2:]]
+    parts = [part(tmp_path / str(number), {}, *some) for number, some in enumerate((names[:2], names[2:]), 1)]
+    code, out, _ = main("merge", *parts, "--manifest", listed)
+    assert code == 0 and len(out.splitlines()) == 5
+    (tmp_path / "f").touch()
+    for others, words in (
+        ([parts[0]], "no document of {}, {}, {}".format(*names[2:])),
+        ([*parts, part(tmp_path / "3", {}, names[4])], "several documents of " + names[4]),
+        ([*parts, part(tmp_path / "4", {}, str(tmp_path / "f"))], "not in the list: {}/f".format(tmp_path)),
+    ):
+        code, out, said = main("merge", "--manifest", listed, *others)
+        assert (code, out) == (2, "") and words in said
+    assert main("measure", "--manifest", listed, "--part", "3")[0] == 2
+    assert main("measure", "--part", "1", *names)[0] == 2
+
+
+def test_wrong_value_is_named_with_its_place(main, tmp_path, whole):
+    for change, place in (
+        ({"mass": "heavy"}, "line 1: objects[0].mass is a text ('heavy'), not a number or null"),
+        ({"inertia": [[1, 2, 3]]}, "line 1: objects[0].inertia has 1 entries, not 3"),
+        ({"moments": {"volume": {"a": 1}}}, "line 1: objects[0].moments.volume has the unknown entry “a”"),
+    ):
+        damaged = json.loads(whole)
+        damaged["objects"][0] |= change
+        code, out, said = main("merge", result(tmp_path / "bad", damaged))
+        assert (code, out) == (2, "") and place in said
+    (tmp_path / "bad").write_bytes(b"\xef\xbb\xbf" + whole.encode())  # as some editors save it
+    assert main("summary", tmp_path / "bad")[0] == 0
+    (tmp_path / "bad").write_text(whole + "\n" + whole.replace('"schema": "body-moments/1"', '"schema": "x/1"'))
+    assert "line 2: schema is x/1, not body-moments/1" in main("to-csv", tmp_path / "bad")[2]
+
+
 def test_results_within_their_bounds_are_the_same(main, tmp_path):
     box = files.add_box("Box")
     first = result(tmp_path / "a", document("--pose"))
@@ -94,6 +220,9 @@ def test_results_within_their_bounds_are_the_same(main, tmp_path):
     assert main("compare", first, moved, "--tolerance", "1e-4", "--align")[0] == 0
     assert main("compare", first, result(tmp_path / "d"))[0] == 1
     assert main("compare", first)[0] == 2
+    assert main("compare", "--quiet", first, tmp_path / "b", "--tolerance", "1e-3") == (0, "", "")
+    shown = main("compare", "--quiet", first, moved)[1].splitlines()
+    assert [line[:4] for line in shown[:-1]] == ["FAIL"] * (len(shown) - 1) and len(shown) > 1
 
 
 def test_assemblies_bones_and_missing_moments_are_compared(main, tmp_path):
@@ -150,6 +279,7 @@ def test_report_is_one_page_with_escaped_names(tmp_path):
     text = page(tmp_path).read_text(encoding="utf-8")
     assert text.count("<script>") == 1 and "data:image/png;base64," in text and "<svg" in text
     assert "&lt;script&gt;" in text and r"\u202e" in text and "It &lt;b&gt;failed" in text
+    assert re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", text) and "×" in text and "; --thumbnails" in text
     assert not re.search(r"(src|href)=[\"']?(http|//|file)", text)
 
 
@@ -160,8 +290,8 @@ DRIVE = """
 const rows=()=>[...document.querySelectorAll("tbody tr")].filter(row=>!row.hidden);
 const names=()=>rows().map(row=>row.cells[2].textContent);
 const told=[document.title,rows().length];
-document.querySelectorAll("th button")[4].click();told.push(names());
-document.querySelectorAll("th button")[4].click();told.push(names());
+document.querySelectorAll("th button")[5].click();told.push(names());
+document.querySelectorAll("th button")[5].click();told.push(names());
 const text=document.getElementById("text");text.value="sphere";text.dispatchEvent(new Event("input"));
 told.push(names());text.value="";text.dispatchEvent(new Event("input"));
 const status=document.getElementById("status");status.value="timeout";status.dispatchEvent(new Event("change"));

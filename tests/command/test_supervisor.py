@@ -58,7 +58,8 @@ for line in sys.stdin:
     log(verb=verb, path=path)
     os.ftruncate(2, 0)
     status = "error" if kind == "bad" else "ok"
-    document = json.dumps({"schema": "body-moments/1", "file": path, "status": status}).encode() + b"\n"
+    empty = {"blender": "9.8.7", "frame": "world", "objects": [], "left_out": [], "errors": []}
+    document = json.dumps({"schema": "body-moments/1", "file": path, "status": status, **empty}).encode() + b"\n"
     if kind == "once" and not os.path.exists(path):
         open(path, "w").close()
         os.abort()
@@ -208,17 +209,36 @@ def test_recorded_file_is_not_measured_again(tmp_path, main, fake):
     asked = len(fake("verb"))
     code, again, said, _ = main(*words, "--resume")
     assert code == 1 and again == documents and len(fake("verb")) == asked
-    assert said == ["body_moments: 0 files in 0 s: -"]
+    totals = "body_moments: 5 files, of which {} in 0 s: 3 ok, 1 error, 1 crashed"
+    assert said == ["body_moments: 5 of 5 files reused", totals.format("0 files")]
     samples.write_text("2")
     os.utime(paths[0], ns=(7, 8))
     _, again, said, journal = main(*words, "--resume")
-    assert again == documents and said[-1] == "body_moments: 2 files in 0 s: 2 ok"
+    assert again == documents and said[-1] == totals.format("2 files")
+    assert said[0] == "body_moments: 3 of 5 files reused; to measure: 1 changed, 1 whose references have changed"
     assert {one["path"] for one in fake("verb")[asked:]} == {str(paths[0]), str(paths[2])}
     assert len(journal) == 7
+    samples.write_text("1")
+    for path, time_ns in ((samples, 2), (paths[0], 7)):
+        os.utime(path, ns=(time_ns, time_ns))
+    asked = len(fake("verb"))
+    code, again, said, _ = main(*words, "--retry-failed")
+    assert said[0] == "body_moments: 3 of 5 files reused; to measure: 2 failed" and said[-1] == totals.format("2 files")
+    assert [Path(one["path"]).name for one in fake("verb")[asked:]] == ["bad", "crash", "crash"] and code == 1
+    _, _, said, _ = main(*words, "--resume", "--unit-scale", "0.001", "--density", "7")
+    reason = "made with other options: --density --unit-scale"
+    assert said[0] == "body_moments: 0 of 5 files reused; to measure: 5 " + reason
+    journal = tmp_path / "out" / "result.journal"
+    journal.write_text(journal.read_text().replace('"objects": []', '"objects": [1]'))
+    _, _, said, _ = main(*words, "--resume", "--unit-scale", "0.001", "--density", "7")
+    assert said[0].endswith("5 damaged in the journal")
+    journal.write_text("")
+    _, _, said, _ = main(*words, "--resume")
+    assert said[0].endswith("5 not recorded")
     _, _, said, journal = main(*words)  # from the beginning: what was there is kept
     assert said[-1].startswith("body_moments: 5 files") and len(journal) == 5
     old = tmp_path / "out" / "result.journal.old"
-    assert len(old.read_text().splitlines()) == 7 and (tmp_path / "out" / "result.old").exists()
+    assert len(old.read_text().splitlines()) == 5 and (tmp_path / "out" / "result.old").exists()
 
 
 def test_a_run_that_is_interrupted_says_how_far_it_is(tmp_path, main, fake):

@@ -14,7 +14,7 @@ from body_moments.core.scans.limits import Limits
 from body_moments.core.streams import threemf
 from body_moments.core.verdict.finding import FileError
 
-from tests.blender.batch_files import CORNERS, FACES, document, measured
+from tests.blender.batch_files import CORNERS, FACES, document, measured, sentence
 from tests.close import close
 
 pytestmark = pytest.mark.usefixtures("scene")
@@ -129,7 +129,8 @@ def test_word_for_a_number_is_named_with_its_element(tmp_path, element, field, w
         threemf.read_3mf(str(path))
     found = caught.value.finding
     line = {"vertex": 1, "triangle": 1, "component": 2, "item": 3}[element]
-    assert (found.code, found.values["line"], found.values["element"]) == ("threemf_field", line, element)
+    assert (found.code, found.values["line"]) == ("line_misread", line)
+    assert found.values["expected"] == "a value of a 3MF <{}>".format(element)
     assert word.split()[:1] == found.values["text"].split()[:1] or found.values["text"] == wrong
 
 
@@ -170,3 +171,19 @@ def test_package_without_relations_has_its_model_in_place(tmp_path):
     with zipfile.ZipFile(tmp_path / "a.3mf", "w") as archive:
         archive.writestr("3D/3dmodel.model", model(ONE + foreign, ITEM, 'unit="meter"'))
     assert close(measured(tmp_path / "a.3mf")["volume"], 1.0, 1e-12)
+
+
+def test_items_that_are_no_printed_models_are_left_out(tmp_path):
+    types = ["model", "support", "solidsupport", "surface", "other"]
+    parts = ['<object id="{}" type="{}" name="{}">{}</object>'.format(9 + i, t, t, mesh()) for i, t in enumerate(types)]
+    group = '<object id="20" name="group"><components><component objectid="10"/></components></object>'
+    items = ['<item objectid="{}"/>'.format(9 + i) for i in range(len(types))]
+    items += ['<item objectid="9" printable="0"/>', '<item objectid="20"/>']
+    path = package(tmp_path / "a.3mf", model("".join([*parts, group]), "".join(items)))
+    found = document(path)
+    assert [entry["name"] for entry in found["objects"]] == ["model"]
+    reasons = {entry["name"]: entry["reason"] for entry in found["left_out"]}
+    causes = {kind: "its type is {}".format(kind) for kind in types[1:]}
+    causes |= {"model.001": "it is not printed", "group": "its type is support"}
+    assert reasons == {name: sentence("file_hides", cause=cause) for name, cause in causes.items()}
+    assert len(document(path, "--all")["objects"]) == 7

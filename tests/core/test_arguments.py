@@ -26,7 +26,7 @@ from body_moments.core.flat import (
     measure_section,
     region_moments,
 )
-from body_moments.core.flat.section import Plane
+from body_moments.core.flat.section_properties import Plane
 from body_moments.core.fourier import polygon_transform, surface_transform
 from body_moments.core.inertia import combine, pose_matrix
 from body_moments.core.mesh import convex_hull

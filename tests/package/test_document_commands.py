@@ -144,6 +144,7 @@ def test_commands_of_all_pages_are_found():
     counts = {path.name: len(runnable_of(path)) for path in DOCUMENTS}
     least = {
         "README.md": 1,
+        "agents.md": 2,
         "batch.md": 9,
         "command-line.md": 2,
         "robots.md": 2,
@@ -186,3 +187,14 @@ def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
     mass, numbers = capsys.readouterr().out.strip().splitlines()[-2:]
     assert float(mass) == pytest.approx(8000.0)
     assert numbers.startswith("exact") and float(numbers.split()[-2]) == pytest.approx((2 / 5) ** 3)
+
+
+def test_agents_get_the_printed_answer(registered, capsys):
+    """The Python of docs/agents.md, and the text that it says is printed."""
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    text = (ROOT / "docs" / "agents.md").read_text(encoding="utf-8")
+    code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.S))
+    exec(compile(code.replace("bl_ext.user_default.body_moments", "body_moments"), "agents.md", "exec"), {})
+    (printed,) = re.findall(r"```text\n(.*?)```", text, re.S)
+    assert capsys.readouterr().out.endswith(printed)
+    assert "body_mass" not in bpy.data.objects["Cube"]

@@ -6,6 +6,7 @@ What is drawn must exist: functions, options, icons and attributes of layouts, p
 properties, menus.
 """
 
+from importlib import import_module
 from types import SimpleNamespace
 
 import bpy
@@ -137,6 +138,19 @@ def shown(closed=(), without=()):
             layout.label(text=panel.bl_label)
             panel.draw(SimpleNamespace(layout=layout), bpy.context)
     return layout.record
+
+
+def every_panel():
+    """The labels of all panels, of both places, that Blender's own context shows."""
+    from body_moments import panels
+
+    layout = Layout()
+    for module in panels.MODULES:
+        for cls in getattr(import_module("body_moments.panels." + module), "CLASSES", ()):
+            is_ours = issubclass(cls, bpy.types.Panel) and not hasattr(cls, "preset_add_operator")  # else Blender's
+            if is_ours and (not hasattr(cls, "poll") or cls.poll(bpy.context)):
+                cls.draw(SimpleNamespace(layout=layout), bpy.context)
+    return labels(layout.record)
 
 
 def labels(record):

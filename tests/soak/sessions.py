@@ -23,7 +23,7 @@ from body_moments.blender.session.tracking import handlers, staleness
 from body_moments.blender.write import properties
 from body_moments.core.verdict.finding import MeasureError
 
-from tests.blender.objects import add, measured, mesh_body
+from tests.blender.objects import add, arrays, measured, mesh_body
 
 STEPS = 40  # Steps of a session.
 MAX_OBJECTS = 6
@@ -112,17 +112,22 @@ class Session:
         reach = np.linalg.norm(body.center) + np.linalg.norm(body.radii_of_gyration)
         if is_stored:
             stored = properties.stored(obj).in_world(obj.matrix_world, 1.0)
-            same = np.allclose([stored.body.mass, stored.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
-            assert same and np.linalg.norm(stored.body.center - body.center) <= RTOL * reach, (
+            found = arrays(stored)
+            same = np.allclose([stored.mass, stored.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
+            assert same and np.linalg.norm(found.center - body.center) <= RTOL * reach, (
                 place,
                 obj.name,
                 "stored",
             )
-            spread = np.abs(stored.body.inertia - body.inertia).max()
+            spread = np.abs(found.inertia - body.inertia).max()
             assert spread <= 10.0 * RTOL * body.principal.moments.max(), (place, obj.name, "stored inertia")
         if shown is not None:
-            same = np.allclose([shown.body.mass, shown.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
-            assert same and np.linalg.norm(shown.body.center - body.center) <= RTOL * reach, (place, obj.name, "live")
+            same = np.allclose([shown.mass, shown.volume], [body.mass, truth.volume], rtol=RTOL, atol=0.0)
+            assert same and np.linalg.norm(shown.center - body.center) <= RTOL * reach, (
+                place,
+                obj.name,
+                "live",
+            )
 
 
 # ---------------------------------------------------------------- What a person does

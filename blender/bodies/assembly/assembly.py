@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Assemblies: each member is measured once, and their masses add up, with exact parallel-axis terms.
 
-Mass moments are kept apart by the power of an instance's scale that the mass grows with: 3 for solids, 2 for shells,
-1 for wires and 0 for given masses. So a collection instance scales the mass of its members without measuring again.
+A scaled instance multiplies masses by a power of its scale: 3 for solids, 2 for shells, 1 for wires, 0 for given
+masses. Mass moments are stored by this power, so that a collection instance is not measured again.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ...read.assembly import Member, MemberKind, Root, members_of, settings_of
+from ...read.assembly import Member, MemberKind, Root, members_key, members_of, settings_of, structure_hash
 from ...read.findings import (
     BOOLEAN_OPERAND,
     HIDDEN_OBJECT_MEASURED,
@@ -33,7 +33,7 @@ from ...read.findings import (
     NOT_RENDERED,
     SCALE_ZERO_AXIS,
 )
-from ...read.fingerprint import digest, fingerprint, matrix_hash
+from ...read.fingerprint import fingerprint, matrix_hash
 from ...read.objects import locate
 from ...read.reading import to_si
 from ...read.total_caveats import open_body_caveats
@@ -67,7 +67,7 @@ Results = dict[Object, Measured | Stacked | Finding]
 class MemberBody:
     """Moments of a member of an assembly, in SI units along the world's axes.
 
-    `masses`: mass moments to third order, by the power of an instance's scale that they grow with; empty if no mass.
+    `masses`: mass moments to third order, by the power of an instance's scale (see the module); empty if no mass.
     `volume`, m³, and `area`, m²: with their bounds.
     `measured`: the result of an object, with its `measurement`; `refusal`: the reason why it could not be measured.
     `parts`: the members of this member. `findings`: about this member alone, without its parts.
@@ -173,34 +173,6 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
     )
 
 
-def members_key(root: Member, fingerprints: Mapping[Object, str]) -> str:
-    """Return a key of all measured members: their results' fingerprints, their transforms and the point masses."""
-    keys = []
-    for member in root.walk():
-        if member.kind == MemberKind.POINT:  # an empty with children stores the results of its assembly
-            settings = member.data.body_moments
-            keys.append(GivenPart.from_settings(settings, 1.0).key + repr(settings.mass) + matrix_hash(member.data))
-        elif member.is_measured:
-            # moving leaves fingerprints unchanged
-            keys.append(fingerprints.get(member.data, "") + matrix_hash(member.data))
-    return "\n".join(keys)
-
-
-def structure_hash(root: Member) -> str:
-    """Return a digest of the members, the places of instances and the masses given for assemblies."""
-    keys = []
-    for member in root.walk():
-        key = [member.kind.value, member.name, member.left_out.code if member.left_out else ""]
-        if member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY):
-            settings = settings_of(member.data)
-            if settings.mass_from == "MASS":
-                key.append(repr((shortest_decimal(settings.mass), GivenPart.from_settings(settings, 1.0).key)))
-        if member.matrix is not None:
-            key.append(member.matrix.astype(np.float32).tobytes().hex())
-        keys.append("|".join(key))
-    return digest("\n".join(keys).encode())
-
-
 def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     """Yield the findings about an assembly: first about the whole, then about its members, with their names."""
     yield from whole.findings
@@ -297,14 +269,14 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
 
 def _is_sheared(member: Member) -> bool:
     """Return whether an instance stretches its members unevenly, so that no single factor scales their areas."""
-    return member.matrix is not None and not are_similarities(member.matrix[None, :3, :3])[0]
+    return member.matrix is not None and not are_similarities(np.array([member.matrix])[:, :3, :3])[0]
 
 
 def _instance_body(whole: MemberBody, results: Results, unit: float) -> MemberBody:
     """Return the body of a collection instance: the moments of its members, mapped to its place, or a refusal."""
     member = whole.member
     assert member.matrix is not None
-    matrix = to_si(member.matrix[None], unit)[0]
+    matrix = to_si([member.matrix], unit)[0]
     matrix[:3, :3] /= unit  # the members are in SI units already
     scale = abs(np.linalg.det(matrix[:3, :3]))
     nothing = replace(whole, masses={}, volume=NOTHING, area=NOTHING)

@@ -42,8 +42,8 @@ class ArrayOptions:
     """Options of a measured array file.
 
     spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit if the file has none;
-    density_scale: kg/m³ of a sample of 1; threshold: smallest value inside the body, None for all; limits: of the
-    file's size; positions: paths of files with the samples' positions, by axis, in units of unit_scale.
+    density_scale: kg/m³ that a sample of 1 stands for; threshold: smallest value inside the body, None for all; limits:
+    of the file's size; positions: paths of files with the samples' positions, by axis, in units of unit_scale.
     """
 
     spacing: Sequence[float] | None = None

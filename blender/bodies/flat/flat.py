@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from ....core.flat.findings import SECTION_NOT_FLAT
 from ....core.flat.polygon import find_defects, orient_loops
 from ....core.flat.regions import plane_positions, region_moments
-from ....core.flat.section import Plane, fit_plane, projection_rounding, region
+from ....core.flat.section import fit_plane, project, projection_rounding, region
+from ....core.flat.section_properties import Plane
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ....core.measurement.findings import NO_VOLUME
 from ....core.moments.exponents import monomials
@@ -49,7 +50,7 @@ from ..findings import (
 from ..wire import curves_in_world
 
 FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
-# codes of refusals: the object is no body; it is not flat either, so that the first refusal is shown
+# Codes of refusals: that an object is no body; and that it is not flat either, so that the first refusal is shown.
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
@@ -106,7 +107,7 @@ class FlatRegion:
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
         """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
-        return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
+        return np.append(project(self.plane, np.asarray(point, np.float64)[None])[0], 0.0)
 
 
 def flat_region(
@@ -120,9 +121,9 @@ def flat_region(
 ) -> FlatRegion:
     """Return an object as a region of a plane, in SI units.
 
-    `selected` reads only the selected faces in Edit Mode; `resolution` replaces that of curves and text; `exact` reads
-    the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if the object is
-    not flat, is extruded, or has outlines that cross.
+    `selected` reads only the selected faces in Edit Mode; `resolution` replaces the resolution of curves and text;
+    `exact` reads the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if
+    the object is not flat, is extruded, or has outlines that cross.
     """
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
@@ -149,7 +150,7 @@ def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureErr
 def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
     points, error, findings = reading.points * unit, reading.error * unit, list(reading.findings)
     plane = fit_plane(points, reading.triangles, reading.rotation, reading.location * unit, error, reading.facing)
-    flat = plane.project(points)
+    flat = project(plane, points)
     if reading.loops is not None:
         edges = orient_loops(flat, reading.loops)
     else:

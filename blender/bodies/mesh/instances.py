@@ -112,8 +112,8 @@ def area_of_instances(
 ) -> Iterator[Moments]:
     """Yield the area moments of a surface's images.
 
-    Area moments do not follow a map that stretches unevenly, so the mapped surface is `measured`, once for each
-    different map. If `measured` is None, only the area itself is wanted.
+    Area moments do not follow a map that stretches unevenly, so `measured` is called for the mapped surface, once for
+    each different map. If it is None, only the total area is wanted.
     """
     if measured is None:
         even = are_similarities(matrices[:, :3, :3])
@@ -143,7 +143,7 @@ def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[S
 
 
 def merge_health(healths: Iterable[tuple[MeshHealth, int, float]]) -> MeshHealth:
-    """Return the summed health of parts, (health, instances, area) each; elements with faults of a single part only."""
+    """Return the summed health of parts (health, instances, area); only a single part keeps its faulty elements."""
     healths = list(healths)
     first, copies, _ = healths[0]
     if len(healths) == 1 and copies == 1:

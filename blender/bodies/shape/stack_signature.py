@@ -80,7 +80,7 @@ def stack_signatures(stack: MeasuredStack, order: int) -> list[Signature | None]
 def _signatures(
     stack: TriangleStack, rows: NDArray[np.intp], maps: NDArray, centers: NDArray, order: int
 ) -> tuple[list[Signature], NDArray[np.float64]]:
-    """Return the signatures of linearly mapped surfaces, in units of a length for each surface, and these lengths."""
+    """Return the signatures of linearly mapped surfaces, each scaled to about unit size, and the (k,) scales."""
     points, triangles, first = [], [], 0
     for row, linear, center in zip(rows.tolist(), maps, centers):
         start, begin = stack.first_point[row], stack.first_triangle[row]

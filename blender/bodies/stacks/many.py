@@ -5,7 +5,7 @@
 Both ways give the same numbers.
 
 An object joins no stack if it shows more than one mesh in one place, is no solid, is large, or has a varying density:
-`measure_body` measures it. It also gets the refused objects, to find the reason.
+`measure_body` measures it. Objects that a stack refuses go to `measure_body`, too, which finds the reason.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function that measures in batches; called with each object in order, it returns its measurement."""
+    """Return a function that measures in batches and, called with each object in order, returns its measurement."""
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 
@@ -168,7 +168,7 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """Return stacked measurements by member number; none if the stack fails, then objects are measured alone."""
+        """Return stacked measurements by member number; none if the stack fails, so that objects are measured alone."""
         try:
             stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:

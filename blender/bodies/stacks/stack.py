@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.inertia.canonical_frame import MAX_ORDER
-from ....core.inertia.mass_properties import MassProperties
+from ....core.inertia.mass_properties import MassProperties, has_certain_total
 from ....core.inertia.principal_frames import OwnMoments
 from ....core.inertia.third_moment_frames import third_moment_frames
-from ....core.measurement.builder import build_measurement
+from ....core.measurement.builder import build_measurement, find_large_bounds
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
@@ -28,7 +28,7 @@ from ....core.moments.moments import Moments, image, stack_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.sheared_areas import area_of_images
-from ....core.solid.measure import SolidIntegrals, measure_solid
+from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
@@ -88,19 +88,23 @@ class MeshShape:
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
     """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
-    small = [shape for shape in shapes if can_be_stacked(shape.surface)]
+    stackable = can_be_stacked([shape.surface for shape in shapes])
+    small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
     volumes: list[Moments] = []
     areas: list[Moments] = []
     if small:
         solids = measure_stack([shape.surface for shape in small])
         volumes, areas = [solids.volume], [solids.area]
-        for i in np.flatnonzero(solids.is_measured).tolist():
-            small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
-            small[i].method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
+        for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
+            if is_measured:
+                shape.row, shape.solids, shape.findings = i, solids, solids.findings(i)
+                shape.method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
+            else:
+                shape.alone = measure_left_over(solids, i, shape.surface)
     others = []
     for shape in shapes:
         if shape.solids is None:
-            solid = shape.alone = measure_solid(shape.surface)
+            solid = shape.alone = shape.alone or measure_solid(shape.surface)
             shape.row, shape.method, shape.findings = len(small) + len(others), METHODS[solid.method], solid.findings
             others.append(solid)
     if others:
@@ -243,7 +247,7 @@ class Stacked:
 
 
 def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> MeasuredStack | None:
-    """Return a stack of the members with certain shapes and numbers, or None; all members must have the same unit."""
+    """Return a stack of the members whose volume and mass are certain, or None; all members have the same unit."""
     unit, axes = members[0].settings.unit, members[0].settings.axes
     own, own_area = measure_shapes(shapes)
     which = np.array([member.shape.row for member in members])
@@ -262,7 +266,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
-    certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
+    certain = has_certain_total(volume) & (density > 0.0) & (density < np.inf)
     rows = np.flatnonzero(certain)
     fixed = third_moment_frames(volume.at(rows))
     if not fixed.is_body.all():  # the others are refused by themselves
@@ -277,25 +281,24 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     rotation = rotation_matrix([member.quaternion for member in members])
 
     def higher(left: NDArray[np.intp]) -> OwnMoments:
-        needed, first, shape = np.unique(which[left], return_index=True, return_inverse=True)
-        shapes = [members[left[i]].shape for i in first.tolist()]
-        sixth = [own.at(0)] * len(shapes)
-        together = [i for i, each in enumerate(shapes) if each.alone is None]
+        found = {members[i].shape.row: members[i].shape for i in left.tolist()}
+        rows = sorted(found)
+        sixth: dict[int, Moments] = {}
+        together = [row for row in rows if found[row].alone is None]
         if together:
-            solids = shapes[together[0]].solids
+            solids = found[together[0]].solids
             assert solids is not None
-            found = solids.to_order(needed[together], MAX_ORDER)
-            for row, i in enumerate(together):
-                sixth[i] = found.at(row)
-        alone = {i: each.alone for i, each in enumerate(shapes) if each.alone is not None}
-        small = [i for i, solid in alone.items() if is_small(solid.repaired_surface)]
+            higher_order = solids.to_order(np.array(together), MAX_ORDER)
+            sixth.update((row, higher_order.at(i)) for i, row in enumerate(together))
+        alone = {row: each.alone for row, each in found.items() if each.alone is not None}
+        small = [row for row, solid in alone.items() if is_small(solid.repaired_surface)]
         if small:
-            found = small_moments_to_order([alone[i] for i in small], MAX_ORDER)
-            for row, i in enumerate(small):
-                sixth[i] = found.at(row)
-        for i in alone.keys() - small:
-            sixth[i] = shapes[i].sixth_order()
-        return own_moments(sixth, shape.ravel(), matrices[left, :3, :3])
+            higher_order = small_moments_to_order([alone[row] for row in small], MAX_ORDER)
+            sixth.update((row, higher_order.at(i)) for i, row in enumerate(small))
+        sixth.update((row, found[row].sixth_order()) for row in alone.keys() - small)
+        number = {row: i for i, row in enumerate(rows)}
+        shape = np.array([number[row] for row in which[left].tolist()])
+        return own_moments([sixth[row] for row in rows], shape, matrices[left, :3, :3])
 
     properties = MassProperties.of_stack(volume, density, rotation, fixed, higher if axes else None)
     geometry = np.ascontiguousarray(np.concatenate([volume.raw, area.raw], axis=1))
@@ -310,13 +313,13 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         rotation,
         np.array([member.location for member in members]) * unit,
         [fingerprint(numbers, key, member.digest) for numbers, key, member in zip(geometry, keys, members)],
-        [_findings(member) for member in members],
+        [_findings(*each) for each in zip(members, find_large_bounds(volume, area, properties))],
     )
 
 
-def _findings(member: StackMember) -> tuple[Finding, ...]:
-    """Return the findings about the member's shape, with the object's accepted ones marked."""
-    found = member.shape.findings
+def _findings(member: StackMember, bounds: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings about the member's shape and `bounds`, with the object's accepted ones marked."""
+    found = member.shape.findings + bounds
     return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
 
@@ -340,7 +343,9 @@ def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Mome
     regular[~even, :3, :3] = np.eye(3)
     placed = _placed(area, regular)
     for i in np.flatnonzero(~even).tolist():
-        found = area_of_images(members[i].shape.surface, matrices[i : i + 1, :3, :3])
+        shape = members[i].shape
+        surface = shape.surface if shape.alone is None else shape.alone.given_surface
+        found = area_of_images(surface, matrices[i : i + 1, :3, :3])
         for name in ("raw", "rounding_error", "input_error", "about"):
             getattr(placed, name)[i] = getattr(found, name)
     return placed

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a surface object as patches, checked against the mesh that Blender displays.
 
-If shape keys and hooks move control points, or a spline has knots that Blender keeps to itself (its OBJ importer makes
-such ones), the read patches may differ from the displayed ones. So the patches are evaluated at the parameters of the
-display mesh's vertices and compared with them. If they differ, the control points are recovered from these vertices, a
-linear problem in each direction; if a difference remains, the display mesh is measured.
+The patches that are read may differ from the displayed ones if shape keys and hooks move control points, or if a spline
+has knots that Blender's interface does not show (as from its OBJ importer). So the patches are evaluated at the
+parameters of the display mesh's vertices and compared with them. If they differ, the control points are recovered from
+these vertices, a linear problem in each direction; if a difference remains, the display mesh is measured.
+
+The splines of an object that was read from a file for a measurement are a picture of the faces of the file, which
+`keep_faces` keeps beside it.
 """
 
 from __future__ import annotations
@@ -18,7 +21,7 @@ from numpy.typing import NDArray
 from ....core.moments.moments import FLOAT32_HALF_ULP
 from ....core.numerics.bspline import SplineSpace
 from ....core.nurbs.blender_knots import blender_space, display_parameters, display_table
-from ....core.nurbs.patch import Patch
+from ....core.nurbs.patch import Face, Patch
 from ....core.verdict.finding import ReadError, finding
 from ..findings import CONTROL_POINTS_RECOVERED, SPLINES_LEFT_OUT
 from ..reading import SplineReading
@@ -29,9 +32,19 @@ RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
 MAX_CONDITION = 1e4  # largest condition number of a direction's samples
 
 
+_faces_of_files: dict[int, SplineReading] = {}  # by the identifier of the data in this session
+
+
+def keep_faces(data, faces: tuple[Face, ...], stored: float) -> None:
+    """Measure the objects of surface data, which only show faces, by the faces themselves; `stored`: of the reading."""
+    _faces_of_files[data.session_uid] = SplineReading(faces, stored, ())
+
+
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     """Return the patches of a surface object, checked against `mesh` if given; None if its mesh has to be measured."""
     original = evaluated.original
+    if original.data.session_uid in _faces_of_files:
+        return _faces_of_files[original.data.session_uid]
     if spline_modifiers(original)[1]:
         return None
     splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]

@@ -37,8 +37,8 @@ class Lag(StrEnum):
 class LiveResult:
     """An object's current numbers.
 
-    measurement: None if it was refused. refusal: the reason then. seconds: duration of the measurement. settings: the
-    digest of the object's settings.
+    measurement: None if it was refused. refusal: the reason for that. seconds: duration of the measurement. settings:
+    the digest of the object's settings.
     """
 
     measurement: Measurement | None
@@ -51,9 +51,9 @@ class LiveResult:
 class Followed:
     """An object with Live on.
 
-    matrix, transform: matrix_world and transform key at the measurement. number: number of the last update then.
-    tracked: the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow
-    them. first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
+    matrix, transform, number: at the measurement, matrix_world, transform key and number of the last update. tracked:
+    the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow them.
+    first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
     shows_others: whether the object shows instances. is_pending: whether the object changed since the measurement.
     """
 

@@ -40,7 +40,7 @@ from ...read.objects import read_patches
 from ...read.reading import float64_matrix
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
-from ...write.properties import StoredProperties
+from ...write.numbers import StoredProperties
 from ..tracking import handlers, updates
 from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface
@@ -105,7 +105,7 @@ def _mapped(
         return shown
     is_mass_given = measured.density_from == DENSITY_FROM_MASS
     mass = measured.mass_properties.mass if is_mass_given else measured.mass_properties.mass / measured.volume * volume
-    axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ shown.body.principal.axes
+    axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ np.transpose(shown.axes)
     image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
     location = now[:3, 3] * unit
     area = shown.area * stretch ** (2.0 / 3.0)

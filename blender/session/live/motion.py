@@ -36,9 +36,9 @@ MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured
 class _Followed:
     """The measurement of a followed object.
 
-    change: number of its geometry's last update then, -1 before. moments: of the mass, in the object's coordinates in
-    SI units. given_mass: in kg, if the mass is given. mixes: volume and center as polynomials of the values of the
-    shape keys `keys`, for faces cut into `triangles`; density: the density for them.
+    change: number of the geometry's last update at the measurement, -1 before the first. moments: of the mass, in the
+    object's coordinates in SI units. given_mass: in kg, if the mass is given. mixes: volume and center as polynomials
+    of the values of the shape keys `keys`, for faces cut into `triangles`; density: the density for them.
     """
 
     change: int = -1
@@ -168,7 +168,7 @@ def _measured(
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:
-    """Return whether a matrix can map the moments: none if singular, of areas and lengths only a similarity."""
+    """Return whether a matrix can map the moments: it is not singular, and a similarity for areas and lengths."""
     if are_singular(matrix[None, :3, :3])[0]:
         return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])

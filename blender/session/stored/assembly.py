@@ -22,11 +22,11 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity
 from ....core.verdict.sentences import of_severity
-from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement, members_key
+from ...bodies.assembly.assembly import Assembly, MemberBody, assembly_measurement
 from ...bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import Stacked
-from ...read.assembly import Member, MemberKind, Root, is_assembly, members_of, settings_of
+from ...read.assembly import Member, MemberKind, Root, is_assembly, members_key, members_of, settings_of
 from ...read.fingerprint import digest
 from ...write import properties
 from .. import displayed

@@ -19,7 +19,8 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.flat.regions import plane_positions
-from ....core.flat.section import Plane
+from ....core.flat.section import project
+from ....core.flat.section_properties import Plane
 from ....core.inertia.findings import MOMENTS_OVERFLOW
 from ....core.inertia.reference import Reference
 from ....core.measurement.plain_text import visible
@@ -59,7 +60,7 @@ class FlatMoments:
 
     def foot(self, point: NDArray) -> NDArray[np.float64]:
         """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
-        return np.append(self.plane.project(np.asarray(point, np.float64)[None])[0], 0.0)
+        return np.append(project(self.plane, np.asarray(point, np.float64)[None])[0], 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,7 +250,7 @@ def in_frame(
             moments = _in_frame(computed, of, about, frame, order)
         else:
             moments = _select_moments(computed, of).truncate(order)
-            moments = moments.in_frame(reference.axes, reference.origin)
+            moments = moments.in_frame(np.transpose(reference.axes), reference.origin)
     if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
         raise ReadError(MOMENTS_OVERFLOW, order=order)
     return moments

@@ -12,14 +12,14 @@ from contextlib import suppress
 import bpy
 from bpy.types import Collection, Object, Scene
 
-from ....core.inertia.mass_properties import MassProperties
+from .... import core
 from ....core.inertia.reference import ReferredInertia
 from ....core.numerics.float32 import shortest_decimal
-from ....core.numerics.rotations import quaternion
 from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.reference import ReferenceChoice
 from ...write import properties
 from ...write.findings import NO_STORED_RESULTS
+from ...write.numbers import StoredProperties
 from ..tracking import staleness
 
 
@@ -33,7 +33,7 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
     if body is None:
         return None
     try:
-        return choice.resolve(owner, scene, body.center).refer(body)
+        return choice.resolve(owner, scene, body.center).refer(body.mass, body.center, body.inertia, body.bounds)
     except MeasureError as error:
         return error.finding
 
@@ -48,15 +48,15 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     if body is None:
         raise QueryError(NO_STORED_RESULTS, subject=owner.name)
     properties.require_storable(owner)
-    result = choice.resolve(owner, scene, body.center).refer(body)
+    result = choice.resolve(owner, scene, body.center).refer(body.mass, body.center, body.inertia, body.bounds)
     bounds = result.rounding_error, result.input_error
     values = {
         "body_reference": choice.text,
-        "body_reference_origin": result.reference.origin.tolist(),
-        "body_reference_axes": quaternion(result.reference.axes).tolist(),
-        "body_reference_center": result.center.tolist(),
-        "body_reference_inertia": properties.tensor_entries(result.inertia).tolist(),
-        "body_reference_error_bound": [float(bound[name]) for bound in bounds for name in ("center", "inertia")],
+        "body_reference_origin": result.reference.origin,
+        "body_reference_axes": core.numerics.quaternion(tuple(zip(*result.reference.axes))).tolist(),
+        "body_reference_center": result.center,
+        "body_reference_inertia": result.inertia,
+        "body_reference_error_bound": [bound[name] for bound in bounds for name in ("center", "inertia")],
     }
     if choice.about == "AXIS":
         values["body_axis_inertia"] = result.about_z
@@ -77,11 +77,11 @@ def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | N
             store(owner, scene, choice)
 
 
-def _stored_body(owner: Object | Collection, scene: Scene) -> MassProperties | None:
-    """Return the stored mass properties in world axes, or None if there are none."""
+def _stored_body(owner: Object | Collection, scene: Scene) -> StoredProperties | None:
+    """Return the stored results in world axes, or None if there are none."""
     stored = properties.stored(owner)
     if stored is None:
         return None
     if isinstance(owner, bpy.types.Object):
         stored = stored.in_world(owner.matrix_world, shortest_decimal(scene.unit_settings.scale_length))
-    return stored.body
+    return stored

@@ -42,10 +42,7 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
 def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of many objects as `store` does; yield each with its error or None.
-
-    An object has an error if it cannot hold results.
-    """
+    """Store the results of many objects like `store`; yield each with None, or the error that it cannot hold them."""
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:

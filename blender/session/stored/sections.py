@@ -9,7 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
 
-from ....core.flat.section import Section, measure_section
+from ....core.flat.section import measure_section
+from ....core.flat.section_properties import Section
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding
 from ...bodies.flat.flat import area_findings, flat_region

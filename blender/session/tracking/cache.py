@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Data about objects while a file is open: in memory only, by session uid, gone with the file.
 
-Blender gives every data-block a uid that lasts as long as it is loaded, through renaming, undo and redo, and that no
-other one gets later. All caches are emptied together, by `handlers`, when a file is loaded and when the add-on is
-unregistered.
+Blender gives every data-block a uid that stays the same through renaming, undo and redo, and that no later data-block
+gets. All caches are emptied together, by `handlers`, when a file is loaded and when the add-on is unregistered.
 """
 
 from __future__ import annotations

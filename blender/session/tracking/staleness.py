@@ -32,8 +32,7 @@ import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
 from ....core.numerics.float32 import shortest_decimal
-from ... import bodies, read
-from ...bodies import assembly
+from ... import read
 from ...read.fingerprint import VERSION, digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
 from ...write import properties
@@ -121,18 +120,17 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
 
 def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
     if isinstance(root, Object) and root.type == "ARMATURE":
-        return bodies.rig.rig_hash(root, bodies.rig.rig_objects(root, scene.objects), scene), ""
+        return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
     depsgraph = bpy.context.view_layer.depsgraph
     if depsgraph is None:
         return None
-    member = read.assembly.members_of(root, depsgraph)
-    measured = [
-        part.data for part in member.walk() if part.kind == read.assembly.MemberKind.OBJECT and part.is_measured
-    ]
+    assembly = read.assembly
+    member = assembly.members_of(root, depsgraph)
+    measured = [part.data for part in member.walk() if part.kind == assembly.MemberKind.OBJECT and part.is_measured]
     texts = {obj: properties.fingerprint(obj) for obj in measured}
     is_stale = any(stale_reason(obj, scene) for obj in measured)
-    key = assembly.assembly.members_key(member, texts)
-    return assembly.assembly.structure_hash(member), "" if is_stale else digest(key.encode())
+    key = assembly.members_key(member, texts)
+    return assembly.structure_hash(member), "" if is_stale else digest(key.encode())
 
 
 CHECKS = {
@@ -163,7 +161,7 @@ def is_edited(obj: Object) -> bool:
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Mark freshly stored results of objects as up to date; evaluate the data that storing itself has tagged.
+    """Mark freshly stored results of objects as up to date; evaluate the data that Blender tagged at storing.
 
     objects: objects of the context's view layer with results stored or removed.
     shapes: the `surface_digest` of freshly read objects.
@@ -276,7 +274,7 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
     shape = shape or read.shapes.shape_digest(obj, depsgraph)
-    if shape is not None:  # else the shape of another object with these very numbers still holds
+    if shape is not None:  # else the digest of an equal object with the same stamp still holds
         _shapes[stamp.text] = shape
 
 
@@ -293,7 +291,7 @@ def forget_file() -> None:
 
 
 def write_notes() -> None:
-    """Make the notes part of the stored stamps."""
+    """Write the noted edits into the stamps stored on the objects."""
     note_all_edits()
     for obj in bpy.data.objects if len(_edited) else ():
         edited = _edited.get(obj)

@@ -80,7 +80,7 @@ _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Give an original object a stamp of data in memory, and return it. number: the count of updates then."""
+    """Give an original object a stamp of data in memory, and return it. number: `updates.count` at their making."""
     stamp = Stamp(kind, VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
     _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
     return stamp

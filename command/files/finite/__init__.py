@@ -22,7 +22,7 @@ __all__ = ["Buffers", "check_numbers", "unquote"]
 
 
 def check_numbers(path: str, kind: str) -> None:
-    """Raise FileError if a coordinate in the file is no finite number, or OSError. kind: the file's suffix."""
+    """Raise FileError if a coordinate in the file is not a finite number. kind: the file's suffix. Raises OSError."""
     check = _CHECKS.get(kind)
     if check is not None:
         check(map_file(path), path)

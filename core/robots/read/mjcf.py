@@ -8,7 +8,7 @@ It applies defaults by class, the compiler's angle unit and Euler order, and mes
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import radians
+from math import inf, radians
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from ..model import Pose, Shape
 from ..stated import Angles, Description, StatedInertial, StatedLink, StatedShape, rotation_about
 from .xml import NOWHERE, Node, attempt, number, numbers
 
+LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
 SIZES = {"sphere": 1, "ellipsoid": 3, "box": 3, "capsule": 2, "cylinder": 2}
 
 
@@ -112,6 +113,8 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
     if "euler" in attributes:
         first, second, third = (numbers(attributes["euler"], 3, (0.0, 0.0, 0.0)) * unit).tolist()
         turn = np.eye(3)
+        if len(model.euler) != 3 or not {*model.euler.lower()} <= {*"xyz"}:
+            raise ValueError(model.euler)
         for axis, angle in zip(model.euler, (first, second, third)):
             step = rotation_about(np.eye(3)["xyz".index(axis.lower())], angle)
             turn = turn @ step if axis.islower() else step @ turn
@@ -123,7 +126,8 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
     if "xyaxes" in attributes:
         values = numbers(attributes["xyaxes"], 6, ())
         x = _direction(values[:3], attributes["xyaxes"])
-        y = _direction(values[3:] - (values[3:] @ x) * x, attributes["xyaxes"])
+        y = _direction(values[3:], attributes["xyaxes"])
+        y = _direction(y - (y @ x) * x, attributes["xyaxes"])
         return np.column_stack([x, y, np.cross(x, y)]), None, None
     if "zaxis" in attributes:
         z = _direction(numbers(attributes["zaxis"], 3, (0.0, 0.0, 1.0)), attributes["zaxis"])
@@ -134,7 +138,7 @@ def _rotation(attributes: dict[str, str], model: _Model) -> Rotation:
 
 def _direction(vector: NDArray, text: str) -> NDArray[np.float64]:
     length = np.linalg.norm(vector)
-    if length == 0.0:
+    if not LEAST_LENGTH < length < inf:
         raise ValueError(text)
     return vector / length
 
@@ -160,7 +164,8 @@ def _shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
         ends = numbers(attributes["fromto"], 6, ())
         along = ends[:3] - ends[3:]
         length = float(np.linalg.norm(along))
-        rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, (along / length).tolist()))}, model)
+        along = _direction(along, attributes["fromto"])
+        rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, along.tolist()))}, model)
         pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
         return StatedShape(Shape(kind, (size[0], length), pose), role)
     halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)  # index of the first half of a length

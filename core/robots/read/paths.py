@@ -30,7 +30,7 @@ class Roots:
         folder = Path(os.path.realpath(file)).parent
         folders = [folder]
         for above in [folder, *folder.parents][:MAX_LEVELS]:
-            if (above / "package.xml").is_file():
+            if os.path.isfile(above / "package.xml"):
                 folders.append(above)
                 break
         return cls((*folders, *(Path(os.path.realpath(path)) for path in more)), anywhere)
@@ -43,9 +43,12 @@ class Roots:
         if scheme not in ("", "package", "model", "file"):
             raise FileError(MESH_ON_NETWORK, name=name)
         for path in self._candidates(scheme, rest):
-            real = Path(os.path.realpath(path))
+            try:
+                real = Path(os.path.realpath(path))
+            except (OSError, ValueError):  # no name that the system knows
+                continue
             is_allowed = self.anywhere or any(real.is_relative_to(folder) for folder in self.folders)
-            if is_allowed and real.is_file():
+            if is_allowed and os.path.isfile(real):  # False if the system refuses the name, as one that is too long
                 return real
         raise FileError(MESH_MISSING, name=name)
 

@@ -19,7 +19,7 @@ from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_number
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER
 from ..model import Pose, Shape
-from ..stated import Description, StatedInertial, StatedLink, StatedShape, rotation_about
+from ..stated import LEAST, MOST, Description, StatedInertial, StatedLink, StatedShape, rotation_about
 from .triangles import fan
 from .xml import check_size
 
@@ -57,6 +57,10 @@ class Prim:
         if len(values) != count:
             raise ValueError(self.values[name][:80])
         return values
+
+    def number(self, name: str, default: float) -> float:
+        """Return the number of an attribute, else its default. ValueError if there are several."""
+        return float(self.vector(name, (default,))[0])
 
 
 def _tokens(text: str) -> Iterator[tuple[str, int]]:
@@ -153,7 +157,8 @@ def read(data: bytes) -> Description:
     except UnicodeDecodeError as error:
         raise _invalid("", 0) from error
     try:
-        return _description(text, data)
+        with np.errstate(all="ignore"):  # what becomes of wrong numbers is refused
+            return _description(text, data)
     except (IndexError, KeyError, ValueError, RecursionError) as error:
         place = text.find(str(error)) if isinstance(error, ValueError) else -1
         raise _invalid(text, place if place >= 0 else len(text)) from error
@@ -185,7 +190,10 @@ def _description(text: str, data: bytes) -> Description:
 
 def _scale(metadata: str, name: str, default: float) -> float:
     match = re.search(r"\b{}\s*=\s*([^\s()]+)".format(name), metadata)
-    return parse_number(match[1]) if match else default
+    scale = parse_number(match[1]) if match else default
+    if not LEAST <= scale <= MOST:
+        raise ValueError(match[0] if match else name)
+    return scale
 
 
 def _visit(
@@ -208,17 +216,21 @@ def _placed(prim: Prim, above: NDArray) -> NDArray[np.float64]:
         if values is None:
             continue
         step, kind = np.eye(4), name.split(":")[1]
+        if not (np.abs(values) <= MOST).all():
+            raise ValueError(prim.values[name])
         if kind == "translate" and len(values) == 3:
             step[:3, 3] = values
         elif kind == "scale" and len(values) == 3:
             step[:3, :3] = np.diag(values)
-        elif kind == "orient" and len(values) == 4 and values.any():
+        elif kind == "orient" and len(values) == 4 and np.abs(values).max() >= LEAST:
             step[:3, :3] = rotation_matrix(values)
         elif kind == "transform" and len(values) == 16:
             step = values.reshape(4, 4).T
-        elif kind.startswith("rotate") and len(values) == len(kind) - 6:
+        elif kind.startswith("rotate") and len(values) == len(kind) - 6 and {*kind[6:]} <= {*"XYZ"}:
             for axis, angle in zip(kind[6:], np.radians(values)):  # rotateXYZ turns about x first
                 step[:3, :3] = rotation_about(np.eye(3)["XYZ".index(axis)], angle) @ step[:3, :3]
+        else:
+            raise ValueError(prim.values[name])
         matrix = matrix @ (np.linalg.inv(step) if inverse else step)
     return np.asarray(matrix, np.float64)
 
@@ -235,10 +247,8 @@ def _link(prim: Prim, matrix: NDArray, path: str, scales: Mapping[str, float], t
     except ValueError as error:
         findings.append(_unreadable(prim, error, text))
     shapes: list[StatedShape] = []
-    try:
-        _collect(prim, matrix, to_link, scales["length"], shapes)
-    except ValueError as error:
-        findings.append(_unreadable(prim, error, text))
+    for part, error in _collect(prim, matrix, to_link, scales["length"], shapes):
+        findings.append(_unreadable(part, error, text))
     span = len(text[: prim.start].encode()), len(text[: prim.end].encode())
     return StatedLink(path, inertial, tuple(shapes), span, False, tuple(findings), to_link @ matrix)
 
@@ -268,14 +278,22 @@ def _inertial(prim: Prim, local: NDArray, scales: Mapping[str, float]) -> Stated
     return StatedInertial(float(mass[0]) * kilograms, placed, tensor, rotation_matrix(axes), None, tuple(axes.tolist()))
 
 
-def _collect(prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]) -> None:
-    """Collect the geometry of a body: the prims below it, up to the next body. matrix: from the prim to the world."""
-    shape = _shape(prim, to_link @ matrix, unit)
-    if shape is not None:
-        shapes.append(shape)
+def _collect(
+    prim: Prim, matrix: NDArray, to_link: NDArray, unit: float, shapes: list[StatedShape]
+) -> Iterator[tuple[Prim, ValueError]]:
+    """Collect the geometry of a body: the prims below it, up to the next body. matrix: from the prim to the world.
+
+    Yield the prims with wrong numbers, which are left out.
+    """
+    try:
+        shape = _shape(prim, to_link @ matrix, unit)
+        if shape is not None:
+            shapes.append(shape)
+    except ValueError as error:
+        yield prim, error
     for child in prim.children:
         if "PhysicsRigidBodyAPI" not in child.metadata:
-            _collect(child, _placed(child, matrix), to_link, unit, shapes)
+            yield from _collect(child, _placed(child, matrix), to_link, unit, shapes)
 
 
 def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
@@ -288,32 +306,32 @@ def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
     scales = np.linalg.norm(matrix[:3, :3], axis=0) * unit
     pose = Pose(matrix[:3, 3] * unit, _turn(matrix))
     if prim.kind == "Cube":
-        size = _number(prim, "size", 2.0) * scales
+        size = prim.number("size", 2.0) * scales
         return StatedShape(Shape("box", tuple(size.tolist()), pose), role)
     if prim.kind == "Sphere":
-        return StatedShape(Shape("ellipsoid", tuple((_number(prim, "radius", 1.0) * scales).tolist()), pose), role)
+        return StatedShape(Shape("ellipsoid", tuple((prim.number("radius", 1.0) * scales).tolist()), pose), role)
     axis = prim.values.get("axis", '"Z"').strip("\"'")
     order = {"X": [1, 2, 0], "Y": [2, 0, 1], "Z": [0, 1, 2]}[axis if axis in "XYZ" else "Z"]
     across, _, along = scales[order]
     capsule = prim.kind == "Capsule"
-    radius = _number(prim, "radius", 0.5 if capsule else 1.0)
-    size = radius * across, _number(prim, "height", 1.0 if capsule else 2.0) * along
+    radius = prim.number("radius", 0.5 if capsule else 1.0)
+    size = radius * across, prim.number("height", 1.0 if capsule else 2.0) * along
     return StatedShape(Shape(kinds[prim.kind], size, Pose(pose.position, pose.rotation[:, order])), role)
-
-
-def _number(prim: Prim, name: str, default: float) -> float:
-    values = prim.numbers(name)
-    return default if values is None or len(values) != 1 else float(values[0])
 
 
 def _mesh(prim: Prim, matrix: NDArray, unit: float, role: str) -> StatedShape | None:
     points, counts, corners = (prim.numbers(name) for name in ("points", "faceVertexCounts", "faceVertexIndices"))
-    if points is None or counts is None or corners is None or len(points) % 3:
-        return None
+    if points is None or counts is None or corners is None:
+        return None  # another layer may have them
+    for name, values in (("points", points), ("faceVertexCounts", counts), ("faceVertexIndices", corners)):
+        if not (np.abs(values) <= MOST).all() or name == "points" and len(points) % 3:
+            raise ValueError(prim.values[name][:80])
     points = points.reshape(-1, 3)
     sizes, corners = counts.astype(np.int64), corners.astype(np.int64)
-    if sizes.sum() != len(corners) or not len(corners) or corners.min() < 0 or corners.max() >= len(points):
-        return None
+    if sizes.min(initial=0) < 0 or sizes.sum() != len(corners):
+        raise ValueError(prim.values["faceVertexCounts"][:80])
+    if not len(corners) or corners.min() < 0 or corners.max() >= len(points):
+        raise ValueError(prim.values["faceVertexIndices"][:80])
     placed = (points @ matrix[:3, :3].T + matrix[:3, 3]) * unit
     triangles = fan(sizes, corners)
     is_left_handed = prim.values.get("orientation", "").strip("\"'") == "leftHanded"

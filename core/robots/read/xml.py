@@ -133,7 +133,8 @@ def attempt(findings: list[Finding], node: Node | None, read: Callable[..., Valu
     if node is None:
         return None
     try:
-        return read(node, *more)
+        with np.errstate(all="ignore"):  # what becomes of wrong numbers is refused
+            return read(node, *more)
     except ValueError as error:
         findings.append(_unreadable(node, error))
         return None
@@ -144,10 +145,15 @@ def read_shapes(findings: list[Finding], link: Node, read: Callable[[Node], Plac
     shapes = []
     for role in ("visual", "collision"):
         for element in link.all(role):
-            placed = attempt(findings, element, read)
-            if placed is not None:
-                shapes.append(StatedShape(placed[0], role, placed[1]))
+            shape = attempt(findings, element, _placed, read, role)
+            if shape is not None:
+                shapes.append(shape)
     return tuple(shapes)
+
+
+def _placed(node: Node, read: Callable[[Node], Placed | None], role: str) -> StatedShape | None:
+    placed = read(node)
+    return None if placed is None else StatedShape(placed[0], role, placed[1])
 
 
 def read_shape(

@@ -70,7 +70,7 @@ def _finding(one: Finding) -> dict[str, Any]:
 def _inertial(inertial: StatedInertial | None) -> dict[str, Any]:
     if inertial is None:
         return {"mass": None, "center_of_mass": None, "inertia": None}
-    tensor = (inertial.inertia + inertial.inertia.T) / 2.0
+    tensor = inertial.inertia / 2.0 + inertial.inertia.T / 2.0
     return {"mass": inertial.mass, "center_of_mass": inertial.center, "inertia": np.asarray(tensor)}
 
 

@@ -65,7 +65,7 @@ class _Document:
             self._add_shape(index, link, shape)
 
     def _node(self, name: str, pose: Pose, parent: int | None = None, turn: NDArray | None = None) -> int:
-        """Add a node and return its index. turn: a rotation of its own axes, beside the pose's."""
+        """Add a node and return its index. turn: a further rotation, about axes of the node."""
         rotation = Y_UP @ pose.rotation @ Y_UP.T
         node: dict[str, Any] = {"name": name}
         if pose.position.any():

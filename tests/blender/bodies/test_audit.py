@@ -3,6 +3,7 @@
 """Generated robots with planted mistakes: each is found, named and repaired, and right ones are left alone."""
 
 import math
+import os
 from dataclasses import replace
 
 import pytest
@@ -13,6 +14,7 @@ from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.audit import Auditor
 from body_moments.core.robots.model import Inertial, Link, Pose, Robot, Shape
+from body_moments.core.robots.plausibility import impossible
 from body_moments.core.robots.read.descriptions import read_description
 from body_moments.core.robots.read.paths import Roots
 from body_moments.core.robots.repair import repaired_copy
@@ -452,3 +454,74 @@ def test_missing_mesh_is_named_once_and_stops_judgment(tmp_path):
     values = [(one.code, one.values.get("name")) for one in found.findings]
     assert [name for _, name in values] == ["gone.stl", "bad.stl"] and found.repaired is None
     assert found.density is None
+
+
+UNUSABLE = ("0", "-1", "nan", "inf", "1e308", "1e-320")
+FORMS = {
+    "r.urdf": '<robot name="r">{}</robot>',
+    "r.sdf": '<sdf><model name="m">{}</model></sdf>',
+    "r.xml": '<mujoco><asset><mesh name="m" file="m.stl" scale="{scale}"/></asset><worldbody>{}</worldbody></mujoco>',
+    "r.usda": "#usda 1.0\n(\n metersPerUnit = 1\n)\n{}",
+}
+LINKS = {
+    "r.urdf": '<link name="a"><inertial><mass value="1"/><inertia ixx="9" iyy="9" izz="9"/></inertial><visual>'
+    '<geometry><sphere radius="1"/></geometry></visual><collision><geometry>{}</geometry></collision></link>',
+    "r.sdf": '<link name="a"><inertial><mass>1</mass></inertial><visual><geometry><sphere/></geometry></visual>'
+    "<collision>{}</collision></link>",
+    "r.xml": '<body name="a"><inertial mass="1" diaginertia="9 9 9"/><geom size="1" contype="0"/><geom {}/></body>',
+    "r.usda": 'def Xform "a" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{ float physics:mass = 1\n'
+    'float3 physics:diagonalInertia = (9, 9, 9)\ndef Sphere "s" {{ }}\n{} }}\n',
+}
+SHAPES = {
+    "r.urdf": ('<mesh filename="m.stl" scale="@ 1 1"/>', '<box size="1 @ 1"/>', '<cylinder radius="1" length="@"/>'),
+    "r.sdf": (
+        "<geometry><mesh><uri>m.stl</uri><scale>1 1 @</scale></mesh></geometry>",
+        "<pose>0 0 0 0 0 0</pose><geometry><capsule><radius>@</radius></capsule></geometry>",
+    ),
+    "r.xml": ('type="mesh" mesh="m"', 'type="ellipsoid" size="1 1 @"', 'size=".1" type="capsule" fromto="0 0 @ 0 0 @"'),
+    "r.usda": ('def Cube "c" {{ double size = @ }}', 'def Capsule "c" {{ double height = @ }}'),
+}
+
+
+@pytest.mark.parametrize("name", FORMS)
+@pytest.mark.parametrize("number", UNUSABLE)
+def test_unusable_size_is_finding_and_stops_the_comparison(tmp_path, name, number):
+    """The sphere alone cannot have this inertial, but nothing is judged by a part of the geometry."""
+    (tmp_path / "m.stl").write_bytes(to_stl(Surface.from_triangles(*box((0, 0, 0), (1, 1, 1)))))
+    for shape in SHAPES[name]:
+        if number == "-1" and "mesh" in shape:
+            continue  # a mirror image
+        path, link = tmp_path / name, LINKS[name].format(shape.format().replace("@", number))
+        scale = "{0} {0} 1".format(number if "mesh" in shape else "1")
+        path.write_text(FORMS[name].format(link, scale=scale), encoding="utf-8")
+        (found,) = audit(path).links
+        assert [one.code for one in found.findings] == ["description_number"], (shape, number)
+        assert found.density is None and found.findings[0].values["line"] >= 1
+
+
+def test_names_that_no_system_has_are_missing_meshes(tmp_path):
+    os.symlink("circle", tmp_path / "circle")
+    names = ["a" * 300 + ".stl", "a/" * 3000 + "b.stl", "circle", "circle/b.stl", "package://" + "a" * 300, ".", ""]
+    link = '<link name="a"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1"/></inertial><visual><geometry>'
+    link += '<mesh filename="{}"/></geometry></visual></link>'
+    path = tmp_path / "r.urdf"
+    path.write_text('<robot name="r">{}</robot>'.format("".join(map(link.format, names))), encoding="utf-8")
+    for anywhere in (False, True):
+        links = Auditor(Roots.for_file(path, (), anywhere)).audit(read_description(path)).links
+        assert [[one.code for one in found.findings] for found in links] == [["mesh_missing"]] * len(names)
+
+
+def test_internal_error_of_one_link_keeps_the_others(tmp_path, monkeypatch, capfd):
+    right = robot(tmp_path, 3, links=3)
+    path = tmp_path / "robot.urdf"
+    path.write_text(text_of(right.links), encoding="utf-8")
+    calls = []
+
+    def fail_once(*words):
+        calls.append(words)
+        if len(calls) == 2:
+            raise RuntimeError("fault")
+        return impossible(*words)
+
+    monkeypatch.setattr("body_moments.core.robots.audit.impossible", fail_once)
+    assert faults(audit(path)) == [[], ["internal_error"], []] and "fault" in capfd.readouterr().err

@@ -171,7 +171,7 @@ def Xform "world" ( doc = "a }} b" )
     check_repair(tmp_path, description)
 
 
-def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
+def test_damaged_meshes_in_usd_are_findings(tmp_path):
     whole = {"points": "[(0, 0, 0), (1, 0, 0), (0, 1, 0)]", "faceVertexCounts": "[3]", "faceVertexIndices": "[0, 1, 2]"}
     wrong = [
         *({"points": "[0, 1]"}, {"faceVertexCounts": "[4]"}, {"faceVertexCounts": "[0]", "faceVertexIndices": "[]"}),
@@ -185,6 +185,8 @@ def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
     body = '#usda 1.0\ndef Xform "b" ( apiSchemas = ["PhysicsRigidBodyAPI"] ) {{\n{}{}}}'
     (link,) = read(tmp_path, body.format("float physics:mass = 1\n", prims)).links
     assert len(link.shapes) == 1 and link.inertial is None
+    texts = ["[0, 1]", "[4]", "[]", "[0, 1, 3]", "[0, -1, 2]"]  # an absent attribute may stand in another layer
+    assert [one.values["text"] for one in link.findings] == texts
     assert (link.shapes[0].points == [[0, 0, 0], [0.01, 0, 0], [0, 0.01, 0]]).all()  # centimeters
     wrong = "float3 physics:diagonalInertia = (1, 2)\nfloat physics:mass = 1\n"
     (link,) = read(tmp_path, body.format(wrong, "")).links
@@ -193,7 +195,7 @@ def test_usd_leaves_out_meshes_that_are_damaged(tmp_path):
         wrong = 'float physics:mass = {0}\ndef Sphere "s" {{\ndouble radius = {0}x\n}}'.format(word)
         (link,) = read(tmp_path, body.format(wrong, "")).links
         found = [(one.values["text"], one.values["element"], one.values["line"]) for one in link.findings]
-        assert found == [(word, "b", 3), (word + "x", "b", 5)] and not link.shapes
+        assert found == [(word, "b", 3), (word + "x", "s", 5)] and not link.shapes
 
 
 @pytest.mark.parametrize(
@@ -256,13 +258,14 @@ def test_usd_shapes_are_as_large_as_each_axis_says(tmp_path):
         *('def Cylinder "a" { uniform token axis = "{}"'.replace("{}", axis) for axis in ("X", "Y", "Z", "W")),
         *('def Capsule "a" { token axis = "X"', 'def Capsule "a" {', 'def Cone "a" {'),
     ]
-    sizes = [(4, 6, 10), (2, 3, 5), (2, 3, 5), (3, 4), (5, 6), (2, 10), (2, 10), (1.5, 2), (1, 5)]
-    turns = [np.eye(3)] * 3 + [np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])]
+    sizes = [(4, 6, 10), (2, 3, 5), (3, 4), (5, 6), (2, 10), (2, 10), (1.5, 2), (1, 5)]
+    turns = [np.eye(3)] * 2 + [np.eye(3)[:, order] for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2], [0, 1, 2])]
     turns += [np.eye(3)[:, [1, 2, 0]], np.eye(3)]
     for signs, turn in (((1, 1, 1), np.eye(3)), ((-1, 1, 1), np.diag([1, -1, -1]))):  # a mirrored one is turned
         text = scale.format(", ".join(map(str, np.multiply(signs, (2, 3, 5)).tolist())))
         inside = "".join("{}\n{}}}\n".format(prim, text) for prim in prims)
         (link,) = bodies(tmp_path, BODY.format("b", inside), "(\nmetersPerUnit = 1\n)\n")
+        assert [one.values["text"] for one in link.findings] == ["(3, 4)"]  # not the default in its place
         for stated, size, own in zip(link.shapes, sizes, turns, strict=True):
             assert near(np.array(stated.shape.size), np.array(size, float), 1e-15)
             assert near(stated.shape.pose.rotation, turn @ own, 1e-15)

@@ -122,7 +122,7 @@ BALL_TEXT = obj_text([unrolled(sphere())])
         ("\n2 \\\n", "\n0 \\\n", "surface_damaged"),
         ("\n2 \\\n", "\nx \\\n", "surface_damaged"),
         ("v 9 9 9", "call other.obj", "obj_call"),
-        ("\nsurf ", "\nsurface ", "file_without_surfaces"),
+        ("\nsurf ", "\nsurface ", "file_without_objects"),
     ],
 )
 def test_unsupported_statement_is_refused(tmp_path, old, new, code):

@@ -16,6 +16,7 @@ from body_moments.core.measurement import documents, record
 from body_moments.core.measurement.measurement import Measurement
 from body_moments.core.moments.moments import Moments, monomials
 from body_moments.core.verdict.finding import finding
+from body_moments.core.verdict.method import Method, Verdict
 
 from tests.close import close
 
@@ -52,7 +53,7 @@ def box(
         name=name,
         type="MESH",
         kind="solid",
-        method="exact",
+        method=Method(Verdict.EXACT),
         density=density,
         thickness=0.0,
         volume=moments.total,
@@ -83,7 +84,7 @@ def one_document(*measurements, errors=(), frame="world", **options):
 
 def test_a_record_has_the_keys_of_the_contract_in_its_order():
     assert list(record.record(box())) == [
-        *("name", "type", "kind", "method", "density", "mass", "volume", "area", "center_of_mass"),
+        *("name", "type", "kind", "verdict", "method", "density", "mass", "volume", "area", "center_of_mass"),
         *("inertia", "principal_moments", "principal_axes", "symmetry", "principal_axes_unique"),
         *("health", "error_bound", "findings", "warnings", "notes"),
     ]
@@ -305,7 +306,9 @@ def test_csv_has_a_row_with_the_reason_of_each_failure():
 
 def test_csv_of_nothing_is_a_header():
     text = "".join(documents.to_csv([one_document()]))
-    assert text.count("\n") == 1 and text.startswith("file,frame,name,type,kind,method,density,mass,volume,area,")
+    assert text.count("\n") == 1 and text.startswith(
+        "file,frame,name,type,kind,verdict,method,density,mass,volume,area,"
+    )
 
 
 def test_csv_has_a_column_for_each_requested_moment():

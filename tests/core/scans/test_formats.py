@@ -86,16 +86,18 @@ def test_the_keys_of_a_nrrd_file_and_its_comments_are_no_fields(tmp_path):
     assert refusal(read_scan, written(tmp_path / "a.nrrd", with_both)) == "scan_sample_type"
 
 
-def test_units_are_in_meters_if_all_axes_have_the_same(tmp_path):
-    sizes = {"m": 1.0, "meter": 1.0, "meters": 1.0, "cm": 1e-2, "nm": 1e-9, "inch": None, "": None}
+def test_units_are_in_meters(tmp_path):
+    sizes = {"m": 1.0, "meter": 1.0, "meters": 1.0, "cm": 1e-2, "nm": 1e-9, "in": 0.0254, "inch": 0.0254, "": None}
+    sizes["voxel"] = None
     sizes |= dict.fromkeys(("mm", "millimeter", "millimeters", " MM "), 1e-3)
     sizes |= dict.fromkeys(("um", "µm", "micron", "microns"), 1e-6)
     for field in ("space units", "units"):
         for name, unit in sizes.items():
-            line = '{}: "{}" "{}" "{}"'.format(field, *[name] * 3).encode("latin-1")
-            data = nrrd(values()).replace(b"# made for a test", line)
-            assert read_scan(written(tmp_path / "a.nrrd", data)).unit == unit
-    mixed = nrrd(values(), 'space units: "mm" "mm" "m" "mm"'), nrrd(values(), 'space units: "mm" "mm" "mm" "s"')
+            for code in ("latin-1", "utf-8"):
+                line = '{}: "{}" "{}" "{}"'.format(field, *[name] * 3).encode(code)
+                data = nrrd(values()).replace(b"# made for a test", line)
+                assert read_scan(written(tmp_path / "a.nrrd", data)).unit == unit
+    mixed = nrrd(values(), 'space units: "mm" "mm" "" "mm"'), nrrd(values(), 'space units: "mm" "mm" "mm" "s"')
     assert [read_scan(written(tmp_path / "a.nrrd", data)).unit for data in mixed] == [None, 1e-3]
     for code, unit in ((0, None), (1, 1.0), (2, 1e-3), (3, 1e-6), (8 + 2, 1e-3), (24 + 3, 1e-6), (4, None)):
         assert read_scan(written(tmp_path / "a.nii", nifti(values(), unit=code))).unit == unit
@@ -170,6 +172,59 @@ def test_nrrd_placement_is_read(tmp_path):
     head = nrrd(values(), "space directions: (1,0,0) (0,2,0) (0,0,3)", "space origin: none")
     scan = read_scan(written(tmp_path / "c.nrrd", head))
     assert np.array_equal(scan.matrix, np.diag([1, 2, 3, 1])) and scan.is_placed
+
+
+@pytest.mark.parametrize(
+    "lines, spacing, origin, unit",
+    [
+        (("axis mins: 0 0 0", "axis maxs: 3 8 20", "centers: cell cell cell"), [1, 2, 4], [0.5, 1, 2], None),
+        (("axismins: 1 0 0", "axismaxs: 3 6 16", "centerings: node node node"), [1, 2, 4], [1, 0, 0], None),
+        (("axis mins: 0 0 0", "axis maxs: 3 8 20"), [1, 2, 4], [0.5, 1, 2], None),
+        (("spacings: 1 nan 4", "axis mins: 0 8 0", "axis maxs: 2 0 20"), [1, -2, 4], [0, 7, 2], None),
+        (("spacings: 1 2 4", "axis mins: 0 0 0", "centers: cell node ???"), [1, 2, 4], [0.5, 0, 0], None),
+        (("spacings: 1 2 nan", "thicknesses: 9 9 4", "centers: cell cell cell", "axis mins: 0 0 0"),)
+        + ([1, 2, 4], [0.5, 1, 2], None),
+        (("thicknesses: 1 2 4", 'units: "mm" "mm" "mm"'), [1, 2, 4], [0, 0, 0], 1e-3),
+        (("spacings: 1 20 .4", 'units: "mm" "um" "cm"', "axis mins: 5 0 1"), [1e-3, 2e-5, 4e-3], [5e-3, 0, 0.01], 1),
+        (("spacings: 1 2 4", "units: mm in mm"), [1e-3, 0.0508, 4e-3], [0, 0, 0], 1),
+    ],
+)
+def test_nrrd_axes_state_spacing_origin_and_unit(tmp_path, lines, spacing, origin, unit):
+    scan = read_scan(written(tmp_path / "a.nrrd", nrrd(values(), *lines, "kinds: domain Space ???")))
+    assert scan.is_placed and scan.unit == unit
+    assert np.allclose(scan.matrix[:3], np.c_[np.diag(spacing), origin], rtol=1e-15, atol=0.0)
+    findings = sample_matrix(scan, None, None, None)[1]
+    assert findings == (() if unit else (finding("scan_unstated", part="unit", option="unit-scale"),))
+
+
+def test_nrrd_space_units_scale_the_coordinates(tmp_path):
+    lines = "space directions: (1,0,0) (1,2,0) (0,0,3) none", "space origin: (1,2,3)", 'space units: "m" "mm" "cm"'
+    data = nrrd(values(), *lines).replace(b"dimension: 3\nsizes: 3 4 5", b"dimension: 4\nsizes: 3 4 5 1")
+    scan = read_scan(written(tmp_path / "a.nrrd", data))
+    assert np.allclose(scan.matrix[:3], [[1, 1, 0, 1], [0, 2e-3, 0, 2e-3], [0, 0, 0.03, 0.03]], rtol=1e-15)
+    assert scan.unit == 1.0
+    data = data.replace(b"(0,0,3) none", b"none (0,0,3)")
+    assert refusal(read_scan, written(tmp_path / "a.nrrd", data)) == "header_field"
+
+
+@pytest.mark.parametrize(
+    "lines, name",
+    [
+        *((("kinds: {} domain domain".format(kind),), "kinds") for kind in ("vector", "3-color", "time", "list", "x")),
+        (("kinds: domain domain RGB-color",), "kinds"),
+        (("kinds: domain domain",), "kinds"),
+        (('units: "mm" "mm" "s"', "spacings: 1 1 1"), "units"),
+        (("centers: cell cell corner",), "centers"),
+        (("spacings: 1 1 1", "axis mins: 0 0 0", "axis maxs: 3 4 7"), "axis maxs"),
+        (("spacings: 1 2 nan", "axis mins: 0 0 0"), "spacings"),
+        (("axis mins: 0 0 0", "axis maxs: 3 4 nan"), "spacings"),
+        (("space directions: none (1,0,0) (0,1,0)",), "space directions"),
+    ],
+)
+def test_nrrd_axes_that_are_no_places_are_refused(tmp_path, lines, name):
+    with pytest.raises(FileError) as caught:
+        read_scan(written(tmp_path / "a.nrrd", nrrd(values(), *lines)))
+    assert (caught.value.finding.code, caught.value.finding.values["field"]) == ("header_field", name)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The bones of a character at rest, and their weights on the vertices of its skin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from bpy.types import Depsgraph, Object
+from numpy.typing import NDArray
+
+from ...core.numerics.rotations import rotation_matrix
+from ...core.rig.dominance import VertexWeights
+from .reading import Part, float64_matrix
+from .visibility import evaluated_geometry
+
+
+@dataclass(frozen=True, eq=False)
+class RestBones:
+    """The bones of an armature object in their rest pose.
+
+    `names`: of all bones; `deforming`: of the bones that deform meshes, numbered in this order.
+    `segments`: (b, 2, 3), head and tail of the deforming bones in the world, Blender units.
+    `frames`: rest frame of each bone in the world: rotation (3, 3), and head (3,), Blender units.
+    """
+
+    names: tuple[str, ...]
+    deforming: tuple[str, ...]
+    segments: NDArray[np.float64]
+    frames: dict[str, tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+    @classmethod
+    def read(cls, armature: Object) -> RestBones:
+        """Read the bones of an armature object."""
+        place = float64_matrix(armature.matrix_world)
+        bones = list(armature.data.bones)
+        deforming = [bone for bone in bones if bone.use_deform]
+        ends = np.array([[bone.head_local[:], bone.tail_local[:]] for bone in deforming], np.float64).reshape(-1, 2, 3)
+        frames = {}
+        for bone in bones:
+            location, turn, _scale = (armature.matrix_world @ bone.matrix_local).decompose()
+            frames[bone.name] = rotation_matrix(turn), np.array(location[:], np.float64)
+        return cls(
+            tuple(bone.name for bone in bones),
+            tuple(bone.name for bone in deforming),
+            ends @ place[:3, :3].T + place[:3, 3],
+            frames,
+        )
+
+
+def vertex_weights(obj: Object, part: Part, bones: RestBones, depsgraph: Depsgraph) -> VertexWeights:
+    """Return the weights of the deforming bones on the vertices of an object's own surface.
+
+    There are none for another object's surface, or if its vertices are not the evaluated mesh's.
+
+    Blender gives the groups of vertices one by one only, in 0.3 s for 100,000 vertices.
+    """
+    number = {name: k for k, name in enumerate(bones.deforming)}
+    groups = [number.get(group.name) for group in obj.vertex_groups]
+    geometry = evaluated_geometry(obj, depsgraph, obj)  # it owns its mesh
+    vertices = [] if geometry.mesh is None else geometry.mesh.vertices
+    is_own = part.source_object_name in ("", obj.name) and len(vertices) == len(part.surface.points)
+    vertex, bone, weight = [], [], []
+    for index, one in enumerate(vertices if is_own else []):
+        for entry in one.groups:
+            if groups[entry.group] is not None:
+                vertex.append(index)
+                bone.append(groups[entry.group])
+                weight.append(entry.weight)
+    return VertexWeights(np.array(vertex, np.intp), np.array(bone, np.intp), np.array(weight, np.float64))

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Results as plain data, for scripts and agents that run inside Blender."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from math import inf
+from typing import Any
+
+import bpy
+from bpy.types import Object
+
+from ...core.measurement import record
+from ...core.measurement.documents import FRAMES
+from ...core.verdict import internal_error
+from ..bodies.measure_object import Measured
+from ..bodies.stacks.many import measure_many
+from ..bodies.stacks.stack import Stacked
+from ..settings.options import MeasureOptions
+from ..write.remedies import remedies_of
+from .snapping import store_measured
+from .stored.density import noted
+
+WORDS = {
+    "kind": ("solid", "shell", "wire"),
+    "overlap": ("signed", "union"),
+    "wall": ("thin", "inward", "outward", "centered"),
+}
+QUANTITIES = ("density", "mass", "thickness", "unit_scale")
+MAX_ELEMENTS = 8  # of a finding; a record of the command line has more
+UNITS = {
+    "mass": "kg",
+    "density": "kg/m³",
+    "volume": "m³",
+    "area": "m²",
+    "center_of_mass": "m",
+    "inertia": "kg·m²",
+    "principal_moments": "kg·m²",
+}
+NUMBERS = (*UNITS, "principal_axes", "symmetry")
+CALL = "bpy.ops.{}()"
+
+
+def describe(
+    objects: Object | str | Iterable[Object | str] | None = None,
+    *,
+    frame: str = "world",
+    store: bool = False,
+    **options: Any,
+) -> list[dict[str, Any]]:
+    """Measure objects and return one dictionary for each, which json.dumps can write.
+
+    Parameters
+    ----------
+    objects : Object or str, or several of them
+        Objects or their names; by default the selected objects.
+    frame : {"world", "object"}
+        The frame of center, inertia and axes.
+    store : bool
+        Stores the results on the objects, as *Measure* does. Otherwise nothing in the file changes.
+    **options
+        Override the objects' settings: kind ("solid", "shell", "wire"), density (kg/m³), mass (kg), thickness (m),
+        overlap ("signed", "union"), wall ("thin", "inward", "outward", "centered"), unit_scale (meters per unit).
+
+    Returns
+    -------
+    list of dict
+        Each has `name`, `verdict` ("exact", "repaired", "doubtful" or "not measured"), `numbers`, `units`,
+        `error_bound` (by quantity, in its unit), `findings` (each with `message` and `remedies`, which are calls) and
+        `next`, the calls that make sense now. Calls of operators act on the selected objects.
+
+    Raises
+    ------
+    ValueError
+        If an object, a frame or an option does not exist, or an option has a wrong value.
+    """
+    if frame not in FRAMES:
+        raise ValueError("frame must be one of {}, not {!r}".format(", ".join(map(repr, FRAMES)), frame))
+    _check(options)
+    chosen = _chosen(objects)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    found = [pair for batch in measure_many(chosen, depsgraph, MeasureOptions(**options)) for pair in batch]
+    if store:
+        measured = [(obj, one) for obj, one in found if not isinstance(one, Exception)]
+        refused = store_measured(bpy.context, measured)
+        found = [(obj, refused.get(obj, one)) for obj, one in found]
+    is_overridden = "density" in options or "mass" in options
+    return [_description(obj, one, frame, store, is_overridden) for obj, one in found]
+
+
+def _check(options: dict[str, Any]) -> None:
+    """Raise ValueError for an unknown option, and for a value that it cannot have."""
+    for name, value in options.items():
+        if name in WORDS:
+            is_right, expected = value in WORDS[name], "one of " + ", ".join(map(repr, WORDS[name]))
+        elif name in QUANTITIES:
+            is_right = isinstance(value, (int, float)) and 0.0 < value < inf
+            expected = "a positive number in SI units"
+        else:
+            raise ValueError("no option is called {!r}; there are {}".format(name, ", ".join((*WORDS, *QUANTITIES))))
+        if not is_right:
+            raise ValueError("{} must be {}, not {!r}".format(name, expected, value))
+
+
+def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Object]:
+    """Return the objects once each. Raises ValueError."""
+    if objects is None:
+        return list(bpy.context.selected_objects)
+    several = [objects] if isinstance(objects, (Object, str)) else objects
+    scene_objects = bpy.context.view_layer.objects
+    chosen = {}
+    for one in several:
+        name = one if isinstance(one, str) else one.name
+        if name not in scene_objects:
+            raise ValueError("no object of this view layer is called {!r}".format(name))
+        chosen[scene_objects[name]] = None
+    return list(chosen)
+
+
+def _description(
+    obj: Object, found: Measured | Stacked | Exception, frame: str, is_stored: bool, is_overridden: bool
+) -> dict[str, Any]:
+    """Return the dictionary of one object. is_overridden: whether an option replaces its density or mass."""
+    if isinstance(found, Exception):
+        entry: dict[str, Any] = {"name": obj.name, "verdict": "not measured", "numbers": None, "error_bound": None}
+        entry |= record.described([internal_error.finding_of(found)])
+    else:
+        measurement = found.measurement if is_overridden else noted(obj, found.measurement, bpy.context.scene)
+        entry = record.record(replace(measurement, name=obj.name), frame)
+        entry["numbers"] = {name: entry[name] for name in NUMBERS}
+    findings = [
+        {
+            **one,
+            "elements": one.get("elements", [])[:MAX_ELEMENTS],
+            "remedies": [CALL.format(idname) for idname in remedies_of(one["code"], obj.type)],
+        }
+        for one in entry["findings"]
+    ]
+    calls = [call for one in findings if one["severity"] != "note" for call in one["remedies"]]
+    if not is_stored and entry["numbers"] is not None:
+        calls.append("describe({!r}, store=True)".format(obj.name))
+    kept = ("name", "verdict", "method", "kind", "numbers", "error_bound")
+    return {
+        **{name: entry[name] for name in kept if name in entry},
+        "units": UNITS,
+        "frame": frame,
+        "findings": findings,
+        "next": [*dict.fromkeys(calls)],
+    }

@@ -1,0 +1,182 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces: surfaces with the curves that bound them.
+
+A boundary that follows that of the surface trims nothing. A plane is a flat face, whatever bounds it. Other surfaces
+cannot be trimmed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..nurbs.curve import Curve
+from ..nurbs.flat_face import FlatFace
+from ..nurbs.patch import Face, Patch, patches_size
+from ..nurbs.patch_moments import vector_area
+from ..nurbs.patch_topology import nearest_parameters
+from ..verdict.finding import MeasureError
+from ..verdict.tolerances import WELDING_RTOL
+from .findings import SURFACE_TRIMMED
+from .surfaces import SurfaceRefusedError
+from .trims import Piece, trims_nothing
+
+FLAT_RTOL = 1e-8  # Relative to the size: a surface that is farther from a plane is curved.
+END_TOLERANCE = 1e-5  # A curve that ends so near to the end of a side, as a share of it, ends there.
+SAMPLES = 33  # points at which a curve is compared with the sides of a surface
+
+
+@dataclass(frozen=True, eq=False)
+class Boundary:
+    """A closed boundary of a face: its curves in space, and in the surface's parameters; None if they are unknown."""
+
+    curves: list[Curve] | None
+    parameters: list[Curve] | None
+    prefers_parameters: bool = False
+
+
+def trimmed_faces(
+    surface: Patch,
+    domain: tuple[tuple[float, float], tuple[float, float]],
+    patches: Sequence[Patch],
+    boundaries: Sequence[Boundary],
+    has_outer: bool,
+    rounding: float = 0.0,
+) -> list[Face]:
+    """Return the faces of a surface within boundaries; SurfaceRefusedError if a curved surface is trimmed.
+
+    domain: the used part of the surface. patches: that part, in one piece unless the surface may be torn. has_outer:
+    False if the outer boundary is that of the surface. rounding: largest effect of the file's decimals on a point.
+    """
+    if not boundaries:
+        return [*patches]
+    if len(patches) == 1:
+        (patch,) = patches
+        if has_outer and _follow_sides(patch, domain, boundaries):
+            return [patch]
+        tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
+        if _is_flat(patch, tolerance):
+            outer = [] if has_outer else [Boundary(_around(patch), None)]
+            return [_flat_face(surface, domain, [*outer, *boundaries], tolerance)]
+    raise SurfaceRefusedError(SURFACE_TRIMMED)
+
+
+def plane_face(normal: NDArray, boundaries: Sequence[Boundary]) -> FlatFace:
+    """Return the region of an unbounded plane within boundaries. SurfaceRefusedError if they do not bound one."""
+    return _first_region([[boundary.curves for boundary in boundaries]], normal)
+
+
+def _first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
+    """Return the first of several choices of loops that bound a region. SurfaceRefusedError if none does."""
+    for loops in choices:
+        known = [loop for loop in loops if loop]
+        if known and len(known) == len(loops):
+            try:
+                return FlatFace.within(known, normal)
+            except MeasureError:
+                continue
+    raise SurfaceRefusedError(SURFACE_TRIMMED)
+
+
+def _is_flat(patch: Patch, tolerance: float) -> bool:
+    points = patch.points.reshape(-1, 3) - patch.points[0, 0]
+    normal = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)[2][2]
+    return bool(np.ptp(points @ normal) <= tolerance)
+
+
+def _around(patch: Patch) -> list[Curve]:
+    """Return the sides of a patch as a loop."""
+    around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
+    return [curve for curve in around if np.ptp(curve.points, axis=0).any()]
+
+
+def _flat_face(
+    surface: Patch,
+    domain: tuple[tuple[float, float], tuple[float, float]],
+    boundaries: Sequence[Boundary],
+    tolerance: float,
+) -> FlatFace:
+    """Return the region of a flat surface within boundaries; SurfaceRefusedError if they do not bound one."""
+    s, t = (np.linspace(*ends, 7) for ends in domain)
+    grid = surface.evaluate_grid(s, t)
+    steps = [(grid[-1, 0] - grid[0, 0]) / (s[-1] - s[0]), (grid[0, -1] - grid[0, 0]) / (t[-1] - t[0])]
+    matrix = np.eye(4)
+    matrix[:3, 0], matrix[:3, 1] = steps
+    matrix[:3, 3] = grid[0, 0] - steps[0] * s[0] - steps[1] * t[0]
+    even = grid[0, 0] + (s - s[0])[:, None, None] * steps[0] + (t - t[0])[:, None] * steps[1]
+    is_even = np.abs(grid - even).max() <= tolerance
+
+    def placed(boundary: Boundary) -> list[Curve] | None:
+        if boundary.parameters is None or not is_even:
+            return None
+        return [curve.transform(matrix) for curve in boundary.parameters]
+
+    in_space, by_parameters = (
+        [boundary.curves or placed(boundary) for boundary in boundaries],
+        [placed(boundary) or boundary.curves for boundary in boundaries],
+    )
+    choices = [in_space, by_parameters][:: -1 if any(one.prefers_parameters for one in boundaries) else 1]
+    return _first_region(choices, vector_area([surface]))
+
+
+def _follow_sides(
+    patch: Patch, domain: tuple[tuple[float, float], tuple[float, float]], boundaries: Sequence[Boundary]
+) -> bool:
+    """Return whether boundaries follow that of a patch, in its parameters, or in space if these are unknown."""
+    tolerance = WELDING_RTOL * patches_size([patch])
+    sides = [[patch.side(axis, end) for end in (0, 1)] for axis in (0, 1)]
+    samples = [[curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row] for row in sides]
+    poles = tuple((_is_point(first, tolerance), _is_point(last, tolerance)) for first, last in samples)
+    closed = tuple(bool(np.abs(first - last).max() <= tolerance) for first, last in samples)
+    pieces: list[Piece] = []
+    if all(boundary.parameters is not None for boundary in boundaries):
+        for curve in [curve for boundary in boundaries for curve in boundary.parameters or ()]:
+            pieces.append(Piece(curve.points[:, :2], curve.space.order == 2))
+    else:
+        domain = (0.0, 1.0), (0.0, 1.0)
+        for boundary in boundaries:
+            for curve in boundary.curves or ():
+                points = curve.evaluate(np.linspace(*curve.space.domain, SAMPLES))
+                if _is_point(points, tolerance):
+                    continue
+                piece = _along_sides(points, sides, samples, poles, closed, tolerance)
+                if piece is None:
+                    return False
+                pieces.append(piece)
+    return trims_nothing(pieces, domain, closed, poles)
+
+
+def _is_point(points: NDArray, tolerance: float) -> bool:
+    return bool(np.linalg.norm(points - points[0], axis=1).max() <= tolerance)
+
+
+def _along_sides(
+    points: NDArray,
+    sides: Sequence[Sequence[Curve]],
+    samples: Sequence[Sequence[NDArray]],
+    poles: Sequence[Sequence[bool]],
+    closed: Sequence[bool],
+    tolerance: float,
+) -> Piece | None:
+    """Return the run of points along a side of a patch, in its parameters from 0 to 1; None if they are on no side."""
+    for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        if poles[axis][end]:
+            continue
+        side = sides[axis][end]
+        t = nearest_parameters(side, samples[axis][end], points, tolerance)
+        if np.linalg.norm(points - side.evaluate(t), axis=1).max() > tolerance:
+            continue
+        low, high = side.space.domain
+        share = (t - low) / (high - low)
+        if closed[1 - axis]:
+            steps = np.diff(share)
+            share = share[0] + np.append(0.0, np.cumsum(steps - np.round(steps)))
+        ends = np.full((2, 2), float(end))
+        ends[:, 1 - axis] = share[[0, -1]]
+        whole = np.round(ends)
+        return Piece(np.where(np.abs(ends - whole) <= END_TOLERANCE, whole, ends), True)
+    return None

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Inertia tensors of single bodies as six plain numbers: turned, moved and diagonalized while a panel is drawn.
+
+Without numpy, as panels are. A frame is given by its three axes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import atan2, cos, hypot, sin
+from sys import float_info
+
+from ..numerics.vectors import cross, dot
+
+Vector = tuple[float, ...]
+Axes = tuple[Vector, ...]
+
+# The tensor's six entries, in the order in which they are stored on an object.
+TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
+IDENTITY: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
+# For each symmetry, the axes with equal moments.
+EQUAL_AXES = {"isotropic": (0, 1, 2), "prolate": (1, 2), "oblate": (0, 1), "asymmetric": ()}
+EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
+SWEEPS = 6  # of Jacobi's rotations, which converge quadratically
+EQUAL_TRACE_ATOL = 1e-6  # frames whose traces are closer than this are equally near
+MIN_ACROSS = 1e-6  # a shorter part of a vector has no direction
+
+
+def rotation_axes(turn: Sequence[float]) -> Axes:
+    """Return the axes of a rotation, the columns of its matrix, from a quaternion of any length."""
+    length = hypot(*turn)
+    if not length > 0.0:
+        return IDENTITY
+    w, x, y, z = (value / length for value in turn)
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
+        (2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)),
+        (2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)),
+    )
+
+
+def along_axes(vector: Sequence[float], axes: Axes) -> Vector:
+    """Return the components of a vector along axes."""
+    return tuple(dot(axis, vector) for axis in axes)
+
+
+def tensor_rows(tensor: Sequence[float]) -> Axes:
+    """Return the rows of the tensor's matrix."""
+    xx, yy, zz, xy, xz, yz = tensor
+    return (xx, xy, xz), (xy, yy, yz), (xz, yz, zz)
+
+
+def turn_tensor(tensor: Sequence[float], axes: Axes) -> Vector:
+    """Return the entries of a tensor along other axes."""
+    rows = tensor_rows(tensor)
+    images = [along_axes(axis, rows) for axis in axes]
+    return tuple(dot(images[i], axes[j]) for _, i, j in TENSOR)
+
+
+def move_tensor(tensor: Sequence[float], mass: float, arm: Sequence[float]) -> Vector:
+    """Return a tensor about a point from that about the center of mass, which is away by `arm`: parallel axes."""
+    x, y, z = arm
+    products = y * y + z * z, z * z + x * x, x * x + y * y, -x * y, -x * z, -y * z
+    return tuple(entry + mass * product for entry, product in zip(tensor, products))
+
+
+def frame_about(axis: Sequence[float]) -> Axes:
+    """Return a right-handed frame with this third axis; the first is a coordinate axis, projected."""
+    first = _across(IDENTITY[min(range(3), key=lambda i: abs(axis[i]))], axis)
+    return first, cross(axis, first), tuple(axis)
+
+
+def _across(vector: Sequence[float], axis: Sequence[float]) -> Vector:
+    """Return the direction of a vector's part that is perpendicular to an axis; () if there is none."""
+    along = dot(vector, axis)
+    part = [entry - along * other for entry, other in zip(vector, axis)]
+    length = hypot(*part)
+    return tuple(entry / length for entry in part) if length >= MIN_ACROSS else ()
+
+
+def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
+    """Return the principal moments, ascending, their axes and the symmetry, a member of SYMMETRIES.
+
+    The axes are those of `principal_frame` for a body whose third moments are unknown: right-handed and, as far as the
+    body leaves a choice, nearest to the coordinate axes.
+    """
+    axes = IDENTITY
+    for i, j, entry in SWEEPS * ((0, 1, 3), (0, 2, 4), (1, 2, 5)):
+        turned = turn_tensor(tensor, axes)
+        gap, twice = turned[i] - turned[j], 2.0 * turned[entry]
+        angle = 0.5 * atan2(twice if gap >= 0.0 else -twice, abs(gap))  # at most an eighth of a turn
+        c, s = cos(angle), sin(angle)
+        pairs = tuple(zip(axes[i], axes[j]))
+        moved = {i: tuple(c * a + s * b for a, b in pairs), j: tuple(c * b - s * a for a, b in pairs)}
+        axes = tuple(moved.get(k, axis) for k, axis in enumerate(axes))
+    (low, first), (middle, second), (high, _) = sorted(zip(turn_tensor(tensor, axes), axes))
+    high = min(high, low + middle)  # rounding may violate this for a flat body
+    spreads = (middle + high - low) / 2.0, (high + low - middle) / 2.0
+    rounding = 4.0 * float_info.epsilon * (low + middle + high)
+    is_oblate, is_prolate = (
+        gap <= EQUAL_MOMENTS_RTOL * spread + rounding for gap, spread in zip((middle - low, high - middle), spreads)
+    )
+    symmetry = SYMMETRIES[2 * is_oblate + is_prolate]
+    return (low, middle, high), _nearest_frame(first, second, EQUAL_AXES[symmetry]), symmetry
+
+
+def _nearest_frame(first: Vector, second: Vector, free: tuple[int, ...]) -> Axes:
+    """Return the frame along two axes and their cross product that is nearest to the coordinate axes; some are free.
+
+    If several are equally near, take the one with axes that, in order, point along rather than against them.
+    """
+    if len(free) == 3:
+        return IDENTITY
+    frames = []
+    for signs in ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)):
+        a, b = (tuple(sign * entry for entry in axis) for sign, axis in zip(signs, (first, second)))
+        frame = [a, b, cross(a, b)]
+        if free:
+            fixed = frame[3 - sum(free)]
+            wish = [u + v for u, v in zip(IDENTITY[free[0]], cross(IDENTITY[free[1]], fixed))]
+            # half a turn away any direction is as near: the one along a coordinate axis is taken
+            frame[free[0]] = _across(wish, fixed) or frame_about(fixed)[0]
+            frame[free[1]] = cross(fixed, frame[free[0]])
+        frames.append(tuple(frame))
+    traces = [sum(axis[i] for i, axis in enumerate(frame)) for frame in frames]
+    near = [frame for frame, trace in zip(frames, traces) if trace > max(traces) - EQUAL_TRACE_ATOL]
+    return max(near, key=lambda frame: [_points_along(axis) for axis in frame])
+
+
+def _points_along(axis: Vector) -> bool:
+    """Return whether an axis points along the coordinate axis nearest to it, not against it."""
+    largest = max(map(abs, axis))
+    return next(entry for entry in axis if abs(entry) > largest - EQUAL_TRACE_ATOL) > 0.0

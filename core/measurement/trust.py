@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The trust in numbers: the one verdict that panel, overlay, list, report and record show. Loads no numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from enum import StrEnum
+
+from ..solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
+from ..verdict.finding import Finding, Severity
+from ..verdict.findings import FLIPPED_FACES
+from ..verdict.method import Method, Verdict
+from ..verdict.sentences import severity
+
+REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
+# Warnings about repairs of the surface: a body with these warnings alone counts as repaired.
+REPAIRS = frozenset({VERTICES_WELDED, DUPLICATE_FACES_IGNORED, FLIPPED_FACES, INVERTED_COMPONENTS, HOLES_CAPPED})
+
+
+class Trust(StrEnum):
+    """Trust in numbers, the best first."""
+
+    EXACT = "exact"
+    REPAIRED = "repaired"
+    DOUBTFUL = "doubtful"
+    OUT_OF_DATE = "out of date"
+
+
+def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
+    """Return the trust in numbers that are up to date, by their method and findings."""
+    warnings = [found.code for found in findings if severity(found) != Severity.NOTE]
+    if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
+        return Trust.DOUBTFUL
+    return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
