@@ -30,7 +30,7 @@ from ..read.bones import RestBones, vertex_weights
 from ..read.fingerprint import digest, fingerprint, matrix_hash
 from ..read.objects import locate, read_object
 from ..read.reading import Part, to_si
-from ..read.rig import hanging_objects, pose_bone_of, rest_pose, rig_hash, rig_objects, skinned_objects
+from ..read.rig import hanging_objects, rest_pose, rig_hash, rig_objects, skinned_objects
 from ..settings.density import is_density_unset, unset_density
 from ..settings.options import AS_SET, MeasureOptions
 from .findings import (
@@ -267,7 +267,7 @@ class _Measuring:
     # ------------------------------------------------------------ Parts and their sum
 
     def _part(self, name: str, found: _Sum) -> BonePart:
-        settings = pose_bone_of(self.armature, name).body_moments
+        settings = self.armature.pose.bones[name].body_moments
         mass_from = "MESH" if self.is_given else settings.mass_from
         own = shortest_decimal(settings.density) if mass_from == "DENSITY" else None
         masses = [moments * (density if own is None else own) for moments, density in found.carriers]

@@ -21,7 +21,6 @@ from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, fin
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
-from ..read.rig import pose_bone_of
 from ..read.robots import (
     bone_freedom,
     bone_parents,
@@ -177,7 +176,7 @@ def bone_links(
         for part in rig.parts:
             if part.measurement is None:
                 continue
-            bone, label = pose_bone_of(armature, part.name), labels[part.name]
+            bone, label = armature.pose.bones[part.name], labels[part.name]
             parents = bone_parents(bone, labels)
             values, mimic, unusable = joint_values(bone)
             findings += unusable

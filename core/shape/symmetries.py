@@ -24,9 +24,23 @@ from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
 
-EQUAL_OPERATION_ATOL = 1e-6  # matrices of one operation are equal to this
+EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
+EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations is the operation nearest to it
+REFINEMENTS = 3  # of an operation by the surface
+MAX_REFINEMENT = 1e-2  # angle by which noise may have turned an operation
 MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
+
+# Groups by moments to sixth order, and the lower groups whose bodies have the same moments to that order.
+UNDECIDED = {
+    "Oh": "O or Oh",
+    "Ih": "I or Ih",
+    "D6h": "C6h, D6 or D6h",
+    "C6v": "C6 or C6v",
+    "D5h": "C5h or D5h",
+    "D5d": "S10 or D5d",
+    "D4d": "S8 or D4d",
+}
 
 Distance = Callable[[NDArray], NDArray]
 
@@ -133,13 +147,36 @@ def symmetry(
     return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
 
 
-def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
-    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface."""
+def confirm(
+    candidate: Symmetry,
+    center: NDArray,
+    points: NDArray,
+    distance: Distance,
+    tolerance: float,
+    nearest: Callable[[NDArray], NDArray] | None = None,
+) -> Symmetry:
+    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface.
+
+    nearest: returns the points of the surface nearest to given ones; with it, operations that noise has turned a little
+    are turned back first.
+    """
     points = points - center
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
-    def holds(operation: NDArray) -> bool:
-        return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
+    def holds(operation: NDArray, shift: NDArray | float = 0.0) -> bool:
+        return all((distance(part @ operation.T + center + shift) <= tolerance).all() for part in (some, points))
+
+    def holds_nearby(operation: NDArray) -> bool:
+        turned, shift = operation, np.zeros(3)
+        for _ in range(REFINEMENTS if nearest else 0):
+            if holds(turned, shift) or not np.isfinite(distance(some @ turned.T + center + shift)).all():
+                break
+            images = points @ turned.T + shift
+            turn, step = _motion_between(images, nearest(images + center) - center)
+            angle = float(np.linalg.norm(turn))
+            rotation = _axis_rotation(turn / (angle or 1.0), angle)
+            turned, shift = rotation @ turned, rotation @ shift + step
+        return np.abs(turned - operation).max() < MAX_REFINEMENT and holds(turned, shift)
 
     if len(candidate.revolution_axes) == 3:
         turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
@@ -151,11 +188,42 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
     if len(candidate.revolution_axes):
         axis = candidate.revolution_axes[0]
         if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
-            confirmed = [operation for operation in operations if holds(operation)]
-            return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
+            return Symmetry(
+                _held_group(operations, holds_nearby), candidate.revolution_axes, candidate.order, tolerance
+            )
         operations = _around_axis(points, axis, holds)
-    confirmed = np.array([operation for operation in operations if holds(operation)])
-    return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
+    return Symmetry(_held_group(operations, holds_nearby), np.empty((0, 3)), candidate.order, tolerance)
+
+
+def _motion_between(points: NDArray, nearest: NDArray) -> tuple[NDArray, NDArray]:
+    """Return the small turn, as a vector, and shift that bring points toward the `nearest` ones of a surface."""
+    gaps, reach = points - nearest, np.abs(points).max()
+    lengths = np.linalg.norm(gaps, axis=1)
+    away = gaps / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    motion = np.linalg.lstsq(np.hstack([np.cross(points / reach, away), away]), -lengths, rcond=1e-6)[0]
+    return motion[:3] / reach, motion[3:]
+
+
+def _held_group(operations: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
+    """Return the subgroup of the operations, a group, that hold: products of operations that do are not tested."""
+
+    def find(products: NDArray) -> NDArray[np.intp]:
+        alike = np.einsum("kij,nij->kn", products.reshape(-1, 3, 3), operations)
+        return alike.argmax(axis=1)[alike.max(axis=1) > 3.0 - EQUAL_PRODUCT_ATOL]
+
+    held = operations.trace(axis1=1, axis2=2) > 3.0 - EQUAL_OPERATION_ATOL
+    unknown = ~held
+    while unknown.any():
+        first = int(unknown.argmax())
+        if holds(operations[first]):
+            held[first], count = True, 0
+            while count < held.sum():
+                count = held.sum()
+                held[find(operations[held][:, None] @ operations[held])] = True
+            unknown &= ~held
+        else:  # nor does its coset
+            unknown[find(operations[first] @ operations[held])] = unknown[first] = False
+    return operations[held]
 
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:

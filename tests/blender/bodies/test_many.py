@@ -51,6 +51,13 @@ KINDS = {
     "inverted": lambda rng, i: s.inverted(s.random_hull(i)),
     "bent": lambda rng, i: (s.box()[0] + rng.uniform(-0.1, 0.1, (8, 3)), s.box()[1]),
     "flat": lambda rng, i: s.sheet(3),
+    "two-sided": lambda rng, i: (
+        np.column_stack([s.regular(4), np.zeros(4)]) @ np.linalg.qr(rng.normal(size=(3, 3)))[0],
+        [[0, 1, 2], [0, 2, 3], [1, 0, 3], [1, 3, 2]],
+    ),
+    "twice": lambda rng, i: (s.random_hull(i)[0], [*s.random_hull(i)[1], *s.random_hull(i)[1][:2]]),
+    "far": lambda rng, i: s.box((1e3, 1e3, 1e3), (1e3 + 0.1**i, 1e3 + 1.0, 1e3 + 1.0)),
+    "rod": lambda rng, i: s.box((3, 0, 0), (4, 1e-4, 1e-4)),
     "unwelded": lambda rng, i: s.unwelded(s.random_hull(i)),
 }
 

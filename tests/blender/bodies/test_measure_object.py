@@ -324,7 +324,7 @@ def test_a_thin_plate_keeps_its_axes_apart():
 
 
 def test_input_bounds_are_finite_for_far_and_uneven_bodies():
-    far = measure(add(box((2e6, 4e6, 4e6), (2e6 + 1, 4e6 + 1, 4e6 + 1))))
+    far = measure(add(box((2e6, 4e6, 4e6), (2e6 + 1, 4e6 + 1, 4e6 + 1))), kind="shell", thickness=0.01)
     assert not np.isnan([far.error_bound["input"][name] for name in far.error_bound["input"] if name != "input"]).any()
     uneven = measure(add(box((1 / 3,) * 3, (4 / 3,) * 3), scale=(1, 2, 3)), kind="shell", thickness=0.01)
     assert abs(uneven.area - 22.0) < uneven.error_bound["input"]["area"] < 1e-4
