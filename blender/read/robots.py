@@ -123,26 +123,17 @@ def joint_values(
     """Return the values of a joint that are custom properties, its mimic, and findings about unusable properties."""
     values: dict[str, float] = {}
     findings: list[Finding] = []
-
-    def number(key: str, is_valid: Callable[[float], bool]) -> float | None:
-        value: Any = owner.get(key)
-        if isinstance(value, (int, float)) and isfinite(value) and is_valid(value):
-            return float(value)
-        if value is not None:
-            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=owner.name, key=key, value=str(value)))
-        return None
-
-    for name in VALUES:
-        needs_more = name in ("effort", "velocity")  # without which a motor does not move
-        value = number("joint_" + name, lambda value, needs_more=needs_more: value > 0 or value == 0 and not needs_more)
-        if value is not None:
-            values[name] = value
+    for name in (*VALUES, "mimic_multiplier", "mimic_offset"):
+        value: Any = owner.get("joint_" + name)
+        is_number = isinstance(value, (int, float)) and isfinite(value)
+        # A motor without effort or velocity would not move.
+        if is_number and (name.startswith("mimic") or value > 0 or value == 0 and name not in ("effort", "velocity")):
+            values[name] = float(value)
+        elif value is not None:
+            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=owner.name, key="joint_" + name, value=str(value)))
+    factors = values.pop("mimic_multiplier", 1.0), values.pop("mimic_offset", 0.0)
     leader = owner.get("joint_mimic")
-    if leader is None:
-        return values, None, findings
-    factors = [number("joint_mimic_" + name, lambda _: True) for name in ("multiplier", "offset")]
-    pairs = zip(factors, (1.0, 0.0))
-    return values, Mimic(str(leader), *(other if value is None else value for value, other in pairs)), findings
+    return values, None if leader is None else Mimic(str(leader), *factors), findings
 
 
 def link_surface(

@@ -15,21 +15,14 @@ from numpy.typing import NDArray
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.robots.findings import ROBOT_WITHOUT_LINKS
-from ...core.robots.links import Candidate, assemble_robot, make_candidate
+from ...core.robots.links import Candidate, Connection, assemble_robot, make_candidate
 from ...core.robots.model import Robot
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
-from ..read.robots import (
-    bone_freedom,
-    bone_parents,
-    constraint_connections,
-    is_passive,
-    joint_values,
-    link_surface,
-    object_candidate,
-)
+from ..read import robots as reading
+from ..read.robots import link_surface, object_candidate
 from ..read.visibility import measurable
 from ..settings.options import AS_SET, MeasureOptions
 from ..write import reports
@@ -76,26 +69,16 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
 
 
 def jointed_robot(
-    context: Context,
-    name: str,
-    made: Sequence[Candidate],
-    labels: Mapping[Object, str],
-    unit: float,
-    fixed_base: bool = False,
+    context: Context, name: str, made: Sequence[Candidate], labels: Mapping[Object, str], unit: float
 ) -> tuple[Robot, list[Finding]]:
     """Return a robot of candidates with the joints of the scene's rigid-body constraints, and findings."""
-    connections, bases, findings = constraint_connections(context.scene, labels, unit)
-    robot, more = assemble_robot(name, [*made, *bases], connections, fixed_base)
+    connections, bases, findings = reading.constraint_connections(context.scene, labels, unit)
+    robot, more = assemble_robot(name, [*made, *bases], connections)
     return robot, [*findings, *more]
 
 
 def object_links(
-    context: Context,
-    name: str,
-    objects: list[Object],
-    step: Callable[[float], None] = lambda done: None,
-    *,
-    fixed_base: bool = False,
+    context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
     """Return a robot with a link for each object that can be measured. step: gets the number of finished objects."""
     depsgraph = context.evaluated_depsgraph_get()
@@ -113,19 +96,13 @@ def object_links(
     labels = {obj: obj.name_full for obj in measured}
     made = [object_candidate(labels[obj], obj, measurement, labels) for obj, measurement in measured.items()]
     unit = AS_SET.meters_per_unit(context.scene)
-    robot, findings = jointed_robot(context, name, made, labels, unit, fixed_base)
+    robot, findings = jointed_robot(context, name, made, labels, unit)
     members = {label: [obj] for obj, label in labels.items()}
     return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], unit, members)
 
 
 def collection_links(
-    context: Context,
-    name: str,
-    root: Collection,
-    objects: list[Object],
-    options: MeasureOptions = AS_SET,
-    *,
-    fixed_base: bool = False,
+    context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
 ) -> SceneLinks:
     """Return a robot with a link along the world's axes for each child collection of `root`, or for a childless `root`.
 
@@ -144,24 +121,17 @@ def collection_links(
         held = {*collection.all_objects}
         labels.update(dict.fromkeys(held, label))
         members[label] = [obj for obj in objects if obj in held and measurable(obj)]
-        made.append(make_candidate(label, measurement, is_fixed=any(map(is_passive, held))))
+        made.append(make_candidate(label, measurement, is_fixed=any(map(reading.is_passive, held))))
     if not made:
         raise EditRefusedError(failures[0])
     unit = options.meters_per_unit(context.scene)
-    robot, findings = jointed_robot(context, name, made, labels, unit, fixed_base)
+    robot, findings = jointed_robot(context, name, made, labels, unit)
     return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
 
 
-def bone_links(
-    context: Context,
-    name: str,
-    objects: list[Object],
-    options: MeasureOptions = AS_SET,
-    *,
-    fixed_base: bool = False,
-) -> SceneLinks:
+def bone_links(context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET) -> SceneLinks:
     """Return a robot with a link, in rest frame, for each bone that has a part, and joints with the bones' limits."""
-    made, findings, pieces = [], [], {}
+    made, connections, findings, pieces = [], [], [], {}
     unit = options.meters_per_unit(context.scene)
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:
@@ -177,15 +147,17 @@ def bone_links(
             if part.measurement is None:
                 continue
             bone, label = armature.pose.bones[part.name], labels[part.name]
-            parents = bone_parents(bone, labels)
-            values, mimic, unusable = joint_values(bone)
+            parents = reading.bone_parents(bone, labels)
+            values, mimic, unusable = reading.joint_values(bone)
             findings += unusable
-            free = bone_freedom(bone, values, unit)
-            made.append(make_candidate(label, part.measurement, parents, free=free, mimic=mimic))
+            free = reading.bone_freedom(bone, values, unit)
+            made.append(make_candidate(label, part.measurement))
+            if parents:
+                connections.append(Connection("{}_joint".format(label), parents[0], label, None, free, mimic))
             pieces[label] = part.surfaces
     if not made:
         raise EditRefusedError(ROBOT_WITHOUT_BONES)
-    robot, left = assemble_robot(name, made, fixed_base=fixed_base)
+    robot, left = assemble_robot(name, made, connections)
     return SceneLinks(robot, [*findings, *left], unit, pieces=pieces)
 
 

@@ -51,9 +51,10 @@ def complete(
     if options.format not in FORMATS:
         return document
     if options.links == "object" or not is_opened:
-        made = _by_object(document, measured, measure_options, options.fixed_base)
+        made = _by_object(document, measured, measure_options)
     else:
-        made = _of_scene(document, measured, options.links, measure_options, options.fixed_base)
+        made = _of_scene(document, measured, options.links, measure_options)
+    made = replace(made, robot=made.robot.with_fixed_roots()) if options.fixed_base else made
     robot, told, failed = with_primitives(made.robot, "none"), [], []
     if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
         surface_of, read = partial(made.surface, bpy.context), Path(document["file"]) if document["file"] else None
@@ -71,26 +72,19 @@ def complete(
 
 
 def _by_object(
-    document: dict[str, Any],
-    measured: Sequence[MeasuredObject],
-    measure_options: MeasureOptions,
-    fixed_base: bool,
+    document: dict[str, Any], measured: Sequence[MeasuredObject], measure_options: MeasureOptions
 ) -> SceneLinks:
     """Return the measured objects as links."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
     made = [object_candidate(label, obj, one, labels) for label, obj, one in measured]
     made.sort(key=lambda one: one.name)
     unit = measure_options.meters_per_unit(bpy.context.scene)
-    robot, findings = jointed_robot(bpy.context, robot_name(document["file"]), made, labels, unit, fixed_base)
+    robot, findings = jointed_robot(bpy.context, robot_name(document["file"]), made, labels, unit)
     return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
 
 
 def _of_scene(
-    document: dict[str, Any],
-    measured: Sequence[MeasuredObject],
-    links: str,
-    measure_options: MeasureOptions,
-    fixed_base: bool,
+    document: dict[str, Any], measured: Sequence[MeasuredObject], links: str, measure_options: MeasureOptions
 ) -> SceneLinks:
     """Return the scene's collections or bones as links; if they are refused, no links and the finding."""
     name, context = robot_name(document["file"]), bpy.context
@@ -98,8 +92,8 @@ def _of_scene(
     try:
         if links == "bone":
             objects = [obj for obj in context.view_layer.objects if not obj.hide_render]
-            return bone_links(context, name, objects, given, fixed_base=fixed_base)
+            return bone_links(context, name, objects, given)
         objects = [obj for _, obj, _ in measured if obj is not None]
-        return collection_links(context, name, context.scene.collection, objects, given, fixed_base=fixed_base)
+        return collection_links(context, name, context.scene.collection, objects, given)
     except MeasureError as error:
         return SceneLinks(Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene))

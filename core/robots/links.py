@@ -25,20 +25,15 @@ from .model import FreeAxis, Inertial, Joint, Link, Mimic, Pose, Robot, Shape
 
 
 class Candidate(NamedTuple):
-    """A measured body. link: None if the body has no mass.
-
-    parents: names of other candidates, the nearest first. free: its degrees of freedom relative to its parent.
-    """
+    """A measured body. link: None if the body has no mass. parents: names of other candidates, the nearest first."""
 
     name: str
     link: Link | None
     parents: Sequence[str] = ()
-    free: tuple[FreeAxis, ...] = ()
-    mimic: Mimic | None = None
 
 
 class Connection(NamedTuple):
-    """A joint between two candidates, "" for anything else. pose: its frame in the world, m.
+    """A joint between two candidates; "" is anything else. pose: its frame in the world, m; by default the second's.
 
     free: freedom of `second` relative to `first`, the axis next to `first` first.
     """
@@ -46,7 +41,7 @@ class Connection(NamedTuple):
     name: str
     first: str
     second: str
-    pose: Pose
+    pose: Pose | None = None
     free: tuple[FreeAxis, ...] = ()
     mimic: Mimic | None = None
 
@@ -61,8 +56,6 @@ def make_candidate(
     measurement: Measurement,
     parents: Sequence[str] = (),
     scale: Sequence[float] = (1.0, 1.0, 1.0),
-    free: tuple[FreeAxis, ...] = (),
-    mimic: Mimic | None = None,
     is_fixed: bool = False,
 ) -> Candidate:
     """Return a candidate with the measured body as a link in its own frame. scale: (3,) of the object's geometry."""
@@ -73,39 +66,28 @@ def make_candidate(
     inertial = Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
     pose = Pose(measurement.location, rotation_matrix(quaternion(measurement.rotation)))
     shapes = () if measurement.kind == "wire" else (Shape("mesh", sheet=measurement.kind == "shell"),)
-    return Candidate(name, Link(name, inertial, pose, shapes, np.array(scale), is_fixed), parents, free, mimic)
+    return Candidate(name, Link(name, inertial, pose, shapes, np.array(scale), is_fixed), parents)
 
 
 def assemble_robot(
-    name: str,
-    candidates: Sequence[Candidate],
-    connections: Sequence[Connection] = (),
-    fixed_base: bool = False,
+    name: str, candidates: Sequence[Candidate], connections: Iterable[Connection] = ()
 ) -> tuple[Robot, list[Finding]]:
-    """Return a robot of the candidates with mass, joined to their nearest parents, and findings.
+    """Return a robot of the candidates with mass, and findings.
 
-    connections: joints that take the place of the fixed joint to a parent, or hold links that have no parent.
-    fixed_base: whether all roots are fixed to the world.
+    A connection takes the place of the fixed joint to a parent, or holds links that have no parent.
     """
     links = {one.name: one.link for one in candidates if one.link is not None}
-    parents = {}
-    for one in candidates:
-        parent = next((above for above in one.parents if above in links and above != one.name), None)
-        if parent is not None and one.name in links:
-            parents[one.name] = parent
+    nearest = {one.name: next((name for name in one.parents if name in links and name != one.name), None)
+               for one in candidates if one.link is not None}  # fmt: skip
+    parents = {child: parent for child, parent in nearest.items() if parent is not None}
     loose = [one.name for one in connections if (one.first in links) != (one.second in links)]
-    whole = [one for one in connections if one.first in links and one.second in links]
-    edges, loops = _spanning_edges(links, parents, whole)
-    own = {one.name: (one.free, one.mimic) for one in candidates}
-    joints, findings = _check_mimics(_directed_joints(links, parents, edges, own))
-    if fixed_base:
-        below = {joint.child for joint in joints}
-        links = {key: replace(link, is_fixed=link.is_fixed or key not in below) for key, link in links.items()}
+    edges, loops = _spanning_edges(links, parents, [one for one in connections if {one.first, one.second} <= {*links}])
+    joints, findings = _check_mimics(_directed_joints(links, edges))
+    left_out = [one.name for one in candidates if one.link is None]
     if loose:
         findings.append(finding(JOINTS_WITHOUT_LINKS, count=len(loose), joints=loose))
     if loops:
         findings.append(finding(JOINTS_CLOSE_LOOP, count=len(loops), joints=loops))
-    left_out = [one.name for one in candidates if one.link is None]
     if left_out:
         findings.append(finding(ROBOT_LINKS_LEFT_OUT, count=len(left_out), links=left_out))
     if not links:
@@ -113,68 +95,59 @@ def assemble_robot(
     return Robot(name, tuple(links.values()), tuple(joints)), findings
 
 
-_Edge = tuple[str, str, Connection | None]  # the side of the parent, the side of the child
-
-
 def _spanning_edges(
     links: Mapping[str, Link], parents: Mapping[str, str], connections: Sequence[Connection]
-) -> tuple[list[_Edge], list[str]]:
-    """Return edges that make trees of the links, and the names of connections that would close a loop.
+) -> tuple[list[Connection], list[str]]:
+    """Return edges that make trees of the links, parents first, and the names of connections that would close a loop.
 
-    All fixed links count as one, the world.
+    All fixed links count as one, the world, which has no name.
     """
-    group: dict[str | None, str | None] = {}
+    group: dict[str, str] = {}
 
-    def top(name: str | None) -> str | None:
-        while name in group:
-            name = group[name]
-        return name
+    def join(first: str, second: str) -> bool:
+        tops = []
+        for name in (first, second):
+            while name in group:
+                name = group[name]
+            tops.append(name)
+        if tops[0] != tops[1]:
+            group[max(tops)] = min(tops)
+        return tops[0] != tops[1]
 
-    def join(first: str | None, second: str | None) -> bool:
-        first, second = top(first), top(second)
-        if first == second:
-            return False
-        if first is None:
-            first, second = second, first
-        group[first] = second
-        return True
-
-    between: dict[frozenset[str], Connection] = {}
-    for one in connections:
-        between.setdefault(frozenset((one.first, one.second)), one)
-    edges: list[_Edge] = []
+    between = {frozenset((one.first, one.second)): one for one in reversed(connections)}
+    edges, names = [], {one.name for one in connections}
     for child, parent in parents.items():
-        both_fixed = links[child].is_fixed and links[parent].is_fixed
-        edges.append((parent, child, None if both_fixed else between.get(frozenset((parent, child)))))
+        edge = between.get(frozenset((parent, child)))
+        if edge is None or links[child].is_fixed and links[parent].is_fixed:
+            name = "{}_joint".format(child)
+            edge = Connection(name + "_" * (name in names), parent, child)
+        # The side of the parent comes first.
+        edges.append(edge if edge.first == parent else _exchange(edge, links))
         join(parent, child)
     for link in links.values():
         if link.is_fixed:
-            join(link.name, None)
-    used, loops = {id(one) for *_, one in edges if one is not None}, []
-    for one in connections:
-        if id(one) in used:
-            continue
-        if join(one.first, one.second):
-            edges.append((one.first, one.second, one))
-        else:
-            loops.append(one.name)
-    return edges, loops
+            join("", link.name)
+    used = {edge.name for edge in edges} & names
+    rest = [one for one in connections if one.name not in used]
+    joined = [join(one.first, one.second) for one in rest]
+    edges += [one for one, is_tree in zip(rest, joined) if is_tree]
+    return edges, [one.name for one, is_tree in zip(rest, joined) if not is_tree]
 
 
-def _directed_joints(
-    links: Mapping[str, Link],
-    parents: Mapping[str, str],
-    edges: Sequence[_Edge],
-    own: Mapping[str, tuple[tuple[FreeAxis, ...], Mimic | None]],
-) -> list[Joint]:
-    """Return the edges as joints, from fixed links or from the top of parents and first sides to the others."""
+def _exchange(edge: Connection, links: Mapping[str, Link]) -> Connection:
+    """Return the connection of the same positions as seen from its other side."""
+    free = tuple(axis.reverse() for axis in reversed(edge.free))
+    return edge._replace(first=edge.second, second=edge.first, pose=edge.pose or links[edge.second].pose, free=free)
+
+
+def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> list[Joint]:
+    """Return the edges as joints, from fixed links to others, else from the top of first sides."""
     above: dict[str, str] = {}
-    at: dict[str, list[_Edge]] = {name: [] for name in links}
+    around: dict[str, list[Connection]] = {name: [] for name in links}
     for edge in edges:
-        first, second, _ = edge
-        above.setdefault(second, first)  # Parents come first.
-        at[first].append(edge)
-        at[second].append(edge)
+        above.setdefault(edge.second, edge.first)
+        around[edge.first].append(edge)
+        around[edge.second].append(edge)
 
     def path_up(name: str) -> list[str]:
         path = [name]
@@ -185,57 +158,33 @@ def _directed_joints(
     fixed = sorted((link.name for link in links.values() if link.is_fixed), key=lambda name: len(path_up(name)))
     joints: dict[str, Joint] = {}
     visited: set[str] = set()
-    taken: set[str] = set()
     for root in [*fixed, *(path_up(name)[-1] for name in links)]:
-        if root in visited:
-            continue
-        visited.add(root)
-        waiting = [root]
+        waiting = [root] if root not in visited else []
         while waiting:
             parent = waiting.pop()
-            for first, second, connection in at[parent]:
-                child = second if first == parent else first
+            visited.add(parent)
+            for edge in around[parent]:
+                edge = edge if edge.first == parent else _exchange(edge, links)
+                child, pose = edge.second, Pose()
                 if child in visited:
                     continue
-                visited.add(child)
                 waiting.append(child)
-                name = _free_name("{}_joint".format(child) if connection is None else connection.name, taken)
-                is_parent = parents.get(child) == parent
-                if connection is None:
-                    free, mimic = own[child] if is_parent else ((), None)
-                    joints[child] = Joint(name, parent, child, free, mimic=mimic)
-                    continue
-                free = connection.free
-                if connection.first != parent:
-                    free = tuple(axis.reverse() for axis in reversed(free))
-                pose = links[child].pose.inverse() @ connection.pose
-                joints[child] = Joint(name, parent, child, free, pose, connection.mimic)
+                if edge.pose is not None:
+                    pose = links[child].pose.inverse() @ edge.pose
+                joints[child] = Joint(edge.name, parent, child, edge.free, pose, edge.mimic)
     return [joints[name] for name in links if name in joints]
-
-
-def _free_name(name: str, taken: set[str]) -> str:
-    """Return a name that is not taken, and take it."""
-    free, count = name, 1
-    while free in taken:
-        count += 1
-        free = "{}_{}".format(name, count)
-    taken.add(free)
-    return free
 
 
 def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
     """Return the joints, with mimics that name other joints of one axis, and findings about mimics that do not."""
-    joints, findings = list(joints), []
-    single = {joint.child: joint.name for joint in joints if len(joint.free) == 1}
-    single.update({name: name for name in single.values()})
-    for index, joint in enumerate(joints):
-        if joint.mimic is None:
-            continue
-        leader, mimic = single.get(joint.mimic.joint), None
-        if leader is None or leader == joint.name or joint.name not in single:
+    checked, findings = [*joints], []
+    single = {joint.child: joint.name for joint in checked if len(joint.free) == 1}
+    single |= {name: name for name in single.values()}
+    for index, joint in enumerate(checked):
+        mimic = joint.mimic and joint.mimic._replace(joint=single.get(joint.mimic.joint, ""))
+        if mimic and (mimic.joint in ("", joint.name) or joint.name not in single):
             named = joint.mimic.joint
             findings.append(finding(JOINT_VALUE_UNUSABLE, joint=joint.name, key="joint_mimic", value=named))
-        else:
-            mimic = joint.mimic._replace(joint=leader)
-        joints[index] = replace(joint, mimic=mimic)
-    return joints, findings
+            mimic = None
+        checked[index] = replace(joint, mimic=mimic)
+    return checked, findings

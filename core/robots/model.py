@@ -236,22 +236,24 @@ class Robot:
         joint = self.joint_of(link.name)
         return link.pose if joint is None else self.link(joint.parent).pose.inverse() @ link.pose
 
+    def with_fixed_roots(self) -> Robot:
+        """Return the robot with all its roots fixed to the world."""
+        roots = {link.name for link in self.roots}
+        return replace(self, links=tuple(replace(one, is_fixed=one.name in roots) for one in self.links))
+
     def at_joints(self) -> Robot:
         """Return the robot with each link's origin at its joint, its axes unturned, for formats that demand it."""
-        links, joints = [], []
+        places = {joint.child: joint.pose.position for joint in self.joints if joint.pose.position.any()}
+        links = []
         for link in self.links:
-            joint = self.joint_of(link.name)
-            if joint is not None and joint.pose.position.any():
-                place, back = Pose(joint.pose.position), Pose(-joint.pose.position)
-                inertial = link.inertial
-                if inertial is not None:
-                    inertial = replace(inertial, center=inertial.center + back.position)
+            if link.name in places:
+                place, back = Pose(places[link.name]), Pose(-places[link.name])
                 shapes = tuple(replace(shape, pose=back @ shape.pose) for shape in link.shapes)
+                inertial = link.inertial and link.inertial.place(back)
                 link = replace(link, inertial=inertial, pose=link.pose @ place, shapes=shapes)
             links.append(link)
-        for joint in self.joints:
-            joints.append(replace(joint, pose=Pose(rotation=joint.pose.rotation)))
-        return replace(self, links=tuple(links), joints=tuple(joints))
+        joints = tuple(replace(joint, pose=Pose(rotation=joint.pose.rotation)) for joint in self.joints)
+        return replace(self, links=tuple(links), joints=joints)
 
     def rigid_parts(self, link: Link) -> list[Link]:
         """Return a link and all links below it that are connected by fixed joints only, parents first."""

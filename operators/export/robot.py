@@ -5,6 +5,7 @@
 The exporters of collections keep their path and options in the .blend; Blender runs them again by Export All.
 """
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -72,6 +73,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         path = Path(bpy.path.abspath(self.filepath))
         objects = session.robots.candidates(context, self.collection, self.use_selection)
         made = self._links(context, objects, path.stem)
+        made = replace(made, robot=made.robot.with_fixed_roots()) if self.fixed_base else made
         findings = self._export(context, made, path)
         done = "{count} link exported to {file}.", "{count} links exported to {file}."
         selection.report(self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings)
@@ -79,12 +81,12 @@ class RobotExport(selection.InObjectMode, ExportHelper):
 
     def _links(self, context: Context, objects: list[Object], name: str) -> "SceneLinks":
         if self.links == "BONE":
-            return session.robots.bone_links(context, name, objects, fixed_base=self.fixed_base)
+            return session.robots.bone_links(context, name, objects)
         if self.links == "COLLECTION":
             root = bpy.data.collections[self.collection] if self.collection else context.scene.collection
-            return session.robots.collection_links(context, name, root, objects, fixed_base=self.fixed_base)
+            return session.robots.collection_links(context, name, root, objects)
         with reports.progress(len(objects)) as step:
-            return session.robots.object_links(context, name, objects, step, fixed_base=self.fixed_base)
+            return session.robots.object_links(context, name, objects, step)
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
         robot, bare = made.robot, []

@@ -23,17 +23,17 @@ from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding
 from ..model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from .gltf import KHR, OMI, Y_UP, body_extensions
+from .joints import NAMES, lost_values
 from .marker import MARKER
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
-from .text import lost_values, stated_values, unique_names
+from .text import unique_names
 
-DRIVE = {"damping": "damping", "stiffness": "stiffness", "effort": "maxForce"}
 SHAPES = "KHR_implicit_shapes"
 
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
-    return ellipsoids_as_boxes(robot) + lost_values(robot, "glTF", lambda joint: stated_values(joint) - {*DRIVE})
+    return ellipsoids_as_boxes(robot) + lost_values(robot, "glTF")
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -184,7 +184,7 @@ def _drives(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
     """Return the drives of a joint's axes with known values, at rest."""
     drives: list[dict[str, Any]] = []
     for free in joint.free:
-        values = {DRIVE[key]: free.values[key] for key in DRIVE if key in free.values}
+        values = {name: free.values[key] for key, name in NAMES["glTF"].items() if key in free.values}
         if values:
             kind = "angular" if free.kind == "rotate" else "linear"
             drives.append({"type": kind, "mode": "force", "axis": _direction(free, turn)[1], **values})

@@ -16,21 +16,10 @@ from ...verdict.finding import Finding, finding
 from ..findings import MJCF_INERTIA_TOO_SMALL, MJCF_MESH_TOO_LARGE
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
-from .text import (
-    document,
-    inertial_element,
-    is_identity,
-    lost_values,
-    number,
-    numbers,
-    stated_values,
-    unique_names,
-    xml_name,
-    xml_text,
-)
+from .joints import NAMES, lost_values
+from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_name, xml_text
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses moving bodies of less mass or inertia, kg and kg·m².
-DYNAMICS = {"damping": "damping", "friction": "frictionloss", "stiffness": "stiffness"}
 MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
 
 
@@ -49,11 +38,9 @@ def check(robot: Robot) -> list[Finding]:
     large = [name for name, one in surfaces if one is not None and len(one.all_triangles()[0]) > MOST_TRIANGLES]
     if large:
         findings.append(finding(MJCF_MESH_TOO_LARGE, count=len(large), links=large, limit=MOST_TRIANGLES))
-    return findings + lost_values(robot, "MJCF", _lost)
-
-
-def _lost(joint: Joint) -> set[str]:
-    return stated_values(joint) & ({"velocity", "effort"} if joint.is_ball else {"velocity"})
+    return findings + lost_values(
+        robot, "MJCF", lambda joint, stated: stated & ({"effort"} if joint.is_ball else set())
+    )
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -136,9 +123,9 @@ def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, na
                 element.set("actuatorfrcrange", numbers((-free.values["effort"], free.values["effort"])))
         if free.is_limited:
             element.set("range", numbers((max(free.lower, -1e10), min(free.upper, 1e10))))
-        for key, attribute in DYNAMICS.items():
-            if key in free.values:
-                element.set(attribute, number(free.values[key]))
+        for key, value in free.values.items():
+            if NAMES["MJCF"].get(key):
+                element.set(NAMES["MJCF"][key], number(value))
 
 
 def _add_inertial(body: Element, inertial: Inertial) -> None:

@@ -18,21 +18,10 @@ from ...numerics.rotations import quaternion
 from ...verdict.finding import Finding
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
-from .text import (
-    add_text,
-    document,
-    inertial_element,
-    is_identity,
-    lost_values,
-    number,
-    numbers,
-    stated_values,
-    unique_names,
-    xml_name,
-)
+from .joints import NAMES, lost_values
+from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_name
 
 VERSION = "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
-DYNAMICS = {"damping": "damping", "friction": "friction", "stiffness": "spring_stiffness"}
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 
@@ -41,13 +30,12 @@ def check(robot: Robot) -> list[Finding]:
     return lost_values(robot, "SDF", _lost)
 
 
-def _lost(joint: Joint) -> set[str]:
-    """Return the names of values that SDF 1.9 cannot say: mimics, axes after a slide's, all values of a ball joint."""
-    kind, count = _joint_type(joint), len(joint.free)
-    lost = stated_values(joint) & {"mimic"}
+def _lost(joint: Joint, stated: set[str]) -> set[str]:
+    """Return the names of all values of a ball joint, with "limits"; "axes" if a joint has more than are written."""
+    kind = _joint_type(joint)
     if kind == "ball":
-        return stated_values(joint) if joint.is_ball else {*stated_values(joint), "limits"}
-    return {*lost, "axes"} if count > (2 if kind == "universal" else 1) else lost
+        return stated if joint.is_ball else {*stated, "limits"}
+    return {"axes"} if len(joint.free) > (2 if kind == "universal" else 1) else set()
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -70,14 +58,12 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         add_text(element, "parent", names[joint.parent])
         add_text(element, "child", names[joint.child])
         _add_axes(element, joint)
-    taken = {*names.values(), *joint_names.values()}
-    for link in () if inertial_only else robot.roots:
-        if link.is_fixed:
-            name = unique_names([link.name], lambda _, link=link: names[link.name] + "_joint", taken)[link.name]
-            taken.add(name)
-            element = SubElement(model, "joint", name=name, type="fixed")
-            add_text(element, "parent", "world")
-            add_text(element, "child", names[link.name])
+    bases = [] if inertial_only else [link.name for link in robot.roots if link.is_fixed]
+    taken = [*names.values(), *joint_names.values()]
+    for base, name in unique_names(bases, lambda name: names[name] + "_joint", taken).items():
+        element = SubElement(model, "joint", name=name, type="fixed")
+        add_text(element, "parent", "world")
+        add_text(element, "child", names[base])
     return document(root, "sdf", remarks)
 
 
@@ -163,11 +149,10 @@ def _add_axes(element: Element, joint: Joint) -> None:
         limit = SubElement(axis, "limit")
         for name, value in (("lower", free.lower), ("upper", free.upper)):
             add_text(limit, name, number(value))
-        for name in ("effort", "velocity"):
-            if name in free.values:
-                add_text(limit, name, number(free.values[name]))
-        dynamics = {tag: free.values[name] for name, tag in DYNAMICS.items() if name in free.values}
-        if dynamics:
-            element_ = SubElement(axis, "dynamics")
-            for name, value in dynamics.items():
-                add_text(element_, name, number(value))
+        groups = {"effort": limit, "velocity": limit}
+        for name, value in free.values.items():
+            if name not in groups:
+                groups[name] = (
+                    axis.find("dynamics") if axis.find("dynamics") is not None else SubElement(axis, "dynamics")
+                )
+            add_text(groups[name], NAMES["SDF"][name], number(value))

@@ -13,9 +13,7 @@ from xml.etree.ElementTree import Element, SubElement
 import numpy as np
 from numpy.typing import NDArray
 
-from ...verdict.finding import Finding, finding
-from ..findings import JOINT_VALUES_LOST
-from ..model import Inertial, Joint, Pose, Robot
+from ..model import Inertial, Pose
 from .marker import MARKER
 
 _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -43,20 +41,6 @@ def xml_name(text: str) -> str:
     inner = text.strip()
     start = len(text) - len(text.lstrip()) if inner else 0
     return "_" * start + inner + "_" * (len(text) - start - len(inner)) if text else "_"
-
-
-def lost_values(robot: Robot, form: str, lost: Callable[[Joint], Iterable[str]]) -> list[Finding]:
-    """Return the finding about joints for which a format loses values or freedoms, empty if it loses none."""
-    by_joint = {joint.name: [*lost(joint)] for joint in robot.joints}
-    joints = [name for name, names in by_joint.items() if names]
-    values = sorted({name for names in by_joint.values() for name in names})
-    return [finding(JOINT_VALUES_LOST, format=form, values=values, joints=joints)] if joints else []
-
-
-def stated_values(joint: Joint) -> set[str]:
-    """Return the names of the known values of a joint, with "mimic"."""
-    names = {name for free in joint.free for name in free.values}
-    return names if joint.mimic is None else {*names, "mimic"}
 
 
 def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iterable[str] = ()) -> dict[str, str]:

@@ -18,20 +18,9 @@ from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
+from .joints import lost_values
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
-from .text import (
-    document,
-    inertial_element,
-    is_identity,
-    lost_values,
-    number,
-    numbers,
-    roll_pitch_yaw,
-    stated_values,
-    unique_names,
-    xml_name,
-    xml_text,
-)
+from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_name
 
 BASE, WORLD = "base_link", "world"
 LEAST = 1e-14  # kg and kg·m² that MuJoCo gives massless frames, as it refuses less than 1e-15.
@@ -54,14 +43,14 @@ def check(robot: Robot) -> list[Finding]:
     ]
     if unknown:
         findings.append(finding(URDF_EFFORT_UNKNOWN, count=len(unknown), joints=unknown))
-    return findings + lost_values(robot, "URDF", lambda joint: stated_values(joint) & {"stiffness"})
+    return findings + lost_values(robot, "URDF")
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their inertials."""
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_name)
-    root = Element("robot", name=xml_text(robot.name))
+    root = Element("robot", name=xml_name(robot.name))
     taken = {*names.values()}
     base = None
     if not inertial_only:

@@ -22,12 +22,12 @@ from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import Description, StatedInertial, StatedLink
+from .joints import NAMES, lost_values
 from .marker import MARKER
-from .text import lost_values, number, stated_values, unique_names
+from .text import number, unique_names
 
 ROOT = "Robot"
 ARTICULATION = "PhysicsArticulationRootAPI"
-DRIVE = {"damping": "damping", "stiffness": "stiffness", "effort": "maxForce"}
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
 LEAST = float(np.finfo(np.float32).tiny)  # The least number that float32 holds with all its digits.
 _MASS_ATTRIBUTE = re.compile(
@@ -44,12 +44,8 @@ def check(robot: Robot) -> list[Finding]:
         link.name for link in robot.links if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
     ]
     findings = [finding(USD_INERTIA_TOO_SMALL, count=len(small), links=small)] if small else []
-    return findings + lost_values(robot, "USD", _lost)
-
-
-def _lost(joint: Joint) -> set[str]:
-    """Return the names of values that UsdPhysics cannot say; its spherical joints have no drives."""
-    return stated_values(joint) & ({*DRIVE} if joint.is_ball else set()) | stated_values(joint) - {*DRIVE}
+    # Spherical joints have no drives.
+    return findings + lost_values(robot, "USD", lambda joint, stated: stated if joint.is_ball else set())
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -68,25 +64,12 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         lines += _prim("def Xform", names[link.name], inner, () if inertial is None else APIS)
     for joint in () if inertial_only else robot.joints:
         lines += _joint(robot, joint, joints[joint.name], names)
-    bases = [] if inertial_only else [link for link in robot.roots if link.is_fixed]
+    bases = {} if inertial_only else {link.name: link for link in robot.roots if link.is_fixed}
     taken = [*names.values(), *joints.values()]
-    for link in bases:
-        taken.append(unique_names([link.name], lambda name: names[name] + "_base", taken)[link.name])
-        lines += base_joint(taken[-1], "/{}/{}".format(ROOT, names[link.name]), link.pose)
+    for base, name in unique_names(bases, lambda name: names[name] + "_base", taken).items():
+        lines += _prim("def PhysicsFixedJoint", name, _ends(None, names[base], bases[base].pose))
     apis = (ARTICULATION,) if not inertial_only and (robot.joints or bases) else ()
     return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *_prim("def Xform", ROOT, lines, apis), ""])
-
-
-def base_joint(name: str, path: str, pose: Pose) -> list[str]:
-    """Return the lines of a joint that fixes a prim to the world."""
-    lines = [
-        "rel physics:body1 = <{}>".format(path),
-        "point3f physics:localPos0 = {}".format(singles(pose.position)),
-        "quatf physics:localRot0 = {}".format(singles(quaternion(pose.rotation))),
-        "point3f physics:localPos1 = (0, 0, 0)",
-        "quatf physics:localRot1 = (1, 0, 0, 0)",
-    ]
-    return _prim("def PhysicsFixedJoint", name, lines)
 
 
 def write_over(
@@ -112,11 +95,12 @@ def write_over(
             for name in path:
                 branch = branch.setdefault(name, {})
     top = next(iter(tree), ROOT)
-    bases = [link for link in robot.roots if link.is_fixed and tuple(paths[link.name]) in bodies]
     joints = []
-    for name, link in zip(unique_names([link.name for link in bases], identifier, tree.get(top, ())).values(), bases):
-        pose = Pose(link.pose.position / meters_per_unit, link.pose.rotation)
-        joints += base_joint(name + "_base", "/" + "/".join(paths[link.name]), pose)
+    for link in robot.roots:
+        if link.is_fixed and tuple(paths[link.name]) in bodies:
+            pose = Pose(link.pose.position / meters_per_unit, link.pose.rotation)
+            name = "_".join([*paths[link.name], "base"])
+            joints += _prim("def PhysicsFixedJoint", name, _ends(None, "/".join(paths[link.name]), pose, top=""))
     lines = header(robot.name, remarks, meters_per_unit, top, [geometry])
     overs = _overs(tree, (), bodies)
     return "\n".join([*lines, *overs[:-1], *(_INDENT + line for line in joints), *overs[-1:], ""])
@@ -288,25 +272,29 @@ def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list
         kind, apis, more = "PhysicsSphericalJoint", (), []
     else:
         kind, (apis, more) = "PhysicsJoint", _limits(joint)
-    lines = [
-        "rel physics:body0 = </{}/{}>".format(ROOT, names[parent.name]),
-        "rel physics:body1 = </{}/{}>".format(ROOT, names[child.name]),
-        "point3f physics:localPos0 = {}".format(singles(place.position)),
-        "quatf physics:localRot0 = {}".format(singles(quaternion(place.rotation @ turn))),
-        "point3f physics:localPos1 = {}".format(singles(joint.pose.position)),
-        "quatf physics:localRot1 = {}".format(singles(quaternion(joint.pose.rotation @ turn))),
-    ]
+    here = Pose(joint.pose.position, joint.pose.rotation @ turn)
+    lines = _ends(names[parent.name], names[child.name], Pose(place.position, place.rotation @ turn), here)
     return _prim("def " + kind, name, [*lines, *more], apis)
+
+
+def _ends(parent: str | None, child: str, place: Pose, own: Pose | None = None, top: str = "/" + ROOT) -> list[str]:
+    """Return the lines of a joint's bodies and its frames in them. parent: None for the world."""
+    lines = []
+    for index, (body, pose) in enumerate(((parent, place), (child, own or Pose()))):
+        lines += [] if body is None else ["rel physics:body{} = <{}/{}>".format(index, top, body)]
+        lines.append("point3f physics:localPos{} = {}".format(index, singles(pose.position)))
+        lines.append("quatf physics:localRot{} = {}".format(index, singles(quaternion(pose.rotation))))
+    return lines
 
 
 def _drive(free: FreeAxis, name: str) -> tuple[list[str], list[str]]:
     """Return API names and lines for the drive of one direction, per degree if it turns; empty if nothing is known."""
-    known = {key: free.values[key] for key in DRIVE if key in free.values}
     lines = []
-    for key, value in known.items():
-        value = radians(value) if free.kind == "rotate" and key != "effort" else value
-        lines.append("float drive:{}:physics:{} = {}".format(name, DRIVE[key], single(value)))
-    return ["PhysicsDriveAPI:" + name] if known else [], lines
+    for key, attribute in NAMES["USD"].items():
+        if key in free.values:
+            value = free.values[key] * (radians(1.0) if free.kind == "rotate" and key != "effort" else 1.0)
+            lines.append("float drive:{}:physics:{} = {}".format(name, attribute, single(value)))
+    return ["PhysicsDriveAPI:" + name] if lines else [], lines
 
 
 def _in_degrees(kind: str, value: float) -> float:

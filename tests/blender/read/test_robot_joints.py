@@ -45,9 +45,9 @@ def constraint(name, kind, first, second, location=(0, 0, 0), rotation=(0, 0, 0)
     return holder
 
 
-def robot(**options):
+def robot():
     objects = [obj for obj in bpy.context.scene.objects if obj.type == "MESH"]
-    return object_links(bpy.context, "r", objects, **options)
+    return object_links(bpy.context, "r", objects)
 
 
 def joints(made):
@@ -203,7 +203,7 @@ def test_passive_bodies_and_a_fixed_base_are_fixed_to_the_world():
     made = robot()
     assert {link.name: link.is_fixed for link in made.robot.links} == {"Base": True, "Arm": False, "Loose": False}
     assert [(joint.parent, joint.child) for joint in made.robot.joints] == [("Base", "Arm")]
-    assert [link.name for link in robot(fixed_base=True).robot.roots if not link.is_fixed] == []
+    assert [link.name for link in made.robot.with_fixed_roots().roots if not link.is_fixed] == []
     root = bpy.context.scene.collection
     grouped = collection_links(bpy.context, "r", root, list(root.all_objects))
     assert all(link.is_fixed for link in grouped.robot.links)
