@@ -51,7 +51,9 @@ JOINT_VALUE_UNUSABLE = warning(
     "about one axis, for a joint about one axis.",
 )
 ROBOT_SCALED = warning(
-    "robot_scaled", "Readers differ about bodies that are scaled. Apply the scale of {links} (Object > Apply > Scale)."
+    "robot_scaled",
+    "Readers differ about bodies that are scaled or sheared. Apply the scale of {links} and of their parents (Object > "
+    "Apply > Scale).",
 )
 GLTF_NODE_MISSING = warning(
     "gltf_node_missing",

@@ -24,7 +24,7 @@ from ...core.robots.formats import FORMATS, RobotFormat
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
 from ...core.verdict.sentences import sentence
 from .. import selection
-from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE, ROBOT_SHEARED
+from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ class GeometryExport(RobotExport):
         made.findings.extend(write.texts.check(made.robot, self.FORMAT))
         sheared = read.robots.sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
-            made.findings.append(finding(ROBOT_SHEARED, count=len(sheared), links=sheared))
+            made.findings.append(finding(ROBOT_SCALED, count=len(sheared), links=sheared))
         return self._export_over(made, path)
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:

@@ -316,6 +316,17 @@ def test_collections_and_bones_are_links_too(tmp_path):
     assert close(sum(float(mass.get("value")) for mass in given.iter("mass")), 5.0, 1e-12)
 
 
+def test_fixed_base_and_colliders_follow_their_options(tmp_path):
+    arm()
+    for words, count in (((), 2), (("--fixed-base",), 0)):
+        root = ElementTree.fromstring(text("measure", "--format", "mjcf", *words))
+        assert len([*root.iter("freejoint")]) == count
+    path = str(tmp_path / "robot.urdf")
+    for words, count in (((), 3), (("--collision", "none", "--force"), 0)):
+        root = ElementTree.fromstring(text("measure", "--format", "urdf", "--output", path, *words))
+        assert (len([*root.iter("visual")]), len([*root.iter("collision")])) == (3, count)
+
+
 def test_a_robot_without_links_is_an_error():
     arm()
     line = Run(parsed("measure", "--format", "urdf", "--links", "bone"))

@@ -18,7 +18,7 @@ from body_moments.core.robots.model import FreeAxis, Joint, Link, Mimic, Pose, R
 from body_moments.core.robots.write import gltf_robot, mjcf, sdf, urdf, usd
 from body_moments.core.robots.write.shapes import with_primitives, without_collision
 from body_moments.core.robots.write.texts import check, robot_text
-from pxr import Sdf, Usd, UsdPhysics
+from pxr import Sdf, Usd, UsdPhysics, UsdValidation
 from urdf_parser_py.urdf import URDF
 
 from tests.robots import sdf_schema
@@ -293,3 +293,29 @@ def test_colliders_are_left_out_on_request():
     assert "PhysicsCollisionAPI" not in usd.write(robot) and usd.write(robot).count("def Cube") == 3
     assert "collider" not in gltf_robot.write(robot)
     assert replace(robot.links[0].shapes[0], collides=True).collides
+
+
+def test_usd_breaks_no_rule_of_its_own_validators():
+    """Articulations, joints, bodies and colliders, among others."""
+    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+    assert len(validators) > 20
+    for robot in (arm(VALUES, is_fixed=True), arm(), assembly(3), Robot("one", arm().links[:1])):
+        layer = Sdf.Layer.CreateAnonymous(".usda")
+        assert layer.ImportFromString(usd.write(with_primitives(robot, "box")))
+        errors = UsdValidation.ValidationContext(validators).Validate(Usd.Stage.Open(layer))
+        assert not [error.GetMessage() for error in errors]
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_usd_layer_of_masses_holds_fixed_roots(unit):
+    robot = Robot("arm", arm(is_fixed=True).links)
+    paths = {link.name: ["root", link.name] for link in robot.links}
+    layer = Sdf.Layer.CreateAnonymous(".usda")
+    assert layer.ImportFromString(usd.write_over(robot, paths, "./geometry.usdc", unit))
+    (prim,) = [spec for spec in layer.GetPrimAtPath("/root").nameChildren if spec.typeName == "PhysicsFixedJoint"]
+    assert prim.relationships["physics:body1"].targetPathList.explicitItems == ["/root/base"]
+    place = np.array(prim.attributes["physics:localPos0"].default) * unit
+    assert (
+        np.abs(place - robot.links[0].pose.position).max() < 1e-6
+        and len(layer.GetPrimAtPath("/root").nameChildren) == 4
+    )

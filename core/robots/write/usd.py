@@ -64,7 +64,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         lines += _prim("def Xform", names[link.name], inner, () if inertial is None else APIS)
     for joint in () if inertial_only else robot.joints:
         lines += _joint(robot, joint, joints[joint.name], names)
-    bases = {} if inertial_only else {link.name: link for link in robot.roots if link.is_fixed}
+    heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]  # Prims without mass stand.
+    bases = {} if inertial_only else {link.name: link for link in heavy}
     taken = [*names.values(), *joints.values()]
     for base, name in unique_names(bases, lambda name: names[name] + "_base", taken).items():
         lines += _prim("def PhysicsFixedJoint", name, _ends(None, names[base], bases[base].pose))
