@@ -33,7 +33,7 @@ from .canonical_frame import (
     canonical_frames,
 )
 from .findings import MOMENTS_OVERFLOW
-from .tensors import EQUAL_AXES, SYMMETRIES
+from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL

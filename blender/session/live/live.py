@@ -23,6 +23,7 @@ from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.inertia.mass_properties import affine_image
+from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.body import Body
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
 from ....core.moments.affine_maps import are_singular
@@ -40,7 +41,6 @@ from ...read.objects import read_patches
 from ...read.reading import float64_matrix
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
-from ...write.numbers import StoredProperties
 from ..tracking import handlers, updates
 from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface
@@ -53,9 +53,9 @@ POLL = 0.1  # s between two checks whether these can begin
 _last_event = 0.0  # time of the last update
 
 
-def map_properties(obj: Object, current: Followed, measured: Measurement, scene: Scene) -> StoredProperties:
+def map_properties(obj: Object, current: Followed, measured: Measurement, scene: Scene) -> PlainBody:
     """Return the numbers of an object with Live on, in its own frame, mapped to its place and stretch."""
-    shown = StoredProperties.of_body(
+    shown = PlainBody.of_body(
         measured.in_object_frame(), measured.density, measured.volume, measured.area, measured.error_bound
     )
     if current.first_order is None and has_transform(obj, current.transform):
@@ -83,9 +83,7 @@ def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArra
     return now @ np.linalg.inv(before)
 
 
-def _mapped(
-    obj: Object, current: Followed, measured: Measurement, shown: StoredProperties, unit: float
-) -> StoredProperties:
+def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainBody, unit: float) -> PlainBody:
     """Return the numbers mapped to the current matrix; volume and center are those of the last light pass, if any."""
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
@@ -109,7 +107,7 @@ def _mapped(
     image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
     location = now[:3, 3] * unit
     area = shown.area * stretch ** (2.0 / 3.0)
-    return StoredProperties.of_body(image.in_frame(to_own.T, location), mass / volume, volume, area, shown.error_bound)
+    return PlainBody.of_body(image.in_frame(to_own.T, location), mass / volume, volume, area, shown.error_bound)
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
@@ -127,7 +125,7 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     current.result = result
     current.matrix, current.transform = float64_matrix(obj.matrix_world), transform_key(obj)
     current.first_order, current.is_pending, current.number = None, False, updates.count()
-    handlers.count_change()
+    handlers.count_change(obj)
     return result
 
 
@@ -140,7 +138,7 @@ def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
 def stop(obj: Object) -> None:
     """Turn Live off for an object."""
     followed.forget(obj)
-    handlers.count_change()
+    handlers.count_change(obj)
 
 
 def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:

@@ -36,7 +36,6 @@ NEVER = Update(0, 0, "")
 _edits: dict[int, Update] = {}  # updates of geometry that may be edits
 _returns: dict[int, Update] = {}  # updates of geometry that are no edits
 _moves: dict[int, Update] = {}  # updates of the transform alone
-_touches: dict[int, Update] = {}  # all other updates
 _count = 0  # updates
 _set_since: set[int] = set()  # session uids of objects with settings changed since the last update
 _undo_pending = False  # true if the next update is that of undo or redo
@@ -99,13 +98,6 @@ def last_change_of_geometry(obj: Object) -> int:
     return last_since(obj, 0)[1].number
 
 
-def last_change_and_move(obj: Object) -> tuple[int, int]:
-    """Return the numbers of the last update of an object or of its instances, and of its transform alone."""
-    uid = obj.session_uid
-    change = max(last_change_of_geometry(obj), _touches.get(uid, NEVER).number)
-    return change, _moves.get(uid, NEVER).number
-
-
 def depsgraph_of(stamp: Update) -> Depsgraph | None:
     """Return the dependency graph of an update's view layer, as last evaluated; None if the layer is gone."""
     for scene in bpy.data.scenes:
@@ -128,7 +120,6 @@ def note_updates(updates: handlers.Updates) -> None:
         edits = _edited_by_undo(updates)
         _edits.update(dict.fromkeys(edits, stamp))
         _returns.update(dict.fromkeys([uid for uid in updates.reshaped if uid not in edits], stamp))
-        _touches.update(dict.fromkeys((*updates.moved, *updates.others), stamp))
         return
     reshaped: Iterable[int] = updates.reshaped
     if changed_settings and not updates.frame_changed:
@@ -139,7 +130,6 @@ def note_updates(updates: handlers.Updates) -> None:
         (_edits, reshaped),
         (_edits, updates.collections),
         (_moves, updates.moved),
-        (_touches, updates.others),
     ):
         stamps.update(dict.fromkeys(uids, stamp))
 
@@ -167,5 +157,5 @@ def forget_file() -> None:
     """Forget all updates."""
     global _undo_pending, _count
     _undo_pending, _count = False, 0
-    for remembered in (_edits, _returns, _moves, _touches, _set_since):
+    for remembered in (_edits, _returns, _moves, _set_since):
         remembered.clear()

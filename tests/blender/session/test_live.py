@@ -13,7 +13,7 @@ import bpy
 from body_moments.blender.session.displayed import Trust, displayed, drawn, total
 from body_moments.blender.session.live import following, live
 from body_moments.blender.session.tracking import armatures, updates
-from body_moments.blender.write import numbers
+from body_moments.core.inertia.plain_body import add_bodies
 from mathutils import Euler, Matrix
 
 from tests.blender.objects import add, arrays, measured, mesh_body, only
@@ -275,7 +275,7 @@ def assert_bounds_hold(shown, parts):
             center = part.center + sign * bound["center_of_mass"] * arm / np.linalg.norm(arm)
             inertia = np.add(part.inertia, sign * bound["inertia"])
             changed.append(part._replace(mass=mass, center=center, inertia=inertia))
-        whole = numbers.add(changed)
+        whole = add_bodies(changed)
         off = np.subtract(whole.inertia, shown.inertia)
         largest["center_of_mass"] = max(largest["center_of_mass"], dist(whole.center, shown.center))
         largest["inertia"] = max(largest["inertia"], np.abs(off).max())
