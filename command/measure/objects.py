@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import bpy
@@ -15,13 +15,24 @@ from ...blender.read.visibility import measurable, measurable_objects
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
 from ...core.scans.findings import OTHERS_LEFT_OUT
-from ...core.verdict.finding import Finding, finding
+from ...core.verdict.finding import Finding, finding, unique
 from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED
 
 
 def failure(name: str | None, reason: Finding) -> dict[str, Any]:
     """Return an entry of a document's `errors` or `left_out`: an object's name and the reason."""
     return {"name": name, "reason": str(reason)}
+
+
+def said_once(entries: Sequence[dict[str, Any]], code: str) -> Iterator[Finding]:
+    """Yield the finding with a code, to be said once of a file, if several records all have it; it leaves them."""
+    found = [(entry, one) for entry in entries for one in entry["findings"] if one["code"] == code]
+    if len(found) < len(entries) or len(entries) < 2:
+        return
+    for entry, one in found:
+        entry["findings"].remove(one)
+        entry["warnings"].remove(one["message"])
+    yield from unique(finding(code, **one["values"]) for _, one in found)
 
 
 def why_nothing(left_out: int) -> Finding:

@@ -55,7 +55,7 @@ from ..options.file import body_findings, file_findings, is_unitless
 from . import assets, flat, fourier, robots
 from .combined import Combined, measure_combined
 from .measuring import measure_shape, measured_together, thumbnail_of
-from .objects import failure, objects_to_measure, other_scenes, why_nothing
+from .objects import failure, objects_to_measure, other_scenes, said_once, why_nothing
 
 _STATUSES: dict[str, str] = {FILE_MISSING: "missing", FILE_VERSION_UNSUPPORTED: "unsupported_version"}
 
@@ -157,6 +157,7 @@ class Run:
                     errors.extend(self._fourier(chosen, wanted, [*objects, *flats]))
                 if not objects and not flats and not errors:
                     errors.append(failure(None, why_nothing(len(left_out))))
+            caveats += said_once(objects, DENSITY_DEFAULTED)
             if self.options.write:
                 errors.extend(self._store(path, measured, wanted))
                 errors.extend(combined.store(self._internal_error))

@@ -15,12 +15,12 @@ from pathlib import Path
 from typing import Any
 
 from ...core.measurement.checked import check_document, check_journal_line, parse_json
-from ...core.measurement.documents import to_csv, to_json_lines
+from ...core.measurement.documents import count_findings, to_csv, to_json_lines
 from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
 from ..options.option_types import count, positive
-from ..parser import Parser, UsageError
+from ..parser import COMMANDS, Parser, UsageError
 from ..supervisor import journal, listing
 from . import compare
 
@@ -35,7 +35,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser = Parser(
         prog="body_moments",
         usage="body_moments {} [options] {} [{} ...]".format(command, names, names),
-        description=_DESCRIPTIONS[command],
+        description=COMMANDS[command],
         epilog="exit code: 0 done, 1 {}the result cannot be written, 2 wrong usage or no results".format(
             "numbers differ by more than they may, or " if command == "compare" else ""
         ),
@@ -162,9 +162,9 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             failed.append("{}  {}: {}".format(document["status"], file, reason))
         if about.get("seconds") is not None:
             slowest = sorted([*slowest, (float(about["seconds"]), str(file))], reverse=True)[:_LISTED]
+        codes += count_findings(document)
         for entry in (*document["objects"], *document.get("flat", ())):
             methods[entry.get("method", "flat")] += 1
-            codes.update({(one["severity"], one["code"]) for one in entry["findings"]})
             bound, size = _bound(entry), entry.get("volume") or entry["area"]
             if bound is not None and size:
                 share = bound / abs(size), "{}: {}".format(file, entry["name"])
@@ -174,7 +174,7 @@ def _summary(options: argparse.Namespace) -> tuple[Iterable[str], int]:
     more = ["and {} more".format(len(failed) - _LISTED)] if len(failed) > _LISTED else []
     lines += ["", "Not measured:", *failed[:_LISTED], *more] if failed else []
     if codes:
-        lines += ["", "Findings, by how many objects have them:"]
+        lines += ["", "Findings, by how many objects or files have them:"]
         lines += ["{:>8}  {:<8} {}".format(count, *one) for one, count in codes.most_common()]
     if slowest:
         lines += ["", "Slowest, in seconds:", *("{:>10.3f}  {}".format(*one) for one in slowest)]
@@ -212,13 +212,4 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], int]]] 
     "summary": _summary,
     "compare": _compare,
     "report": lambda options: (to_html(_documents(options)), 0),
-}
-_DESCRIPTIONS = {
-    "manifest": "Lists the files in folders that can be measured, for `measure --manifest LIST --range A:B`.",
-    "merge": "Joins results, of ranges of a list for example: one document a file, as JSON lines.",
-    "to-csv": "Results as a table.",
-    "summary": "What became of many files: counts by status and method, findings, the slowest, the widest bounds.",
-    "compare": "Every number of two results, whose files and bodies have the same names: they pass where their bounds "
-    "or the tolerance allow the difference.",
-    "report": "Results as one HTML file that opens without a network: a table to sort and filter, and pictures.",
 }

@@ -32,7 +32,7 @@ _BOUNDS = {name + "?": float for name in _BOUNDED}
 _RECORD = {
     **{name: str for name in ("name", "type", "kind", "method")},
     **{name: float for name in ("density", "mass", "volume", "area")},
-    **{name + "?": float for name in ("length", "linear_density", "thickness")},
+    **{"verdict?": str, **{name + "?": float for name in ("length", "linear_density", "thickness")}},
     **{"center_of_mass": _VECTOR, "inertia": _TENSOR, "principal_moments": _VECTOR, "principal_axes": _TENSOR},
     **{"inertia_about?": {"point": _VECTOR, "inertia": _TENSOR}, "moments?": _MOMENTS, "display_mesh?": dict},
     **{"pose?": ({"matrix": [[float] * 4] * 4, "unique": bool, "symmetry": (str,)},), "signature?": (dict,)},
@@ -46,7 +46,7 @@ _FLAT = {
 }
 _REASONS = [{"name": (str,), "reason": str}]
 _DOCUMENT = {
-    **{"run?": {"addon": str, "options": dict}, "blender": (str,)},
+    **{"run?": {"addon": str, "options": dict}, "blender": (str,), "total?": {"findings?": _FINDINGS["findings"]}},
     **{"file": (str,), "status": str, "frame": str, "objects": [_RECORD], "flat?": [_FLAT], "assemblies?": [_RECORD]},
     **{"bones?": [{"armature": str, **_RECORD}], "left_out": _REASONS, "errors": _REASONS},
 }

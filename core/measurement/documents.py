@@ -13,11 +13,12 @@ from __future__ import annotations
 import io
 import json
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite, sqrt
 from typing import Any
 
-from ..inertia.tensors import TENSOR
+from ..inertia.plain_body import TENSOR
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")
@@ -99,10 +100,16 @@ def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[
 def radius_of_gyration(record: dict[str, Any]) -> float | None:
     """Return the radius of gyration of a body's record in m, or None without a positive mass and known moments."""
     mass, moments = record["mass"], record["principal_moments"]
-    if not mass or None in moments:
+    if not mass or not moments or None in moments:
         return None
     square = sum(moments) / (2.0 * mass)
     return sqrt(square) if square >= 0.0 else None
+
+
+def count_findings(document: dict[str, Any]) -> Counter[tuple[str, str]]:
+    """Return the counts of the records with a finding, and of the total, by severity and code."""
+    records = [*document["objects"], *document.get("flat", ()), document.get("total", {})]
+    return Counter(pair for one in records for pair in {(f["severity"], f["code"]) for f in one.get("findings", ())})
 
 
 def to_json(documents: Iterable[dict[str, Any]]) -> Iterator[str]:

@@ -15,9 +15,10 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from datetime import UTC, datetime
 from typing import Any
 
-from .documents import radius_of_gyration
+from .documents import count_findings, radius_of_gyration
 from .plain_text import counted, visible
 
 _PICTURE = re.compile(r"data:image/png;base64,[A-Za-z0-9+/=]+")
@@ -85,7 +86,13 @@ text.addEventListener("input",filter);status.addEventListener("change",filter);f
 
 def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     """Yield the HTML page in pieces; `documents` is iterated twice."""
-    statuses = Counter(document["status"] for document in documents)
+    statuses: Counter[str] = Counter()
+    origins: Counter[str] = Counter()
+    codes: Counter[tuple[str, str]] = Counter()
+    for document in documents:
+        statuses[document["status"]] += 1
+        origins[_origin(document)] += 1
+        codes += count_findings(document)
     digest = base64.b64encode(hashlib.sha256(_SCRIPT.encode()).digest()).decode()
     policy = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'sha256-{}'".format(digest)
     yield '<!doctype html><!-- Body Moments: report -->\n<html lang="en"><head><meta charset="utf-8">\n'
@@ -95,6 +102,14 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     yield "<h1>Body Moments</h1><p>{}: {}. All numbers are SI.</p>\n".format(
         counted(statuses.total(), "file"), counts or "-"
     )
+    yield "<p>{:%Y-%m-%d %H:%M} UTC</p>\n".format(datetime.now(UTC))
+    yield from ("<p>{}: {}</p>\n".format(counted(n, "file"), html.escape(visible(one))) for one, n in origins.items())
+    yield "<details><summary>{}</summary><ul>\n".format(counted(len(codes), "finding"))
+    yield from (
+        '<li class="{0}">{2} × {1} ({0})</li>\n'.format(html.escape(level), html.escape(visible(code)), number)
+        for (level, code), number in codes.most_common()
+    )
+    yield "</ul></details>\n"
     yield '<p><input id="text" type="search" placeholder="Filter" aria-label="Filter">'
     yield '<select id="status" aria-label="Status"><option value="">All statuses</option>'
     yield from ("<option>{}</option>".format(html.escape(status)) for status in sorted(statuses))
@@ -106,6 +121,14 @@ def to_html(documents: Iterable[dict[str, Any]]) -> Iterator[str]:
     for document in documents:
         yield from _table_rows(document)
     yield "</tbody></table><script>{}</script></body></html>\n".format(_SCRIPT)
+
+
+def _origin(document: dict[str, Any]) -> str:
+    """Return the versions and the options with which a document was made."""
+    run = document.get("run", {})
+    words = [name if value is True else "{} {}".format(name, value) for name, value in run.get("options", {}).items()]
+    versions = "Blender {}, Body Moments {}".format(document["blender"] or "-", run.get("addon", "-"))
+    return "; ".join([versions, " ".join(words) or "no options"])
 
 
 def _table_rows(document: dict[str, Any]) -> Iterator[str]:
@@ -164,7 +187,7 @@ def _picture(entry: dict[str, Any]) -> str:
     if isinstance(thumbnail, str) and _PICTURE.fullmatch(thumbnail):
         return '<img alt="" src="{}">'.format(thumbnail)
     mass, moments, axes = entry["mass"], entry["principal_moments"], entry["principal_axes"]
-    if radius_of_gyration(entry) is None or None in sum(axes, []):
+    if radius_of_gyration(entry) is None or not axes or None in sum(axes, []):
         return ""
     half = sum(moments) / 2.0
     sides = [math.sqrt(max(6.0 * (half - one) / mass, 0.0)) / 2.0 for one in moments]  # Half sides of a box.

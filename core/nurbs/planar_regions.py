@@ -46,6 +46,7 @@ def planar_loops(
         if max(gaps) > tolerance or any(curve.space.is_discontinuous for curve in loop):
             raise MeasureError(CURVE_OPEN)
     points = np.concatenate([curve.points for curve in curves]) - center
+    points -= points.mean(axis=0)  # The middle of a box need not be in the plane.
     _, _, axes = np.linalg.svd(np.concatenate([points, np.zeros((3, 3))]), full_matrices=False)
     if np.abs(points @ axes[2]).max() > tolerance:
         raise MeasureError(CURVES_NOT_COPLANAR)

@@ -21,7 +21,7 @@ from .findings import (
     DUPLICATE_FACES_COUNTED,
     DUPLICATE_FACES_IGNORED,
 )
-from .repaired_mesh import RepairedMesh
+from .repaired_mesh import RepairedMesh, copy_with
 
 
 def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -60,7 +60,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
             mesh = mesh.with_findings(finding(code, copies, slight=slight, count=len(copies)))
     if not len(ignored):
         return mesh
-    mesh = replace(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True, left_out=ignored)
+    mesh = copy_with(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True, left_out=ignored)
     return mesh.with_state(edges=find_edges(mesh.triangles))
 
 

@@ -24,6 +24,7 @@ from .orientation import OrientedSolid, orient_components
 from .repair import repair_surface
 from .repaired_mesh import RepairedMesh
 from .self_intersection import find_self_intersection
+from .solid_stack import SolidStack
 from .solid_verdict import SolidIntegrals, judge
 
 MAX_WELDED_SHARE = 0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
@@ -63,7 +64,16 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     ('reoriented', 1.0, [3])
     """
     checked = check_surface(surface)
-    given = integrate_and_prove(checked, shell, threads)
+    return _measure_given(checked, integrate_and_prove(checked, shell, threads), shell, threads)
+
+
+def measure_left_over(stack: SolidStack, i: int, surface: Surface) -> SolidIntegrals:
+    """Measure a surface that its stack left over as number `i`, as `measure_solid` does, from the stack's integrals."""
+    checked = check_surface(surface)
+    return _measure_given(checked, stack.given(i, surface) or integrate_and_prove(checked, False, 1), False, 1)
+
+
+def _measure_given(checked: CheckedSurface, given: GivenIntegrals, shell: bool, threads: int) -> SolidIntegrals:
     mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
     solid = _measure_repaired(checked, given, mesh, shell, threads)
     moved = mesh.max_displacement * solid.area.total

@@ -15,6 +15,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from body_moments.command.parser import COMMANDS
 from body_moments.command.supervisor import listing
 from body_moments.core.density.materials import BY_NAME
 from body_moments.core.measurement import documents
@@ -147,13 +148,20 @@ def test_no_damaged_document_ends_in_a_traceback(main, tmp_path, whole):
         assert code in (0, 1, 2) and "Traceback" not in said, (place, said)
         assert code != 2 or words[0] == "similar" or str(path) in said and "line " in said, said
         codes.add((words[0], code))
-    assert {("merge", 0), ("merge", 2), ("compare", 1), ("report", 2)} <= codes
+    assert {(word, code) for word in ("merge", "to-csv", "summary", "report") for code in (0, 2)} <= codes
 
 
 def part(path, options, *names):
     """A result of a run with these options."""
     run = {"addon": "1", "options": options}
     return result(path, *(documents.document([], {}, [], file=name, blender="5", run=run) for name in names))
+
+
+def test_help_without_a_command_lists_the_commands(main):
+    code, out, _ = main("--help")
+    names = [line.split()[0] for line in out.splitlines() if line.startswith("  ")]
+    assert code == 0 and names == [*COMMANDS] and {"audit", "simplex", "similar"} <= {*names}
+    assert all(main(name, "--help")[0] == 0 for name in names) and main("--help", "audit")[1] == out
 
 
 def test_merge_refuses_parts_of_other_runs(main, tmp_path):
@@ -279,6 +287,7 @@ def test_report_is_one_page_with_escaped_names(tmp_path):
     text = page(tmp_path).read_text(encoding="utf-8")
     assert text.count("<script>") == 1 and "data:image/png;base64," in text and "<svg" in text
     assert "&lt;script&gt;" in text and r"\u202e" in text and "It &lt;b&gt;failed" in text
+    assert re.search(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", text) and "×" in text and "; --thumbnails" in text
     assert not re.search(r"(src|href)=[\"']?(http|//|file)", text)
 
 

@@ -95,15 +95,15 @@ def test_unrendered_objects_and_wire_operands_are_listed():
     assert left_out(found) == {"Cutter": operand, "Joined": operand, "Blank": sentence("not_rendered")}
     assert [entry["name"] for entry in found["left_out"]] == ["Blank", "Cutter", "Joined"]
     assert found["total"]["mass"] == pytest.approx(12000.0)
-    assert codes(found["total"]) == ["total_doubtful_parts"]
+    assert codes(found["total"]) == ["total_doubtful_parts", "density_defaulted"]
     assert values(found["total"], "total_doubtful_parts")["objects"] == ["Helper"]
     every = document("--all")
     assert names(every) == ["Blank", "Body", "Cutter", "Helper", "Joined"] and every["left_out"] == []
-    assert codes(every["total"]) == ["total_doubtful_parts"] * 2
+    assert codes(every["total"]) == ["total_doubtful_parts"] * 2 + ["density_defaulted"]
     assert every["total"]["findings"][0]["values"]["objects"] == [["Cutter", "Body"], ["Joined", "Body"]]
     named = document("--object", "Blank", "--object", "Cutter")
     assert names(named) == ["Blank", "Cutter"] and named["left_out"] == []
-    assert named["total"]["warnings"] == [] and codes(named["objects"][1]) == ["density_defaulted"]
+    assert codes(named["total"]) == ["density_defaulted"] and codes(named["objects"][0]) == []
     for modifier in body.modifiers:
         modifier.show_viewport = modifier.show_render = False
     assert left_out(document()) == {"Blank": sentence("not_rendered"), "Joined": sentence("not_rendered")}
@@ -119,7 +119,7 @@ def test_an_operand_drawn_as_a_solid_is_a_part_with_a_warning():
     assert values(cut, "solid_operand_measured") == {"object": "Body"}
     assert sentence("solid_operand_measured", object="Body") in cut["warnings"]
     assert "solid_operand_measured" not in codes(found["objects"][0])
-    assert codes(found["total"]) == ["total_doubtful_parts"]
+    assert codes(found["total"]) == ["total_doubtful_parts", "density_defaulted"]
 
 
 def test_collection_operands_and_unrendered_ones_are_left_out():
@@ -177,6 +177,12 @@ def test_a_density_that_nobody_set_is_a_finding():
     box = files.add_box()
     entry = measured()
     assert codes(entry) == ["density_defaulted"] and entry["density"] == 1000.0
+    files.add_box("Heavy")
+    whole = document()  # once a file in which nobody asked for a density
+    assert [codes(one) for one in (*whole["objects"], whole["total"])] == [[], [], ["density_defaulted"]]
+    bpy.data.objects["Heavy"].body_moments.density = 7.0
+    assert [codes(one) for one in document()["objects"]] == [[], ["density_defaulted"]]
+    bpy.data.objects.remove(bpy.data.objects["Heavy"])
     for words in (("--density", "1000"), ("--mass", "3")):
         assert measured(*words)["findings"] == []
     box.body_moments.density_from = "MATERIALS"
