@@ -30,9 +30,10 @@ def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     whole = np.fromstring(text.translate(_BLANKS, b"."), np.int64, sep=" ")
     powers = np.zeros(len(starts), np.int64)
     dots = np.flatnonzero(letters == _DOT)
-    owners = np.searchsorted(starts, dots, "right") - 1
+    first = owners = np.flatnonzero(~is_exponent)
+    if len(dots) != len(first) or (dots < starts[first]).any() or (dots >= ends[first]).any():
+        owners = np.searchsorted(starts, dots, "right") - 1  # Some numbers have no dot.
     powers[owners] = dots - ends[owners] + 1
-    first = np.flatnonzero(~is_exponent)
     if len(first) < len(starts):
         last = np.flatnonzero(is_exponent)
         powers[last - 1] += whole[last]
