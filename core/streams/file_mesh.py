@@ -67,10 +67,10 @@ class Polygons:
         joined = np.empty(int(sides.sum()), np.int64)
         for rows, corners in self._blocks:
             joined[starts[rows, None] + np.arange(corners.shape[1])] = corners
-        return _without_repeats(joined, sides[sides > 0])
+        return without_repeats(joined, sides[sides > 0])
 
 
-def _without_repeats(corners: NDArray[np.int64], sides: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
+def without_repeats(corners: NDArray[np.int64], sides: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
     starts = np.cumsum(sides) - sides
     before = np.arange(len(corners)) - 1
     before[starts] += sides

@@ -83,16 +83,17 @@ class PlyFile:
                 yield self._piece(*self._corners(columns[column], len(self._points)))
 
     def mesh(self) -> FileMesh:
-        """Read faces, strips of triangles, edges, and the numbers of the vertices. Raises FileError."""
+        """Read faces, strips of triangles, edges, and numbers of the vertices, finite or not. Raises FileError."""
         points = self._empty_points()
-        values = {one.name: np.empty(len(points), np.float32) for one in self._vertices.properties if not one.counter}
+        names = {one.name for one in self._vertices.properties if not one.counter} - {"x", "y", "z"}
+        values = {name: np.empty(len(points), np.float32) for name in names}
         faces, edges = Polygons(), [np.zeros((0, 2), np.int64)]
         for element, rows, columns in self._blocks():
             if element is self._vertices:
                 self._fill_points(points, rows, columns)
-                for one, column in zip(element.properties, columns):
-                    if one.name in values:
-                        values[one.name][rows] = column
+                with np.errstate(over="ignore", invalid="ignore"):
+                    for name in names:
+                        values[name][rows] = columns[element.index(name)]
             elif element.list_of_indices is not None:
                 corners = columns[element.list_of_indices]
                 if element.name == "tristrips":
@@ -103,7 +104,6 @@ class PlyFile:
             elif element.name == "edge" and {"vertex1", "vertex2"} <= {one.name for one in element.properties}:
                 ends = np.stack([columns[element.index(name)] for name in ("vertex1", "vertex2")], axis=1)
                 edges.append(self._corners(ends, self._vertices.rows)[0])
-        box_of_blocks([points], "vertex")
         return FileMesh(name_of_file(self._path), points, *faces.join(), np.concatenate(edges), values)
 
     def _corners(self, corners: NDArray, count: int) -> tuple[NDArray[np.integer], int, int]:
