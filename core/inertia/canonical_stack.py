@@ -22,7 +22,7 @@ from ..moments.moments import Moments
 from ..verdict.finding import MeasureError
 from .canonical_frame import NOISE_GROWTH, extents_of
 from .findings import MOMENTS_OVERFLOW
-from .tensors import SYMMETRIES
+from .plain_body import SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # index of the first moment of third order

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arrays import cross_rows, lengths
-from .tensors import EQUAL_TRACE_ATOL
+from .plain_body import EQUAL_TRACE_ATOL
 from .third_moment_frames import AXES, IS_FIXED, ThirdMomentFrames
 
 MAX_TRACE_AMBIGUITY = 0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always

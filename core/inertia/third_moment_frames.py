@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
 from .canonical_frame import NOISE_LEVEL, SecondMomentAxes
-from .tensors import EQUAL_AXES, EQUAL_MOMENTS_RTOL, SYMMETRIES
+from .plain_body import EQUAL_AXES, EQUAL_MOMENTS_RTOL, SYMMETRIES
 
 EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterator, Sequence
 from typing import BinaryIO
@@ -11,13 +12,19 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from .decimals import parse_decimals
 from .ply_header import Element, Property
 
-BYTES_PER_BLOCK = 1 << 22
-FEW_ROWS = 64  # rows of one length: shorter runs are read one at a time
-SINGLE_ROWS = 1 << 14  # rows read one at a time before the next search for equal lengths
+BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
+FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.
+SINGLE_ROWS = 1 << 14  # rows of unequal lengths that are sorted by them
 MAX_LIST = 1 << 26  # numbers of a face: a larger count is damage, and would be read into memory
 NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
+_DECIMAL = b"0123456789.eE+- \t\r\n\v\f"
+_NOT_A_NUMBER = re.compile(rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE)  # C's forms, unknown to numpy
+
+# The numbers of rows, and their columns: (n,) numbers or (n, k) lists.
+Block = tuple[NDArray[np.intp], list[NDArray]]
 
 
 class RowsError(Exception):
@@ -32,45 +39,78 @@ class RowReader:
         self._buffer: NDArray = np.zeros(0)  # bytes or numbers, once there are some
         self._text = b""
 
-    def read_rows(self, element: Element) -> Iterator[list[NDArray]]:
-        """Yield the next element in blocks of columns, (n,) numbers or (n, k) lists. All blocks have to be taken."""
-        left = element.rows if element.properties else 0
-        while left:
-            lengths = self._lengths(element.properties)
-            row = self._row_type(element.properties, lengths)
-            table = self._table(row, left)
-            same = np.ones(len(table), bool)
-            for number, length in lengths.items():
-                same &= table["n{}".format(number)] == length
-            count = len(table) if same.all() else int(np.argmin(same))
-            if count < min(FEW_ROWS, left):
-                for block in self._single_rows(element, min(left, SINGLE_ROWS)):
-                    left -= len(block[0])
-                    yield block
-                continue
-            self._buffer = self._buffer[count * row.itemsize // self._buffer.itemsize :]
-            left -= count
-            yield [table["p{}".format(number)][:count] for number in range(len(element.properties))]
-
-    def _lengths(self, properties: Sequence[Property]) -> dict[int, int]:
-        """Return the lengths of the lists of the next row by their property's index, and buffer the whole row."""
-        at, lengths = 0, {}
-        for number, one in enumerate(properties):
-            if one.counter:
-                lengths[number] = self._integer(at, one.counter)
-                at += self._size(one.counter)
-            at += self._size(one.type) * lengths.get(number, 1)
-            self._fill(at)
-        return lengths
-
-    def _row_type(self, properties: Sequence[Property], lengths: dict[int, int]) -> np.dtype:
-        fields: list[tuple] = []
-        for number, one in enumerate(properties):
-            if number in lengths:
-                fields.append(("n{}".format(number), self._type(one.counter)))
-                fields.append(("p{}".format(number), self._type(one.type), (lengths[number],)))
+    def read_rows(self, element: Element) -> Iterator[Block]:
+        """Yield the next element in blocks of rows with lists of the same lengths. All blocks have to be taken."""
+        done, properties = 0, element.properties
+        while done < element.rows and properties:
+            left = element.rows - done
+            starts, lengths = self._scan(properties, min(left, FEW_ROWS))
+            if (lengths == lengths[0]).all():
+                row = self._row_type(properties, lengths[0])
+                table = self._table(row, left)
+                same = np.ones(len(table), bool)
+                for number, length in enumerate(lengths[0]):
+                    same &= table["n{}".format(number)] == length
+                count = len(table) if same.all() else int(np.argmin(same))
+                yield np.arange(done, done + count), [table[name][:count] for name in _names(properties)]
+                end = count * row.itemsize // self._buffer.itemsize
             else:
-                fields.append(("p{}".format(number), self._type(one.type)))
+                starts, lengths = self._scan(properties, min(left, SINGLE_ROWS))
+                count, end = len(lengths), starts[-1]
+                yield from self._group_rows(properties, starts, lengths, done)
+            self._buffer = self._buffer[end:]
+            done += count
+
+    def _scan(self, properties: Sequence[Property], rows: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return (rows + 1,) offsets of the next rows in the buffer, and the (rows, lists) lengths of their lists."""
+        gap, lists = 0, []
+        for one in properties:
+            if one.counter:
+                lists.append((gap, one.counter, self._size(one.counter), self._size(one.type)))
+            gap = 0 if one.counter else gap + self._size(one.type)
+        at, starts, lengths = 0, [0], []
+        views: dict[str, NDArray] = {}  # numbers of a type at every offset of the buffer
+        for _ in range(rows):
+            for before, kind, size, step in lists:
+                at += before
+                if at + size > len(self._buffer):
+                    self._fill(at + size)
+                    views = {}
+                if kind not in views:
+                    count, stride = len(self._buffer) + 1 - size, self._buffer.strides
+                    views[kind] = np.ndarray(count, self._type(kind), self._buffer, strides=stride)
+                length = views[kind][at]
+                if not 0 <= length <= MAX_LIST or length % 1:
+                    raise RowsError
+                lengths.append(int(length))
+                at += size + step * lengths[-1]
+            at += gap
+            starts.append(at)
+        self._fill(at)
+        return np.array(starts), np.array(lengths, np.intp).reshape(rows, len(lists))
+
+    def _group_rows(
+        self, properties: Sequence[Property], starts: NDArray, lengths: NDArray, first: int
+    ) -> Iterator[Block]:
+        """Yield rows in blocks of equally long ones. starts, lengths: of `_scan`."""
+        order = np.lexsort(lengths.T)
+        changes = np.flatnonzero((lengths[order[1:]] != lengths[order[:-1]]).any(axis=1)) + 1
+        for rows in np.split(order, changes):
+            row = self._row_type(properties, lengths[rows[0]])
+            places = starts[rows][:, None] + np.arange(row.itemsize // self._buffer.itemsize)
+            table = np.frombuffer(self._buffer[places].tobytes(), row)
+            yield first + rows, [table[name] for name in _names(properties)]
+
+    def _row_type(self, properties: Sequence[Property], lengths: Sequence[int] | NDArray[np.intp]) -> np.dtype:
+        fields: list[tuple] = []
+        left = iter(enumerate(lengths))
+        for name, one in zip(_names(properties), properties):
+            if one.counter:
+                number, length = next(left)
+                fields.append(("n{}".format(number), self._type(one.counter)))
+                fields.append((name, self._type(one.type), (length,)))
+            else:
+                fields.append((name, self._type(one.type)))
         return np.dtype(fields)
 
     def _table(self, row: np.dtype, left: int) -> NDArray:
@@ -80,37 +120,12 @@ class RowReader:
         count = min(left, len(self._buffer) * unit // row.itemsize)
         return np.frombuffer(self._buffer, row, count)
 
-    def _single_rows(self, element: Element, rows: int) -> Iterator[list[NDArray]]:
-        """Yield `rows` rows, read one at a time, in blocks of equally long rows."""
-        by_lengths: dict[tuple[int, ...], list[bytes]] = {}
-        types: dict[tuple[int, ...], np.dtype] = {}
-        for _ in range(rows):
-            lengths = self._lengths(element.properties)
-            key = tuple(lengths.values())
-            if key not in types:
-                types[key] = self._row_type(element.properties, lengths)
-            size = types[key].itemsize // self._buffer.itemsize
-            by_lengths.setdefault(key, []).append(self._buffer[:size].tobytes())
-            self._buffer = self._buffer[size:]
-        for key, found in by_lengths.items():
-            table = np.frombuffer(b"".join(found), types[key])
-            yield [table["p{}".format(number)] for number in range(len(element.properties))]
-
     def _size(self, kind: str) -> int:
         """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a text."""
         return int(kind[1:]) if self._order else 1
 
     def _type(self, kind: str) -> np.dtype:
         return np.dtype(self._order + kind) if self._order else NUMBERS
-
-    def _integer(self, at: int, kind: str) -> int:
-        """Return the length of a list, stored at an index of the buffer. Raises RowsError."""
-        end = at + self._size(kind)
-        self._fill(end)
-        value = self._buffer[at:end].view(self._type(kind))[0]
-        if not 0 <= value <= MAX_LIST or value != int(value):
-            raise RowsError
-        return int(value)
 
     def _fill(self, count: int) -> None:
         """Fill the buffer to `count` bytes or numbers. Raises RowsError if the file has fewer."""
@@ -130,7 +145,7 @@ class RowReader:
     def _numbers(self) -> NDArray[np.float64]:
         """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError."""
         while True:
-            chunk = self._file.read(BYTES_PER_BLOCK)
+            chunk = self._file.read(BYTES_PER_BLOCK // 4)
             text, self._text = self._text + chunk, b""
             if chunk:
                 end = max(text.rfind(space) for space in (b" ", b"\n", b"\t", b"\r")) + 1
@@ -142,6 +157,13 @@ class RowReader:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
-                return np.fromstring(text.decode("ascii"), NUMBERS, sep=" ")
+                if not text.translate(None, _DECIMAL):
+                    return parse_decimals(text)[0]
+                return np.fromstring(_NOT_A_NUMBER.sub(b"nan", text).decode("ascii"), NUMBERS, sep=" ")
             except (ValueError, DeprecationWarning) as error:
                 raise RowsError from error
+
+
+def _names(properties: Sequence[Property]) -> list[str]:
+    """Return the names of the columns in the type of a row: properties may share a name."""
+    return ["p{}".format(number) for number in range(len(properties))]

@@ -14,7 +14,7 @@ from ...blender import read
 from ...blender.session import stored
 from ...blender.write import properties, reports
 from ...blender.write.findings import NO_STORED_RESULTS
-from ...core.inertia.tensors import tensor_rows
+from ...core.inertia.plain_body import tensor_rows
 from ...core.verdict.finding import Finding, finding
 from .. import selection
 from .copy import copy_text

@@ -76,7 +76,7 @@ def store(empty: Object, path: Path, supports: Sequence[Support | None]) -> None
     _supports[empty] = {
         round(float(frame)): support for frame, support in zip(path.frames, supports) if support is not None
     }
-    handlers.count_change()
+    handlers.count_change(empty)
 
 
 def path(empty: Object) -> Path | None:

@@ -9,7 +9,7 @@ import pytest
 from body_moments.blender.read.reference import ReferenceChoice
 from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.stored import reference
-from body_moments.core.inertia.tensors import tensor_rows
+from body_moments.core.inertia.plain_body import tensor_rows
 from body_moments.core.verdict.finding import Finding
 from mathutils import Euler
 
