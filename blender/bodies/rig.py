@@ -30,7 +30,7 @@ from ..read.bones import RestBones, vertex_weights
 from ..read.fingerprint import digest, fingerprint, matrix_hash
 from ..read.objects import locate, read_object
 from ..read.reading import Part, to_si
-from ..read.rig import hanging_objects, pose_bone_of, rest_pose, rig_hash, rig_objects, skinned_objects
+from ..read.rig import hanging_objects, rest_pose, rig_hash, rig_objects, skinned_objects
 from ..settings.density import is_density_unset, unset_density
 from .findings import (
     BONE_MISSING,
@@ -262,7 +262,7 @@ class _Measuring:
     # ------------------------------------------------------------ Parts and their sum
 
     def _part(self, name: str, found: _Sum) -> BonePart:
-        settings = pose_bone_of(self.armature, name).body_moments
+        settings = self.armature.pose.bones[name].body_moments
         own = shortest_decimal(settings.density) if settings.mass_from == "DENSITY" else None
         masses = [moments * (density if own is None else own) for moments, density in found.carriers]
         mass = sum_moments([*masses, *found.hanging])

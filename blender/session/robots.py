@@ -21,7 +21,6 @@ from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, fin
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
-from ..read.rig import pose_bone_of
 from ..read.robots import bone_freedom, bone_parents, link_surface, object_candidate
 from ..read.visibility import measurable
 from ..settings.options import AS_SET, MeasureOptions
@@ -135,7 +134,7 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
         for part in rig.parts:
             if part.measurement is None:
                 continue
-            bone, label = pose_bone_of(armature, part.name), labels[part.name]
+            bone, label = armature.pose.bones[part.name], labels[part.name]
             parents = bone_parents(bone, labels)
             made.append(make_candidate(label, part.measurement, parents, free=bone_freedom(bone)))
             pieces[label] = part.surfaces

@@ -97,7 +97,7 @@ def store(obj: Owner, measurement: Measurement) -> None:
         measurement.volume,
         measurement.area,
         body.center.tolist(),
-        tensor_entries(body.inertia).tolist(),
+        body.inertia[ROWS, COLUMNS].tolist(),
         body.principal.moments.tolist(),
         body.principal.quaternion.tolist(),
         [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
@@ -358,8 +358,3 @@ def stored(obj: Owner) -> PlainBody | None:
     *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
     return PlainBody._make((*numbers, rotation_axes(turn), {**rounding, "input": inputs}))
-
-
-def tensor_entries(tensor: NDArray) -> NDArray:
-    """Return a (3, 3) tensor as (6,) in the order of ENTRIES."""
-    return tensor[ROWS, COLUMNS]
