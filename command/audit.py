@@ -20,7 +20,7 @@ from ..core.robots.write import audit_report
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
 from .options import targets
-from .parser import Parser
+from .parser import COMMANDS, Parser
 
 _EPILOG = """\
 FILE is URDF, SDF, MJCF, or USD as text (.usda). A link that is off is listed with the one change that makes it agree
@@ -35,7 +35,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser = Parser(
         prog="body_moments",
         usage="body_moments audit [options] FILE ...",
-        description="Checks mass, center and inertia in robot descriptions.",
+        description=COMMANDS["audit"],
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,

@@ -9,6 +9,25 @@ from typing import NoReturn
 
 from ..core.measurement.plain_text import visible
 
+COMMANDS = {
+    "measure": "Exact mass properties of the objects in files.",
+    "audit": "Checks mass, center and inertia in robot descriptions.",
+    "similar": "The bodies of a library that are most like one of them.",
+    "simplex": "Raw moments ∫ x^α in n dimensions, with bounds of their rounding, as JSON.",
+    "manifest": "Lists the files in folders that can be measured, for `measure --manifest LIST`.",
+    "merge": "Joins results of one run, of parts of a list for example: one document a file, as JSON lines.",
+    "to-csv": "Results as a table.",
+    "summary": "Counts by status, method and finding, the failed files, the slowest, the widest bounds.",
+    "compare": "Every number of two results, which may differ as far as their bounds or the tolerance allow.",
+    "report": "Results as one HTML file that opens without a network: a table to sort and filter, and pictures.",
+}
+
+
+def list_commands() -> str:
+    """Return the help without a command: all commands, one line each."""
+    lines = ["  {:<9} {}".format(*command) for command in COMMANDS.items()]
+    return "\n".join(["usage: body_moments COMMAND [options] …", "", *lines, "", "COMMAND --help explains one.", ""])
+
 
 class UsageError(Exception):
     """A request that cannot be carried out, with its reason: it ends a command with exit code 2."""

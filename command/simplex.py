@@ -24,7 +24,7 @@ from ..core.verdict.finding import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import option_types as types
 from .options.arguments import join_negative_values
-from .parser import Parser, UsageError
+from .parser import COMMANDS, Parser, UsageError
 
 MAX_DIMENSION = 12
 MAX_MOMENTS = 1 << 20
@@ -43,7 +43,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser = Parser(
         prog="body_moments",
         usage="body_moments simplex FILE.npz [--order N] [--about X,Y,...] [--boundary]",
-        description="Raw moments ∫ x^α in n dimensions, with bounds of their rounding, as JSON.",
+        description=COMMANDS["simplex"],
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,

@@ -59,7 +59,7 @@ def main(argv: list[str], *, channel: int | None = None, file_needed: bool = Fal
 def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
     """Run the requested command, and return the exit code."""
     from ..command.files import output
-    from ..command.parser import HelpRequested, UsageError
+    from ..command.parser import HelpRequested, UsageError, list_commands
     from ..core.measurement.plain_text import print_message
     from ..core.verdict.finding import MeasureError
 
@@ -67,6 +67,8 @@ def _answer(argv: list[str], channel: int, file_needed: bool) -> int:
     try:
         if word == "child":
             return _serve(channel)
+        if word in ("-h", "--help"):
+            raise HelpRequested(list_commands())
         return _print(word, argv, channel) if word in _PRINTING else _measure(argv, channel, file_needed)
     except HelpRequested as asked:
         return ALL_MEASURED if output.write_result(asked.args, None, channel) else SOME_FAILED

@@ -80,6 +80,7 @@ LENGTHS = {
     "body_principal_axes": 4,
     "body_error_bound": 8,
 }
+BALANCE_GROUP = "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
 OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies measured without their display mesh
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
@@ -97,7 +98,7 @@ def store(obj: Owner, measurement: Measurement) -> None:
         measurement.volume,
         measurement.area,
         body.center.tolist(),
-        tensor_entries(body.inertia).tolist(),
+        body.inertia[ROWS, COLUMNS].tolist(),
         body.principal.moments.tolist(),
         body.principal.quaternion.tolist(),
         [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
@@ -358,8 +359,3 @@ def stored(obj: Owner) -> PlainBody | None:
     *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
     return PlainBody._make((*numbers, rotation_axes(turn), {**rounding, "input": inputs}))
-
-
-def tensor_entries(tensor: NDArray) -> NDArray:
-    """Return a (3, 3) tensor as (6,) in the order of ENTRIES."""
-    return tensor[ROWS, COLUMNS]

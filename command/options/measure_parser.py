@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ...core.measurement.documents import FRAMES
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
-from ..parser import Parser
+from ..parser import COMMANDS, Parser
 from . import option_types as types
 from .formats import FORMATS
 
@@ -26,9 +26,7 @@ or a folder, whose files of these kinds are measured, those in its folders too. 
 that Blender has open is measured. All numbers are SI: kilograms and meters.
 Files are measured by child processes, so that none of them can end the others: what crashes, hangs
 or takes too much memory has a record that says so.
-In the place of `measure`: `similar LIBRARY --to NAME` compares bodies measured with --signature;
-`simplex FILE.npz` has moments in n dimensions;
-`manifest`, `merge`, `to-csv`, `summary`, `compare` and `report` prepare and gather many results.
+Other commands take the place of `measure`: --help without a command lists them.
 BODY_MOMENTS_LIMITS in the environment changes what an array or scan may ask for, such as
 samples=2e10,unpacked_bytes=1e10,entries=5000,header_bytes=1e7.
 exit code: 0 all measured, 1 something is listed under errors or the result cannot be written,
@@ -40,7 +38,7 @@ def measure_parser() -> argparse.ArgumentParser:
     parser = Parser(
         prog="body_moments",
         usage="body_moments measure [options] [FILE ...]",
-        description="Exact mass properties of the objects in files.",
+        description=COMMANDS["measure"],
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
@@ -233,6 +231,17 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help=", ".join(ROBOT_FORMATS) + ": leave geometry out (with --output: meshes in a folder beside it, of usd and "
         "gltf in the file itself)",
+    )
+    add(
+        "--collision",
+        choices=("visual", "none"),
+        default="visual",
+        help=", ".join(ROBOT_FORMATS) + ": links collide as they look, or not at all (visual)",
+    )
+    add(
+        "--fixed-base",
+        action="store_true",
+        help=", ".join(ROBOT_FORMATS) + ": fix links without a parent to the world (passive rigid bodies alone)",
     )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     add(

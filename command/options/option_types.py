@@ -9,9 +9,9 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable
 
 from ...core.verdict.number_text import parse_number, parse_whole
+from ..parser import COMMANDS
 from .formats import FORMATS
 
-COMMANDS = "measure, similar, simplex, audit, manifest, merge, to-csv, summary, compare and report"
 # Equal to the values in the core, which needs numpy: the process that supervises others may have none.
 MAX_ORDER = 30
 MAX_SPLINE_ORDER = 16
@@ -23,7 +23,7 @@ _NAMED = {"value": False, "materials": False, "attribute": True, "volume": True}
 def command(text: str) -> str:
     """Return the text if it is “measure”, the command of these options."""
     if text != "measure":
-        raise ArgumentTypeError("“{}” is no command: {} are".format(text, COMMANDS))
+        raise ArgumentTypeError("“{}” is no command: {} are".format(text, ", ".join(COMMANDS)))
     return text
 
 

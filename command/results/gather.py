@@ -20,7 +20,7 @@ from ...core.measurement.page import to_html
 from ...core.measurement.plain_text import counted, visible
 from ...core.verdict.finding import system_reason
 from ..options.option_types import count, positive
-from ..parser import Parser, UsageError
+from ..parser import COMMANDS, Parser, UsageError
 from ..supervisor import journal, listing
 from . import compare
 
@@ -35,7 +35,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     parser = Parser(
         prog="body_moments",
         usage="body_moments {} [options] {} [{} ...]".format(command, names, names),
-        description=_DESCRIPTIONS[command],
+        description=COMMANDS[command],
         epilog="exit code: 0 done, 1 {}the result cannot be written, 2 wrong usage or no results".format(
             "numbers differ by more than they may, or " if command == "compare" else ""
         ),
@@ -212,13 +212,4 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], tuple[Iterable[str], int]]] 
     "summary": _summary,
     "compare": _compare,
     "report": lambda options: (to_html(_documents(options)), 0),
-}
-_DESCRIPTIONS = {
-    "manifest": "Lists the files in folders that can be measured, for `measure --manifest LIST --range A:B`.",
-    "merge": "Joins results, of ranges of a list for example: one document a file, as JSON lines.",
-    "to-csv": "Results as a table.",
-    "summary": "What became of many files: counts by status and method, findings, the slowest, the widest bounds.",
-    "compare": "Every number of two results, whose files and bodies have the same names: they pass where their bounds "
-    "or the tolerance allow the difference.",
-    "report": "Results as one HTML file that opens without a network: a table to sort and filter, and pictures.",
 }

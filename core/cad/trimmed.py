@@ -65,12 +65,7 @@ def trimmed_faces(
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 
 
-def plane_face(normal: NDArray, boundaries: Sequence[Boundary]) -> FlatFace:
-    """Return the region of an unbounded plane within boundaries. SurfaceRefusedError if they do not bound one."""
-    return _first_region([[boundary.curves for boundary in boundaries]], normal)
-
-
-def _first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
+def first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
     """Return the first of several choices of loops that bound a region. SurfaceRefusedError if none does."""
     for loops in choices:
         known = [loop for loop in loops if loop]
@@ -120,7 +115,7 @@ def _flat_face(
         [placed(boundary) or boundary.curves for boundary in boundaries],
     )
     choices = [in_space, by_parameters][:: -1 if any(one.prefers_parameters for one in boundaries) else 1]
-    return _first_region(choices, vector_area([surface]))
+    return first_region(choices, vector_area([surface]))
 
 
 def _follow_sides(
@@ -139,7 +134,9 @@ def _follow_sides(
     else:
         domain = (0.0, 1.0), (0.0, 1.0)
         for boundary in boundaries:
-            for curve in boundary.curves or ():
+            if boundary.curves is None:
+                return False
+            for curve in boundary.curves:
                 points = curve.evaluate(np.linspace(*curve.space.domain, SAMPLES))
                 if _is_point(points, tolerance):
                     continue

@@ -257,7 +257,7 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
 
     They hold for the worst signs of all errors, with the divisor at its smallest.
     """
-    delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
+    delta, raw = np.array([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off
     total = np.where(is_bounded, total, 1.0)[..., None]

@@ -62,11 +62,12 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
     if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
         raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
     found: list[EquivalentFrames | None] = [None] * len(bodies)
-    for name in EQUAL_AXES:
-        rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
-        if len(rows) and name != "asymmetric":
-            for row, frames in zip(rows.tolist(), _frames_alike(moments.at(rows), fixed, bodies[rows], name)):
-                found[row] = frames
+    symmetry = fixed.symmetry[bodies]
+    for number in set(symmetry.tolist()) - {SYMMETRIES.index("asymmetric")}:
+        rows = np.flatnonzero(symmetry == number)
+        alike = _frames_alike(moments.at(rows), fixed, bodies[rows], SYMMETRIES[number])
+        for row, frames in zip(rows.tolist(), alike):
+            found[row] = frames
     return [
         canonical_frames(moments.at(i), fixed.spread(int(body)), fixed.frames(int(body))) if frames is None else frames
         for i, (body, frames) in enumerate(zip(bodies, found))

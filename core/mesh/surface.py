@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import float_array, index_array, number_array
+from ..numerics.arguments import float_array, has_form, index_array, number_array
 from ..numerics.arrays import cross_rows, lengths
 from ..numerics.vectors import cross, dot
 
@@ -23,7 +23,7 @@ NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
 NEXT_CORNER = [1, 2, 3, 0]
 HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
-POINT_TYPES, INDEX_TYPES = {np.dtype(np.float32), np.dtype(np.float64)}, {np.dtype(np.int32), np.dtype(np.int64)}
+POINT_TYPES, INDEX_TYPES = (np.dtype(np.float32), np.dtype(np.float64)), (np.dtype(np.int32), np.dtype(np.int64))
 INDEX_SHAPES = {
     "triangles": ("m", 3),
     "quads": ("q", 4),
@@ -74,32 +74,20 @@ class Surface:
     displacement: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        if self._is_ready():
-            return
-        points = number_array("points", self.points, "n", 3)
-        # Files have float32 in either byte order: it must be known as such; other numbers become float64.
-        kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
-        object.__setattr__(self, "points", points.astype(kind, copy=False))
+        if not has_form(self.points, POINT_TYPES, (3,)):
+            points = number_array("points", self.points, "n", 3)
+            # Files have float32 in either byte order: it must be known as such; other numbers become float64.
+            kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
+            object.__setattr__(self, "points", points.astype(kind, copy=False))
         for name, shape in INDEX_SHAPES.items():
             values = getattr(self, name)
-            if values is not None:
+            if values is not None and not has_form(values, INDEX_TYPES, shape[1:]):
                 indices = index_array(name, values, *shape)
                 # Numbers of faces, edges and vertices are added to others, which must neither overflow nor round.
-                kind = indices.dtype if indices.dtype in (np.int32, np.int64) else np.int64
+                kind = indices.dtype if indices.dtype in INDEX_TYPES else np.int64
                 object.__setattr__(self, name, indices.astype(kind, copy=False))
         if self.displacement is not None:
             object.__setattr__(self, "displacement", float_array("displacement", self.displacement, 3))
-
-    def _is_ready(self) -> bool:
-        """Return whether all arrays have their types and shapes, as those read from Blender do."""
-        columns = self.triangle_faces, self.quad_faces, self.corner_vertices, self.corner_edges
-        return (
-            self.displacement is None
-            and _is_array(self.points, POINT_TYPES, (3,))
-            and _is_array(self.triangles, INDEX_TYPES, (3,))
-            and _is_array(self.quads, INDEX_TYPES, (4,))
-            and all([column is None or _is_array(column, INDEX_TYPES, ()) for column in columns])
-        )
 
     @cached_property
     def box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -158,10 +146,6 @@ class Surface:
         cut = turned_quads(self.points, self.quads)[:, HALVES].reshape(-1, 3)
         quad_faces = np.arange(len(self.quads)) if self.quad_faces is None else self.quad_faces
         return np.concatenate([self.triangles, cut]), np.concatenate([faces, np.repeat(quad_faces, 2)])
-
-
-def _is_array(values: object, types: set[np.dtype], row: tuple[int, ...]) -> bool:
-    return type(values) is np.ndarray and values.dtype in types and values.ndim > 0 and values.shape[1:] == row
 
 
 def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:

@@ -28,6 +28,11 @@ def lengths(vectors: NDArray) -> NDArray:
     return np.sqrt(np.add.reduce(vectors * vectors, axis=-1, keepdims=True))
 
 
+def as_rows(vectors: list[NDArray]) -> NDArray:
+    """Return the vectors (..., k) as rows (..., m, k): `np.stack` along the axis before the last, in less time."""
+    return np.concatenate([vector[..., None, :] for vector in vectors], axis=-2)
+
+
 def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
     """Return whether all indices are from 0 to count - 1."""
     return not indices.size or bool(as_unsigned(indices).max() < count)

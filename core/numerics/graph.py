@@ -84,7 +84,7 @@ def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
         block = parent[start : start + NODES_PER_BLOCK]
         while True:
             grand = parent.take(block, mode="clip")
-            if np.array_equal(grand, block):
+            if (grand == block).all():
                 break
             block[...] = grand
         tree[start : start + NODES_PER_BLOCK] = tree.take(block, mode="clip")

@@ -146,26 +146,8 @@ class BoundaryLoops:
 
 
 @dataclass(frozen=True, eq=False)
-class Caps:
-    """The caps of holes: cones over loops of boundary sides.
-
-    `apexes`: (l, 3) one for each loop, in the points' own type, so that it carries the same coordinate error.
-    `triangles`: (k, 3) with three different vertices, the apexes after the points; a single triangle over three sides.
-    `side`: (k,) the boundary side of each triangle. `counts`: (o, 3) flat and curved caps, and their area, by owner.
-    """
-
-    apexes: NDArray[np.floating]
-    triangles: NDArray[np.integer]
-    side: NDArray[np.intp]
-    counts: NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
 class OwnedLoops:
-    """The loops of boundary sides with ends `start` and `stop`, (r,), that are joined head to tail.
-
-    Sides are joined within their owners: bodies, or components of a body. `owner`: (l,) of each loop.
-    """
+    """The loops of (r,) boundary sides, joined head to tail within bodies or components: the `owner` of each loop."""
 
     points: NDArray[np.floating]
     start: NDArray[np.integer]
@@ -174,35 +156,31 @@ class OwnedLoops:
     owner: NDArray[np.intp]
 
     @classmethod
-    def of_sides(
-        cls,
-        points: NDArray[np.floating],
-        start: NDArray[np.integer],
-        stop: NDArray[np.integer],
-        owner: NDArray[np.integer],
-    ) -> OwnedLoops:
-        """Find the loops of sides between points. owner: (r,) of each side."""
+    def of_sides(cls, points: NDArray, start: NDArray, stop: NDArray, owner: NDArray) -> OwnedLoops:
+        """Find the loops of sides from and to these (r,) points. owner: (r,) of each side."""
         begin, end = points[start].astype(np.float64), points[stop].astype(np.float64)
         first, second = owner * len(points) + start, owner * len(points) + stop
         loops = find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
         return cls(points, start, stop, loops, loops.of_each(owner))
 
-    def caps(self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]) -> Caps:
-        """Cap all loops, each by the cone to its centroid.
+    def cones(self) -> tuple[NDArray[np.floating], NDArray[np.integer], NDArray[np.intp]]:
+        """Return the loops' centroids, in the points' own type; (k, 3) triangles to them from (k,) sides: the caps.
 
-        tolerance: (o,) of each owner: flatter loops are flat, and narrower ones no holes. counted: (o,) mask of owners.
+        Centroids are numbered after the points. Three sides get a single triangle.
         """
-        loops, within = self.loops, tolerance[self.owner]
-        centroids = len(self.points) + np.arange(len(self.owner))
+        loops, centroids = self.loops, len(self.points) + np.arange(len(self.owner))
         apex = np.where(np.bincount(loops.of_side) == 3, loops.of_each(self.start), centroids)
         triangles = np.stack([self.stop, self.start, apex[loops.of_side]], axis=1)
         kept = np.flatnonzero(has_distinct_vertices(triangles))
+        return loops.centroid.astype(self.points.dtype), triangles[kept], kept
+
+    def count_caps(self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Return (o, 3) flat caps, curved caps, and their area, of owners with these tolerances that are `counted`."""
+        loops, within = self.loops, tolerance[self.owner]
         is_flat, is_hole = loops.out_of_plane <= within, loops.has_area(within) & counted[self.owner]
         columns = is_flat, ~is_flat, np.where(is_flat, loops.planar_area, loops.cone_area)
         counts = [np.bincount(self.owner, column * is_hole, len(counted)) for column in columns]
-        return Caps(
-            loops.centroid.astype(self.points.dtype), triangles[kept], kept, np.stack(counts, axis=1, dtype=np.float64)
-        )
+        return np.stack(counts, axis=1, dtype=np.float64)
 
 
 def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:

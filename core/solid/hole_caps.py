@@ -155,15 +155,15 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     found = OwnedLoops.of_sides(mesh.points, *mesh.oriented_ends(side), component)
     is_open = mesh.open.copy()
     is_open[found.owner[~found.loops.complete]] = True
-    caps = found.caps(np.full(mesh.number, tolerance), ~is_open)
-    return replace(
+    apexes, caps, under = found.cones()
+    return copy_with(
         mesh,
-        points=np.concatenate([mesh.points, caps.apexes]),
+        points=np.concatenate([mesh.points, apexes]),
         open=is_open,
-        caps=caps.counts,
+        caps=found.count_caps(np.full(mesh.number, tolerance), ~is_open),
         capped_edges=vertex_pairs(mesh.state.given, side),
         capped_component=component,
-    ).with_caps(caps.triangles, side[caps.side] // 3)
+    ).with_caps(caps, side[under] // 3)
 
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:

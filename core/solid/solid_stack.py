@@ -168,14 +168,6 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     is_measured = usable & (links.is_closed | capped)
     least = np.maximum(zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0])
     is_measured &= volume.raw[:, 0] > least
-    rows = np.flatnonzero(is_measured)
-    if len(rows):
-        is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
-    several = np.flatnonzero(is_measured & (links.component_counts > 1))
-    if len(several):
-        is_measured[several] = _stand_apart(triangles, part, several, links.component_counts, tolerance, capped, error)
-    intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
-    intersection[is_measured] = Intersection.EXCLUDED
     is_star = links.component_counts == 1
     if (is_measured & is_star).any():
         centers = volume.about + volume.raw[:, 1:4] / np.where(is_measured, volume.raw[:, 0], 1.0)[:, None]
@@ -183,6 +175,14 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         if not is_proven[is_measured & ~capped].all():
             is_proven |= ~capped & _are_stars(triangles, volume.about)
         is_star &= is_proven
+    rows = np.flatnonzero(is_measured & ~is_star)  # A star is a body, and does not go through itself.
+    if len(rows):
+        is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
+    several = np.flatnonzero(is_measured & (links.component_counts > 1))
+    if len(several):
+        is_measured[several] = _stand_apart(triangles, part, several, links.component_counts, tolerance, capped, error)
+    intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
+    intersection[is_measured] = Intersection.EXCLUDED
     rows = np.flatnonzero(is_measured & ~is_star)
     if len(rows):
         chosen = triangles.owned(rows)[1]

@@ -15,6 +15,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from body_moments.command.parser import COMMANDS
 from body_moments.command.supervisor import listing
 from body_moments.core.density.materials import BY_NAME
 from body_moments.core.measurement import documents
@@ -154,6 +155,13 @@ def part(path, options, *names):
     """A result of a run with these options."""
     run = {"addon": "1", "options": options}
     return result(path, *(documents.document([], {}, [], file=name, blender="5", run=run) for name in names))
+
+
+def test_help_without_a_command_lists_the_commands(main):
+    code, out, _ = main("--help")
+    names = [line.split()[0] for line in out.splitlines() if line.startswith("  ")]
+    assert code == 0 and names == [*COMMANDS] and {"audit", "simplex", "similar"} <= {*names}
+    assert all(main(name, "--help")[0] == 0 for name in names) and main("--help", "audit")[1] == out
 
 
 def test_merge_refuses_parts_of_other_runs(main, tmp_path):

@@ -105,10 +105,6 @@ class FlatRegion:
             raise ReadError(MOMENTS_OVERFLOW, order=order)
         return moments
 
-    def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
-        return np.append(project(self.plane, np.asarray(point, np.float64)[None])[0], 0.0)
-
 
 def flat_region(
     obj: bpy.types.Object,

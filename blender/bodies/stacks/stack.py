@@ -24,7 +24,7 @@ from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VAL
 from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
-from ....core.moments.moments import Moments, image, stack_moments
+from ....core.moments.moments import Moments, image, join_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.sheared_areas import area_of_images
@@ -90,34 +90,23 @@ def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
     """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
     stackable = can_be_stacked([shape.surface for shape in shapes])
     small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
-    volumes: list[Moments] = []
-    areas: list[Moments] = []
+    stacks: list[tuple[Moments, Moments]] = []
     if small:
         solids = measure_stack([shape.surface for shape in small])
-        volumes, areas = [solids.volume], [solids.area]
+        stacks.append((solids.volume, solids.area))
         for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
             if is_measured:
                 shape.row, shape.solids, shape.findings = i, solids, solids.findings(i)
                 shape.method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
             else:
                 shape.alone = measure_left_over(solids, i, shape.surface)
-    others = []
-    for shape in shapes:
-        if shape.solids is None:
-            solid = shape.alone = shape.alone or measure_solid(shape.surface)
-            shape.row, shape.method, shape.findings = len(small) + len(others), METHODS[solid.method], solid.findings
-            others.append(solid)
-    if others:
-        volumes.append(stack_moments([solid.volume for solid in others]))
-        areas.append(stack_moments([solid.area for solid in others]))
-    return _join_moments(volumes), _join_moments(areas)
-
-
-def _join_moments(stacks: list[Moments]) -> Moments:
-    if len(stacks) == 1:
-        return stacks[0]
-    names = "raw", "about", "rounding_error", "input_error"
-    return replace(stacks[0], **{name: np.concatenate([getattr(stack, name) for stack in stacks]) for name in names})
+    left_over = [shape for shape in shapes if shape.solids is None]
+    for row, shape in enumerate(left_over, len(small)):
+        solid = shape.alone = shape.alone or measure_solid(shape.surface)
+        shape.row, shape.method, shape.findings = row, METHODS[solid.method], solid.findings
+        stacks.append((solid.volume.at(None), solid.area.at(None)))
+    volume, area = (join_moments(parts) for parts in zip(*stacks))
+    return volume, area
 
 
 @dataclass(frozen=True, eq=False)

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from ....core.inertia.mass_properties import affine_image
 from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.body import Body
-from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.measurement.measurement import Measurement
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
@@ -41,6 +41,7 @@ from ...read.objects import read_patches
 from ...read.reading import float64_matrix
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
+from ...settings.resolve import object_settings
 from ..tracking import handlers, updates
 from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface
@@ -60,7 +61,7 @@ def map_properties(obj: Object, current: Followed, measured: Measurement, scene:
     )
     if current.first_order is None and has_transform(obj, current.transform):
         return shown
-    return _mapped(obj, current, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
+    return _mapped(obj, current, measured, shown, scene)
 
 
 def is_of_another_scale(obj: Object, current: Followed) -> bool:
@@ -83,12 +84,12 @@ def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArra
     return now @ np.linalg.inv(before)
 
 
-def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainBody, unit: float) -> PlainBody:
+def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene) -> PlainBody:
     """Return the numbers mapped to the current matrix; volume and center are those of the last light pass, if any."""
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
         return shown
-    now = float64_matrix(obj.matrix_world)
+    now, unit = float64_matrix(obj.matrix_world), shortest_decimal(scene.unit_settings.scale_length)
     to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
@@ -101,8 +102,9 @@ def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainB
         center = now[:3, :3] @ center + now[:3, 3]
     if not volume > 0.0:
         return shown
-    is_mass_given = measured.density_from == DENSITY_FROM_MASS
-    mass = measured.mass_properties.mass if is_mass_given else measured.mass_properties.mass / measured.volume * volume
+    mass = measured.mass_properties.mass
+    if object_settings(obj, scene).mass is None:
+        mass *= volume / measured.volume
     axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ np.transpose(shown.axes)
     image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
     location = now[:3, 3] * unit

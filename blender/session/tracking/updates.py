@@ -65,23 +65,18 @@ def shown_by(obj: Object) -> Iterator[ID]:
             yield settings.instance_collection
 
 
-def density_source(obj: Object) -> Object | None:
-    """Return the Volume object that the density comes from, or None; its shape matters, its place is a setting."""
-    settings = obj.body_moments
-    return settings.density_volume if settings.density_from == "VOLUME" else None
-
-
-def last_edit(obj: Object, since: int = 0) -> Update:
+def last_edit(obj: Object) -> Update:
     """Return the last update of an original object, or of its instances, that may be an edit.
 
-    since: number of an update. Return `NEVER` if no edit came after it.
+    The shape of the Volume object that its density comes from matters, too; the place of that object is a setting.
     """
     last = _edits.get(obj.session_uid, NEVER)
     for shown in shown_by(obj):
         last = max(last, *[stamps.get(shown.session_uid, NEVER) for stamps in (_edits, _moves)])
-    if (source := density_source(obj)) is not None:
-        last = max(last, _edits.get(source.session_uid, NEVER))
-    return last if last.number > since else NEVER
+    settings = obj.body_moments
+    if settings.density_from == "VOLUME" and settings.density_volume is not None:
+        last = max(last, _edits.get(settings.density_volume.session_uid, NEVER))
+    return last
 
 
 def last_since(obj: Object, since: int) -> tuple[Update, Update]:
@@ -89,8 +84,8 @@ def last_since(obj: Object, since: int) -> tuple[Update, Update]:
 
     since: number of an update. The edit is `NEVER` if it did not come after this update.
     """
-    edit = last_edit(obj, since)
-    return edit, max(edit, _returns.get(obj.session_uid, NEVER))
+    edit = last_edit(obj)
+    return edit if edit.number > since else NEVER, max(edit, _returns.get(obj.session_uid, NEVER))
 
 
 def last_change_of_geometry(obj: Object) -> int:

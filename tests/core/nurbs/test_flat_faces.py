@@ -105,7 +105,6 @@ def test_rows_of_trapezoids_fill_a_face():
     a, b, c, d = np.moveaxis(face.quads(3), 1, 0)
     area = np.cross(c - a, d - b) / 2.0
     assert (area[:, 2] >= 0.0).all() and close(area.sum(axis=0)[2], 8.0 - 0.25, 1e-12)
-    assert face.cones() is None and FlatFace.within([arcs(1.0)], Z).cones() is not None
 
 
 def test_lopsided_curve_in_a_tilted_plane_bounds_a_region():
