@@ -69,6 +69,8 @@ def test_one_mesh_is_the_same_in_every_format(tmp_path, name):
     (tmp_path / name).write_bytes(data)
     (mesh,) = read_meshes(tmp_path / name)
     assert mesh.name == name.rpartition(".")[0] and len(mesh.points) == len(points)
+    (surface,) = mesh.surfaces()
+    assert np.array_equal(surface.triangles, mesh.corners.reshape(-1, 3))
     assert np.array_equal(mesh.points[mesh.corners], points[triangles.ravel()]) and (mesh.sides == 3).all()
 
 
