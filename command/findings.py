@@ -56,7 +56,6 @@ ASSETS_NOT_MEASURED = warning(
     "Assets without numbers in their metadata, because they are not rendered, or not in the scene as an object or "
     "collection: {names}. --all measures what is not rendered.",
 )
-AT_GLTF_ROW = note("at_gltf_row", "row {row} of {part} “{name}”")
 PART_UNAVAILABLE = error("part_unavailable", "No {part}: {cause}")
 OPTIONS_UNUSED = warning(
     "options_unused", "Options that do not apply to this body, or to how its file is read, were not used: {options}."

@@ -13,8 +13,8 @@ from ..blender.session import stored
 from ..blender.session.displayed import displayed
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
-from ..blender.write.numbers import StoredProperties
 from ..blender.write.units import Units
+from ..core.inertia.plain_body import PlainBody
 from ..core.lazy import loaded_module
 from . import rows
 from .places import in_both_places
@@ -53,7 +53,7 @@ class AdvancedPanel:
         )
 
 
-def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: StoredProperties) -> None:
+def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> None:
     display = properties.optional(obj, "body_display_volume")
     if display is None:
         return
@@ -64,7 +64,7 @@ def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: StoredProp
         rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
 
 
-def _bounds(layout: UILayout, obj: Object, units: Units, shown: StoredProperties) -> None:
+def _bounds(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return

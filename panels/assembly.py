@@ -13,9 +13,9 @@ from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UILis
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.assembly import Root, is_assembly, settings_of
 from ..blender.write import properties
-from ..blender.write.numbers import StoredProperties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
+from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.sentences import severity
 from . import remedies, rows
 from .density import given_rows
@@ -125,7 +125,7 @@ def _tree(layout: UILayout, context: Context, settings: PropertyGroup) -> None:
             rows.message(layout, context, found)
 
 
-def _numbers(layout: UILayout, units: Units, stored: StoredProperties, in_world: bool) -> None:
+def _numbers(layout: UILayout, units: Units, stored: PlainBody, in_world: bool) -> None:
     column = layout.column(align=True)
     entries = [("Volume", "volume", stored.volume), ("Area", "area", stored.area)]
     rows.quantities(column, units, [entry for entry in entries if entry[-1]])

@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from bpy.types import Context, UILayout
 
 from ..blender.session.stored import outcome
-from ..blender.write.numbers import StoredProperties
 from ..blender.write.remedies import DEFECTS, OUTSIDE, SHELL, UNION, remedies_of
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
+from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.finding import Finding, Severity, truncate
 from ..core.verdict.sentences import of_severity, severity
 from ..operators.findings import RIGID_BODY_CENTER_ELSEWHERE
@@ -103,7 +103,7 @@ def last_action(layout: UILayout, context: Context) -> None:
         rows.button(box, context, "object.body_moments_select_refused", "RESTRICT_SELECT_OFF")
 
 
-def unit_question(layout: UILayout, context: Context, shown: StoredProperties) -> None:
+def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:
     """Ask, until it is answered for the scene, whether a unit is a millimeter, if the body is large and heavy."""
     scene, length = context.scene, max(context.object.dimensions)
     if (

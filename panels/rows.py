@@ -15,9 +15,9 @@ import blf
 import bpy
 from bpy.types import Context, PropertyGroup, UILayout
 
-from ..blender.write.numbers import ENTRIES, StoredProperties
 from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
+from ..core.inertia.plain_body import ENTRIES, PlainBody
 from ..core.measurement.documents import plain
 from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import fill, severity
@@ -101,7 +101,7 @@ def values(
     )
 
 
-def center(layout: UILayout, units: Units, label: str, numbers: StoredProperties) -> None:
+def center(layout: UILayout, units: Units, label: str, numbers: PlainBody) -> None:
     """Draw the center of mass; a coordinate that is mere rounding, relative to the body's size, is shown as 0."""
     group(layout, units, label, AXIS_LABELS, "length", numbers.center, max(numbers.gyration))
 

@@ -32,14 +32,12 @@ class MeshBody(Body):
     """A body bounded by polygons, or the sheets of these polygons.
 
     `solids`: the measured surfaces, each with the (k, 4, 4) maps to its places.
-    `sheets`: the surface of each solid before repair.
     """
 
     any_order: ClassVar[bool] = True
     has_surface: ClassVar[bool] = True
 
     solids: tuple[tuple[SolidIntegrals, NDArray[np.float64]], ...] = ()
-    sheets: tuple[Surface, ...] = ()
     threads: int = field(kw_only=True)
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
@@ -62,7 +60,8 @@ class MeshBody(Body):
                 surface, order, area_order=order, exact=True, threads=self.threads, allow_open=True
             )[1]
 
-        for (solid, matrices), surface in zip(self.solids, self.sheets):
+        for solid, matrices in self.solids:
+            surface = solid.given_surface
             same = (
                 solid.method in (Verdict.EXACT, Verdict.REORIENTED)
                 and not solid.health.duplicate_faces
@@ -102,8 +101,8 @@ class MeshBody(Body):
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
         """Yield the surfaces in world coordinates, repaired, or with `sheets` as they were before repair."""
-        for (solid, matrices), surface in zip(self.solids, self.sheets):
-            piece = surface if sheets else solid.repaired_surface
+        for solid, matrices in self.solids:
+            piece = solid.given_surface if sheets else solid.repaired_surface
             yield from (piece.transform(matrix[:3, :3], matrix[:3, 3]) for matrix in matrices)
 
 

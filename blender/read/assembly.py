@@ -3,7 +3,7 @@
 """The members of an assembly: a collection with its nested collections, or an empty with its children.
 
 An object counts once, in its first place. An instance of a collection is an assembly of its own, with the members' own
-densities, unless the instancer's own density or mass is set. Panels ask whether members have changed: without numpy.
+densities, unless the instancer's own density or mass is set. Panels ask for changes of members, so numpy is not loaded.
 """
 
 from __future__ import annotations

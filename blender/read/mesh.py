@@ -30,6 +30,7 @@ from .findings import ATTRIBUTE_MISSING
 SINGLE_ACCESS_COST = 5
 # Faces per block, so that intermediate arrays stay in the cache.
 FACES_PER_BLOCK = 1 << 15
+FACE_CORNERS = np.arange(4)
 Read = TypeVar("Read")
 
 
@@ -85,17 +86,17 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
         return {"quads": corners.reshape(-1, 4)}
 
     sizes = np.bincount(owners, minlength=faces) + 2
-    starts = np.cumsum(sizes) - sizes
-    three, four = np.flatnonzero(sizes == 3), np.flatnonzero(sizes == 4)
-    triangles, triangle_faces = corners[starts[three][:, None] + np.arange(3)], three
+    starts = sizes.cumsum() - sizes
+    three, four = (sizes == 3).nonzero()[0], (sizes == 4).nonzero()[0]
+    triangles, triangle_faces = corners[starts[three][:, None] + FACE_CORNERS[:3]], three
     if len(three) + len(four) < faces:
-        ngon_triangles = np.flatnonzero(sizes[owners] > 4)
+        ngon_triangles = (sizes.take(owners) > 4).nonzero()[0]
         triangles = np.concatenate([triangles, _loop_triangles(mesh, ngon_triangles)])
         triangle_faces = np.concatenate([three, owners[ngon_triangles]])
     return {
         "triangles": triangles,
         "triangle_faces": triangle_faces.astype(np.int32),
-        "quads": corners[starts[four][:, None] + np.arange(4)],
+        "quads": corners[starts[four][:, None] + FACE_CORNERS],
         "quad_faces": four.astype(np.int32),
     }
 

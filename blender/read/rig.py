@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A skinned character: the meshes that an armature deforms, and the objects parented to bones.
 
-Panels and handlers ask for them: without numpy.
+Panels and handlers ask for them, so numpy is not loaded.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-import bpy
 from bpy.types import Context, Depsgraph, Object, Scene
 
 from ...core.verdict.finding import ReadError
@@ -89,8 +88,3 @@ def require_armature(obj: Object | None) -> Object:
     if obj.mode == "EDIT":
         raise ReadError(ARMATURE_IN_EDIT_MODE, subject=obj.name)
     return obj
-
-
-def pose_bone_of(armature: Object, name: str) -> bpy.types.PoseBone:
-    """Return a pose bone by name."""
-    return armature.pose.bones[name]

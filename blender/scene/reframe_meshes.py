@@ -64,7 +64,7 @@ def rounding_of_locations(size: PerBody, reach: PerBody) -> PerBody:
 
 
 def largest_move(difference: NDArray, reach: float) -> NDArray[np.float64]:
-    """Return (...,) how far points up to `reach` move at most by (..., 4, 4) differences of maps."""
+    """Return the (...,) largest moves of points up to `reach` by (..., 4, 4) differences of maps."""
     off = np.abs(difference)
     return off[..., :3, :3].sum(axis=(-2, -1)) * reach + off[..., :3, 3].max(axis=-1)
 

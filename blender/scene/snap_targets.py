@@ -17,8 +17,8 @@ from bpy.types import Context, Object
 from numpy.typing import NDArray
 
 from ...core.inertia.mass_properties import MassProperties
+from ...core.inertia.plain_body import EQUAL_AXES
 from ...core.inertia.principal_frames import PrincipalFrame, zhang_chen_frame
-from ...core.inertia.tensors import EQUAL_AXES
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Verdict

@@ -108,7 +108,7 @@ def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Objec
     """Return the objects once each. Raises ValueError."""
     if objects is None:
         return list(bpy.context.selected_objects)
-    several = [objects] if isinstance(objects, (Object, str)) else objects
+    several: Iterable[Any] = [objects] if isinstance(objects, (Object, str)) else objects
     scene_objects = bpy.context.view_layer.objects
     chosen = {}
     for one in several:

@@ -11,20 +11,20 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import bpy
-from bpy.types import Context, Object, PoseBone, Scene
+from bpy.types import ID, Context, Object, PoseBone, Scene
 
+from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.measurement.trust import Trust, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ...core.verdict.method import Method, Verdict
 from .. import read
 from ..read.fingerprint import has_transform, settings_hash
-from ..write import numbers, properties
-from ..write.numbers import StoredProperties
+from ..write import properties
 from . import live
 from .live import following
 from .live.following import Lag, LiveResult
-from .tracking import armatures, handlers, updates
+from .tracking import armatures, handlers
 from .tracking.cache import SessionCache, current_value
 from .tracking.staleness import stale_reason
 from .tracking.stamps import Stale, of_results
@@ -42,8 +42,8 @@ class Displayed:
     whether the numbers are a sum of parts in the present pose.
     """
 
-    numbers: StoredProperties
-    world: StoredProperties
+    numbers: PlainBody
+    world: PlainBody
     unit: float
     method: Method | None
     findings: Sequence[Finding]
@@ -53,7 +53,7 @@ class Displayed:
     lag: Lag = Lag.NONE
     is_posed: bool = False
 
-    def in_frame(self, frame: str) -> StoredProperties:
+    def in_frame(self, frame: str) -> PlainBody:
         """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
         return self.numbers if frame == "OBJECT" else self.world
 
@@ -69,16 +69,17 @@ class Total:
     count: int
     volume: float
     area: float
-    numbers: StoredProperties | None
+    numbers: PlainBody | None
     missing: tuple[str, ...]
     stale: tuple[str, ...]
     doubtful: tuple[str, ...]
     findings: tuple[Finding, ...]
 
 
-# By object: the key of its state without its place, the number of its last move, and its last drawn numbers.
-_drawn: SessionCache[tuple[tuple, int, Displayed | None]] = SessionCache()
-_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the settings then
+_drawn: dict[int, Displayed] = {}  # session uid → drawn numbers, of objects that depend on no other
+_drawn_in: tuple = ()  # the scene's part in them
+_moved: set[int] = set()  # session uids of objects that have only moved since
+_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the refused settings
 # A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
@@ -115,40 +116,60 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
 
     None if there are no numbers, or the mass is 0.
     """
-    if obj.type == "ARMATURE" or obj in following.followed or obj.body_moments.density_from in BY_OTHERS:
-        shown = displayed(obj, scene)
-        if obj.type == "ARMATURE" and shown is not None and not shown.is_posed:
-            shown = _sum_of_bones(obj, scene)
-    else:
-        shown = _known_displayed(obj, scene) if "body_mass" in obj else None
-    return shown if shown is not None and shown.world.mass > 0.0 else None
+    return all_drawn([obj], scene)[0]
 
 
-def _known_displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an object that depends on no other; compute them anew only after its changes."""
-    change, move = updates.last_change_and_move(obj)
-    settings, known = scene.body_moments, _drawn.get(obj)
-    key = (
-        change,
-        obj.get("body_fingerprint"),
-        obj.get("body_findings"),
-        scene.session_uid,
-        scene.unit_settings.scale_length,
-        settings.default_material,
-        settings.default_density,
-    )
-    if known is None or known[0] != key:
+def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]:
+    """Return `drawn` of many objects. An answer is kept until there is a report about its object."""
+    global _drawn_in
+    settings = scene.body_moments
+    key = scene.session_uid, scene.unit_settings.scale_length, settings.default_material, settings.default_density
+    if key != _drawn_in:
+        _drawn.clear()
+        _drawn_in = key
+    found = []
+    for obj in objects:
+        uid = obj.session_uid
+        known = _drawn.get(uid)
+        found.append(known if known is not None and uid not in _moved else _draw(obj, scene, known))
+    return found
+
+
+def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
+    """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
+    if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
-    elif known[1] == move:
-        return known[2]
+        shown = _sum_of_bones(obj, scene) if shown is not None and not shown.is_posed else shown
     else:
-        shown, stamp = known[2], of_results(obj)
-        if shown is None or stamp is None or shown.reason is not None or not has_transform(obj, stamp.transform):
-            shown = displayed(obj, scene)
+        stamp = None if before is None or before.reason is not None else of_results(obj)
+        if before is not None and stamp is not None and has_transform(obj, stamp.transform):
+            shown = replace(before, world=before.numbers.in_world(obj.matrix_world, before.unit))
         else:
-            shown = replace(shown, world=shown.numbers.in_world(obj.matrix_world, shown.unit))
-    _drawn[obj] = key, move, shown
+            shown = displayed(obj, scene) if "body_mass" in obj or obj in following.followed else None
+    if shown is None or not shown.world.mass > 0.0:
+        return None
+    shows_others = obj.instance_type != "NONE" or len(obj.particle_systems)
+    depends = obj.type == "ARMATURE" or shown.method == ASSEMBLY or obj.body_moments.density_from in BY_OTHERS
+    if not (shows_others or depends or shown.live is not None):
+        _drawn[obj.session_uid] = shown
+        _moved.discard(obj.session_uid)
     return shown
+
+
+def note_updates(events: handlers.Updates) -> None:
+    """Forget the drawn numbers of objects that Blender has evaluated anew; mere moves leave all but the place."""
+    for uid in (*events.reshaped, *events.others):
+        _drawn.pop(uid, None)
+    _moved.update(_drawn.keys() & events.moved)
+
+
+def forget_drawn(data: ID | None = None) -> None:
+    """Forget the drawn numbers of an object, or of all."""
+    if data is None:
+        _drawn.clear()
+        _moved.clear()
+    else:
+        _drawn.pop(data.session_uid, None)
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
@@ -179,7 +200,7 @@ def _sum_of_bones(armature: Object, scene: Scene) -> Displayed | None:
 
 
 def _as_one(armature: Object, scene: Scene, parts: Sequence[Displayed]) -> Displayed | None:
-    world = numbers.add([part.world for part in parts])
+    world = add_bodies([part.world for part in parts])
     if world is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
@@ -234,7 +255,7 @@ def _sum(context: Context) -> Total:
         len(parts),
         sum(world.volume for world in worlds),
         sum(world.area for world in worlds),
-        numbers.add(worlds) if len(worlds) > 1 else alone,
+        add_bodies(worlds) if len(worlds) > 1 else alone,
         tuple(missing),
         stale,
         doubtful,

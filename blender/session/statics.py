@@ -8,6 +8,7 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...core.inertia.plain_body import frame_about
 from ...core.statics.findings import NO_STABLE_POSE
 from ...core.verdict.finding import EditRefusedError, Finding
 from ...core.verdict.method import Verdict
@@ -98,10 +99,7 @@ def _shortest_turn(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDAr
     middle = start + end
     length = np.linalg.norm(middle)
     if length < 1e-8:
-        across = np.eye(3)[np.argmin(np.abs(start))]
-        middle = across - (across @ start) * start
-        length = np.linalg.norm(middle)
-        middle /= length
+        middle = np.array(frame_about(start.tolist())[0])
         return 2.0 * np.outer(middle, middle) - np.eye(3)
     middle /= length
     # Two half turns: about `start`, then about the direction between the two.

@@ -13,7 +13,7 @@ from typing import Any
 from bpy.types import Context, PropertyGroup
 
 from ..settings import hooks
-from . import live, stored
+from . import displayed, live, stored
 from .live.following import followed
 from .stored import outcome
 from .tracking import armatures, handlers, staleness, updates
@@ -32,14 +32,16 @@ def _follow_default_density(settings: PropertyGroup, context: Context) -> None:
     stored.density.on_default_density(settings, context)
 
 
-def _count_change(*_args: object) -> None:
-    handlers.count_change()
+def _count_change(settings: PropertyGroup, _context: Context) -> None:
+    handlers.count_change(settings.id_data)
 
 
 SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_update, updates.note_updates),
     (handlers.on_update, armatures.note_updates),
+    (handlers.on_update, displayed.note_updates),
     (handlers.on_update, _follow_live),
+    (handlers.on_note, displayed.forget_drawn),
     (handlers.before_undo, staleness.note_all_edits),
     (handlers.on_undo, updates.note_undo),
     (handlers.on_undo, armatures.watch_all),  # undo makes Python's references to objects invalid
@@ -64,7 +66,7 @@ def register() -> None:
 def unregister() -> None:
     """Write the notes of edits, as the file may outlive the add-on; then forget them and clear all subscriptions."""
     staleness.write_notes()
-    for forget in (updates.forget_file, staleness.forget_file, outcome.forget):
+    for forget in (updates.forget_file, staleness.forget_file, outcome.forget, displayed.forget_drawn):
         forget()
     for subscribers in (*handlers.LISTS, *hooks.LISTS):
         subscribers.clear()

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ...core.inertia.mass_properties import MassProperties
-from ...core.inertia.tensors import TENSOR
+from ...core.inertia.plain_body import TENSOR
 from ...core.measurement.documents import table
 from ...core.verdict.finding import Finding, Severity
 from ...core.verdict.sentences import of_severity, sentence

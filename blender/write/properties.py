@@ -16,14 +16,13 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ...core.inertia.tensors import rotation_axes
+from ...core.inertia.plain_body import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
 from ...core.measurement.documents import plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
 from ...core.verdict.finding import EditRefusedError, Finding, Severity
 from ...core.verdict.findings import LINKED_OBJECT
 from ...core.verdict.method import Method, Source, Verdict
 from ...core.verdict.sentences import of_severity, sentence
-from .numbers import BOUND_KEYS, COLUMNS, ROWS, StoredProperties
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -81,6 +80,7 @@ LENGTHS = {
     "body_principal_axes": 4,
     "body_error_bound": 8,
 }
+BALANCE_GROUP = "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
 OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies measured without their display mesh
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
@@ -98,7 +98,7 @@ def store(obj: Owner, measurement: Measurement) -> None:
         measurement.volume,
         measurement.area,
         body.center.tolist(),
-        tensor_entries(body.inertia).tolist(),
+        body.inertia[ROWS, COLUMNS].tolist(),
         body.principal.moments.tolist(),
         body.principal.quaternion.tolist(),
         [float(source[name]) for source in (bound, bound["input"]) for name in BOUND_KEYS],
@@ -344,7 +344,7 @@ def density_from(obj: Owner) -> str:
     return str(obj.get("body_density_from", ""))
 
 
-def stored(obj: Owner) -> StoredProperties | None:
+def stored(obj: Owner) -> PlainBody | None:
     """Return the stored results, in the object frame; None if one is missing or, error bounds aside, not finite."""
     values: list[Any] = []
     for key, length in LENGTHS.items():
@@ -358,9 +358,4 @@ def stored(obj: Owner) -> StoredProperties | None:
         values.append(row if length else row[0])
     *numbers, turn, bounds = values
     rounding, inputs = (dict(zip(BOUND_KEYS, bounds[i : i + 4])) for i in (0, 4))
-    return StoredProperties._make((*numbers, rotation_axes(turn), {**rounding, "input": inputs}))
-
-
-def tensor_entries(tensor: NDArray) -> NDArray:
-    """Return a (3, 3) tensor as (6,) in the order of ENTRIES."""
-    return tensor[ROWS, COLUMNS]
+    return PlainBody._make((*numbers, rotation_axes(turn), {**rounding, "input": inputs}))

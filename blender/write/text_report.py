@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterable, Sequence
 from math import sqrt
 from typing import Any
 
-from ...core.inertia.tensors import TENSOR, principal_axes, tensor_rows
+from ...core.inertia.plain_body import TENSOR, PlainBody, add_bodies, principal_axes, tensor_rows
 from ...core.measurement.documents import document, plain
 from ...core.measurement.plain_text import visible
 from ...core.measurement.record import described
@@ -23,7 +23,6 @@ from ...core.verdict.sentences import HEALTH, METHODS, method_key
 from ...core.wall.findings import WALL_MEASURED
 from . import properties
 from .findings import NO_STORED_RESULTS, STALE_RESULTS
-from .numbers import StoredProperties, add
 from .units import INDENT, clean, report_line, report_number, report_vector, rounded_up
 
 BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg·m²"}
@@ -173,7 +172,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
             yield report_line(label, ", ".join(parts))
 
 
-def _stored_record(obj: Any, stored: StoredProperties, outdated: bool) -> dict[str, Any]:
+def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:
     """Return the record of an object's stored results; its health is empty, because it is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
@@ -207,14 +206,14 @@ def _stored_record(obj: Any, stored: StoredProperties, outdated: bool) -> dict[s
     return plain(entry)
 
 
-def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[StoredProperties]) -> dict[str, Any]:
+def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[PlainBody]) -> dict[str, Any]:
     """Return the sum of all stored results as one body, world frame.
 
     Principal axes are left out: their signs need third moments, which are not stored.
     """
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
-    whole = add(bodies)
+    whole = add_bodies(bodies)
     if whole is not None:
         total |= {"center_of_mass": whole.center, "inertia": tensor_rows(whole.inertia)}
         total |= {"principal_moments": whole.moments, "symmetry": principal_axes(whole.inertia)[2]}

@@ -4,8 +4,7 @@
 
 Every file starts from an empty scene of factory settings, so that no object of an earlier file, or of a user's own
 start-up file, is measured with it. Scripts inside .blend files never run. Files that Blender's importers accept
-silently are refused here: a FIFO (it would block for ever), an STL cut short (read as an empty mesh, or as half of
-one), a file without objects.
+silently are refused here: a FIFO (it would block for ever), a file without objects.
 """
 
 from __future__ import annotations
@@ -13,7 +12,6 @@ from __future__ import annotations
 import gzip
 import os
 import re
-import struct
 import sys
 import zipfile
 import zlib
@@ -26,13 +24,13 @@ import bpy
 from ...core.scans import formats as scans
 from ...core.scans.findings import DAMAGE_INCOMPLETE, FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
 from ...core.scans.scan import damaged
-from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS, STL_CUT_SHORT
-from ...core.streams.stl_text import BY_COUNT, BY_WORD
+from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from .finite import check_numbers
 from .import_3mf import import_3mf
 from .import_gltf import import_gltf
+from .import_mesh import import_mesh
 from .import_surfaces import import_iges, import_obj
 from .import_usd import import_usd
 from .references import Opened
@@ -47,9 +45,8 @@ _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
 USD = (".usd", ".usda", ".usdc", ".usdz")
 
 _IMPORTERS: dict[str, Callable[[str], object]] = {
-    ".stl": lambda path: bpy.ops.wm.stl_import(filepath=path),
+    **dict.fromkeys((".stl", ".ply"), import_mesh),
     ".obj": import_obj,
-    ".ply": lambda path: bpy.ops.wm.ply_import(filepath=path),
     ".fbx": lambda path: bpy.ops.wm.fbx_import(filepath=path),
     ".3mf": import_3mf,
     **dict.fromkeys((".igs", ".iges"), import_iges),
@@ -142,26 +139,21 @@ def check_file(path: str) -> None:
         raise FileError(FILE_NOT_REGULAR)
     try:
         with open(path, "rb") as file:
-            head = file.read(84)
-            size = file.seek(0, os.SEEK_END)
-            file.seek(max(0, size - 1024))
-            tail = file.read()
+            is_empty = not file.read(1)
     except OSError as error:
         raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    if not size:
+    if is_empty:
         raise FileError(FILE_UNREADABLE, error="it is empty")
-    if kind == ".stl":
-        _check_stl(head, tail, size)
-    elif kind == ".usdz":
-        _check_usdz(Path(path), size)
+    if kind == ".usdz":
+        _check_usdz(Path(path))
 
 
-def _check_usdz(path: Path, size: int) -> None:
+def _check_usdz(path: Path) -> None:
     """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
     try:
         with zipfile.ZipFile(path) as archive:
             stored = [entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED]
-            if sum(entry.file_size for entry in stored) > size:
+            if sum(entry.file_size for entry in stored) > path.stat().st_size:
                 raise zipfile.BadZipFile("overlapping entries")
             for entry in stored:
                 with archive.open(entry) as file:
@@ -169,19 +161,6 @@ def _check_usdz(path: Path, size: int) -> None:
                         pass
     except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
         raise damaged(path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")) from error
-
-
-def _check_stl(head: bytes, tail: bytes, size: int) -> None:
-    """Raise FileError if an STL file is cut short.
-
-    Blender reads a file of exactly the promised size as binary, any other as text, and does not report lost data.
-    """
-    if len(head) == 84 and size == 84 + 50 * struct.unpack_from("<I", head, 80)[0]:
-        return
-    if not head.lstrip().lower().startswith(b"solid"):
-        raise FileError(STL_CUT_SHORT, end=BY_COUNT)
-    if b"endsolid" not in tail.lower():
-        raise FileError(STL_CUT_SHORT, end=BY_WORD)
 
 
 def reason(error: Exception) -> str:

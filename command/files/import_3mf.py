@@ -11,9 +11,11 @@ import numpy as np
 from mathutils import Matrix
 
 from ...blender.settings.limits import scan_limits
+from ...core.streams.file_mesh import FileMesh
 from ...core.streams.threemf import Placed, read_3mf
 from ...core.verdict.finding import Finding, finding
 from ..findings import FILE_HIDES
+from .import_mesh import blender_mesh
 from .references import Opened
 
 _SHEAR = 1e-6  # relative to the largest entry of a matrix; larger than the rounding of float32
@@ -43,12 +45,4 @@ def import_3mf(path: str) -> Opened:
 
 def _mesh(one: Placed) -> bpy.types.Mesh:
     """Return the mesh as stored in the file, without repair."""
-    mesh = bpy.data.meshes.new(one.name)
-    mesh.vertices.add(len(one.points))
-    mesh.attributes["position"].data.foreach_set("vector", one.points.astype(np.float32).ravel())
-    mesh.loops.add(one.triangles.size)
-    mesh.loops.foreach_set("vertex_index", one.triangles.astype(np.int32).ravel())
-    mesh.polygons.add(len(one.triangles))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, one.triangles.size, 3, dtype=np.int32))
-    mesh.update(calc_edges=True)
-    return mesh
+    return blender_mesh(FileMesh(one.name, one.points, one.triangles.ravel(), np.full(len(one.triangles), 3)))

@@ -35,7 +35,7 @@ from .surfaces import (
     bezier_surface,
     placed_surface,
 )
-from .trimmed import Boundary, plane_face, trimmed_faces
+from .trimmed import Boundary, first_region, trimmed_faces
 
 MATRIX, SURFACE, TRIMMED, DEFINITION, INSTANCE = 124, 128, 144, 308, 408
 PLANE, PLANE_SURFACE, DIRECTION = 108, 190, 123
@@ -262,23 +262,24 @@ class _Reader:
     def _within(self, base: Entry, matrix: NDArray, boundaries: Sequence[Boundary], has_outer: bool) -> list[Face]:
         """Return the faces of a surface within boundaries. matrix: (4, 4), of the surface and all that is around it."""
         if base.type in (PLANE, PLANE_SURFACE):
-            faces: list[Face] = [plane_face(self._plane_normal(base, matrix), boundaries if has_outer else [])]
+            loops = [boundary.curves for boundary in boundaries] if has_outer else []
+            faces: list[Face] = [first_region([loops], self._plane_normal(base, matrix))]
         elif base.type != SURFACE:
             raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
         else:
             fields = self._text.fields(base)
             *spline, domain = _spline(fields)
             surface = placed_surface(*spline, matrix)
-            self._note_rounding(fields, surface, matrix)
+            rounding = self._note_rounding(fields, surface, matrix)
             faces = trimmed_faces(
-                surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer
+                surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer, rounding
             )
-        if not self._for_blender:
-            return faces
-        return [patch for face in faces for patch in ([face] if not isinstance(face, FlatFace) else _cones(face))]
+        if self._for_blender and any(isinstance(face, FlatFace) for face in faces):
+            raise SurfaceRefusedError(SURFACE_TRIMMED)
+        return faces
 
-    def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> None:
-        """Note how far the decimals of a surface's points and weights leave its points undecided."""
+    def _note_rounding(self, fields: list[str], surface: Patch, matrix: NDArray) -> float:
+        """Note and return how far the decimals of a surface's points and weights leave its points undecided."""
         count = surface.points.size // 3
         start = 9 + sum(len(space.knots) for space in surface.spaces)
         moved = float(np.linalg.norm(matrix[:3, :3], 2)) * decimal_rounding(fields[start + count : start + 4 * count])
@@ -286,6 +287,7 @@ class _Reader:
             share = decimal_rounding(fields[start : start + count]) / float(surface.weights.min())
             moved += 2.0 * share * patches_size([surface])
         self._rounding = max(self._rounding, moved)
+        return moved
 
     def _plane_normal(self, base: Entry, matrix: NDArray) -> NDArray[np.float64]:
         """Return a vector (3,) across a plane, on the side that it faces."""
@@ -299,14 +301,6 @@ def _joined(parts: Sequence[list[Curve] | None]) -> list[Curve] | None:
     """Return the curves of all parts in turn, None if one is unknown."""
     known = [part for part in parts if part is not None]
     return [curve for part in known for curve in part] if len(known) == len(parts) else None
-
-
-def _cones(face: FlatFace) -> list[Face]:
-    """Return a flat face as patches; SurfaceRefusedError if they would overlap."""
-    cones = face.cones()
-    if cones is None:
-        raise SurfaceRefusedError(SURFACE_TRIMMED)
-    return [*cones]
 
 
 def _spline(fields: list[str]) -> tuple[Pair[list[float]], Pair[int], NDArray, NDArray, Pair[Pair[float]]]:

@@ -56,9 +56,10 @@ def check_obj_text(data: Data) -> None:
     if _MARKED.match(data[:BLOCK]):
         refuse_line(data, 0, ("U+FEFF", "“v”"))
     counts = np.zeros(3, np.int64)  # counts of v, vt and vn before the block
-    for start, text in _blocks(data):
-        suspects, counts = _find_suspects(text, counts)
-        for at, before in suspects:
+    for start, text in blocks(data):
+        lines = Lines(text, counts)
+        counts = lines.after
+        for at, before in _find_suspects(lines):
             fault = _find_fault(text[at : text.index(b"\n", at)], before)
             if fault is not None:
                 for _ in range(text.count(b"\n", 0, at) + text.count(b"\v", 0, at)):
@@ -66,7 +67,7 @@ def check_obj_text(data: Data) -> None:
                 refuse_line(data, start, fault)
 
 
-def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
+def blocks(data: Data) -> Iterator[tuple[int, bytes]]:
     """Yield the offset and the text of blocks of whole statements, continued lines joined to one."""
     start = 0
     while start < len(data):
@@ -78,47 +79,69 @@ def _blocks(data: Data) -> Iterator[tuple[int, bytes]]:
         start = end
 
 
-def _find_suspects(text: bytes, counts: NDArray) -> tuple[list[tuple[int, NDArray]], NDArray]:
-    """Return offsets of possibly wrong statements, each with the counts of v, vt, vn before it; and final counts."""
-    letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # Padded so that three letters can be read from any word on.
-    is_word = letters > ord(" ")
-    is_word[1:] &= letters[:-1] <= ord(" ")
-    ends = np.flatnonzero(letters[:-3] == ord("\n"))
-    starts = np.append(0, ends[:-1] + 1)
-    words = np.append(np.flatnonzero(is_word), len(text))
-    first = words[np.searchsorted(words, starts)]
-    kind, second, third = (np.where(first < ends, letters[first + shift], 0) for shift in range(3))
-    is_vertex = kind == ord("v")
-    kinds = [is_vertex & (second <= ord(" "))]
-    kinds += [is_vertex & (second == ord(letter)) & (third <= ord(" ")) for letter in "tn"]
-    behind = counts[:, None] + np.cumsum(kinds, axis=1)
-    before = behind - kinds
-    is_odd = np.zeros(len(starts), bool)
+class Lines:
+    """The statements of a block of text. counts: of v, vt and vn before the block.
+
+    starts, ends: (n,) offsets. kinds: (3, n) whether a line is v, vt or vn. before: (3, n) their counts before a line.
+    after: (3,) the counts after the block.
+    """
+
+    def __init__(self, text: bytes, counts: NDArray[np.int64]) -> None:
+        self.text = text
+        self.letters = np.frombuffer(text + b"\n\n\n", np.uint8)  # so that three letters can be read from any word on
+        self._is_word = self.letters > ord(" ")
+        self._is_word[1:] &= self.letters[:-1] <= ord(" ")
+        self.ends = np.flatnonzero(self.letters[:-3] == ord("\n"))
+        self.starts = np.append(0, self.ends[:-1] + 1)
+        words = np.append(np.flatnonzero(self._is_word), len(text))
+        first = words[np.searchsorted(words, self.starts)]
+        kind, second, third = (np.where(first < self.ends, self.letters[first + shift], 0) for shift in range(3))
+        self._kind = np.where(second <= ord(" "), kind, 0)
+        is_vertex = kind == ord("v")
+        of_two = [is_vertex & (second == ord(letter)) & (third <= ord(" ")) for letter in "tn"]
+        self.kinds = np.array([is_vertex & (second <= ord(" ")), *of_two])
+        behind = counts[:, None] + np.cumsum(self.kinds, axis=1)
+        self.before, self.after = behind - self.kinds, behind[:, -1]
+
+    def has_kind(self, kinds: str) -> NDArray[np.bool_]:
+        """Return whether the (n,) lines are statements of one of some letters."""
+        return np.isin(self._kind, [ord(letter) for letter in kinds])
+
+    def keep(self, is_kept: NDArray[np.bool_]) -> bytes:
+        """Return the text with spaces in place of all but some (n,) lines."""
+        inside = np.repeat(is_kept, self.ends - self.starts + 1)
+        return np.where(inside, self.letters[:-3], np.uint8(ord(" "))).tobytes()
+
+    def indices(self, is_indexed: NDArray[np.bool_]) -> tuple[NDArray, NDArray, NDArray]:
+        """Return (n,) offsets of indices in lines, their kinds (0, 1, 2 for v, vt, vn), and their absolute values."""
+        letters = self.letters[:-3]
+        is_part = (letters - ord("0") < 10) | (letters == ord("-")) | (letters == ord("+"))
+        is_part &= np.repeat(is_indexed, self.ends - self.starts + 1)
+        at = np.flatnonzero(is_part & ~np.append(False, is_part[:-1]))
+        text = np.where(is_part, letters, np.uint8(ord(" "))).tobytes()
+        value = np.abs(np.fromstring(text, np.int64, sep=" "))
+        is_first = self._is_word[at]
+        slashes = np.cumsum(np.where(is_first, 0, 1 + (letters[at - 2] == ord("/"))))
+        return at, slashes - np.maximum.accumulate(np.where(is_first, slashes, 0)), value
+
+
+def _find_suspects(lines: Lines) -> list[tuple[int, NDArray]]:
+    """Return offsets of possibly wrong statements, each with the counts of v, vt and vn before it."""
+    is_odd = np.zeros(len(lines.starts), bool)
     at = 0
-    while (at := _LINES.match(text, at).end()) < len(text):  # type: ignore[union-attr]
-        is_odd[np.searchsorted(starts, at)] = True
-        at = text.index(b"\n", at) + 1
-    is_indexed = np.isin(kind, [ord(letter) for letter in "flp"]) & (second <= ord(" ")) & ~is_odd
+    while (at := _LINES.match(lines.text, at).end()) < len(lines.text):  # type: ignore[union-attr]
+        is_odd[np.searchsorted(lines.starts, at)] = True
+        at = lines.text.index(b"\n", at) + 1
+    is_indexed = lines.has_kind("flp") & ~is_odd
     if is_indexed.any():
-        at, role, value = _indices(letters[:-3], is_word, np.repeat(is_indexed, ends - starts + 1))
-        least = before[:, np.argmax(is_indexed)]
+        at, role, value = lines.indices(is_indexed)
+        least = lines.before[:, np.argmax(is_indexed)]
         at, role, value = (row[(value == 0) | (value > least[role])] for row in (at, role, value))
-        line = np.searchsorted(starts, at, "right") - 1
-        limit = before[role, line]
+        line = np.searchsorted(lines.starts, at, "right") - 1
+        limit = lines.before[role, line]
         # Importers ignore vt and vn if there are none.
         is_odd[line[((value == 0) | (value > limit)) & ((role == 0) | (limit > 0))]] = True
-    return [(int(starts[line]), before[:, line]) for line in np.flatnonzero(is_odd)], behind[:, -1]
-
-
-def _indices(letters: NDArray, is_word: NDArray, is_inside: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Return the (n,) offsets of indices, their kinds (0, 1, 2 for v, vt, vn), and their absolute values."""
-    is_part = is_inside & ((letters - ord("0") < 10) | (letters == ord("-")) | (letters == ord("+")))
-    at = np.flatnonzero(is_part & ~np.append(False, is_part[:-1]))
-    text = np.where(is_part, letters, np.uint8(ord(" "))).tobytes()
-    value = np.abs(np.fromstring(text, np.int64, sep=" "))
-    is_first = is_word[at]
-    slashes = np.cumsum(np.where(is_first, 0, 1 + (letters[at - 2] == ord("/"))))
-    return at, slashes - np.maximum.accumulate(np.where(is_first, slashes, 0)), value
+    return [(int(lines.starts[line]), lines.before[:, line]) for line in np.flatnonzero(is_odd)]
 
 
 def _find_fault(line: bytes, before: Sequence[int] | NDArray) -> Fault | None:

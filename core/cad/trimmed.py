@@ -45,11 +45,12 @@ def trimmed_faces(
     patches: Sequence[Patch],
     boundaries: Sequence[Boundary],
     has_outer: bool,
+    rounding: float = 0.0,
 ) -> list[Face]:
     """Return the faces of a surface within boundaries; SurfaceRefusedError if a curved surface is trimmed.
 
     domain: the used part of the surface. patches: that part, in one piece unless the surface may be torn. has_outer:
-    False if the outer boundary is that of the surface.
+    False if the outer boundary is that of the surface. rounding: largest effect of the file's decimals on a point.
     """
     if not boundaries:
         return [*patches]
@@ -57,18 +58,14 @@ def trimmed_faces(
         (patch,) = patches
         if has_outer and _follow_sides(patch, domain, boundaries):
             return [patch]
-        if _is_flat(patch):
+        tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
+        if _is_flat(patch, tolerance):
             outer = [] if has_outer else [Boundary(_around(patch), None)]
-            return [_flat_face(surface, domain, [*outer, *boundaries])]
+            return [_flat_face(surface, domain, [*outer, *boundaries], tolerance)]
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 
 
-def plane_face(normal: NDArray, boundaries: Sequence[Boundary]) -> FlatFace:
-    """Return the region of an unbounded plane within boundaries. SurfaceRefusedError if they do not bound one."""
-    return _first_region([[boundary.curves for boundary in boundaries]], normal)
-
-
-def _first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
+def first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArray) -> FlatFace:
     """Return the first of several choices of loops that bound a region. SurfaceRefusedError if none does."""
     for loops in choices:
         known = [loop for loop in loops if loop]
@@ -80,10 +77,10 @@ def _first_region(choices: Sequence[Sequence[list[Curve] | None]], normal: NDArr
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 
 
-def _is_flat(patch: Patch) -> bool:
+def _is_flat(patch: Patch, tolerance: float) -> bool:
     points = patch.points.reshape(-1, 3) - patch.points[0, 0]
     normal = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)[2][2]
-    return bool(np.ptp(points @ normal) <= FLAT_RTOL * patches_size([patch]))
+    return bool(np.ptp(points @ normal) <= tolerance)
 
 
 def _around(patch: Patch) -> list[Curve]:
@@ -93,7 +90,10 @@ def _around(patch: Patch) -> list[Curve]:
 
 
 def _flat_face(
-    surface: Patch, domain: tuple[tuple[float, float], tuple[float, float]], boundaries: Sequence[Boundary]
+    surface: Patch,
+    domain: tuple[tuple[float, float], tuple[float, float]],
+    boundaries: Sequence[Boundary],
+    tolerance: float,
 ) -> FlatFace:
     """Return the region of a flat surface within boundaries; SurfaceRefusedError if they do not bound one."""
     s, t = (np.linspace(*ends, 7) for ends in domain)
@@ -103,7 +103,7 @@ def _flat_face(
     matrix[:3, 0], matrix[:3, 1] = steps
     matrix[:3, 3] = grid[0, 0] - steps[0] * s[0] - steps[1] * t[0]
     even = grid[0, 0] + (s - s[0])[:, None, None] * steps[0] + (t - t[0])[:, None] * steps[1]
-    is_even = np.abs(grid - even).max() <= FLAT_RTOL * patches_size([surface])
+    is_even = np.abs(grid - even).max() <= tolerance
 
     def placed(boundary: Boundary) -> list[Curve] | None:
         if boundary.parameters is None or not is_even:
@@ -115,7 +115,7 @@ def _flat_face(
         [placed(boundary) or boundary.curves for boundary in boundaries],
     )
     choices = [in_space, by_parameters][:: -1 if any(one.prefers_parameters for one in boundaries) else 1]
-    return _first_region(choices, vector_area([surface]))
+    return first_region(choices, vector_area([surface]))
 
 
 def _follow_sides(
@@ -134,7 +134,9 @@ def _follow_sides(
     else:
         domain = (0.0, 1.0), (0.0, 1.0)
         for boundary in boundaries:
-            for curve in boundary.curves or ():
+            if boundary.curves is None:
+                return False
+            for curve in boundary.curves:
                 points = curve.evaluate(np.linspace(*curve.space.domain, SAMPLES))
                 if _is_point(points, tolerance):
                     continue

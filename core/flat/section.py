@@ -32,6 +32,11 @@ def project(plane: Plane, points: ArrayLike) -> NDArray[np.float64]:
     return np.stack([x * a[0] + y * a[1] + z * a[2] for a in plane.axes.T[:2]], axis=1)
 
 
+def foot(plane: Plane, point: ArrayLike) -> NDArray[np.float64]:
+    """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
+    return np.append(project(plane, np.asarray(point, np.float64)[None])[0], 0.0)
+
+
 def fit_plane(
     points: ArrayLike,
     triangles: ArrayLike,

@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..numerics.vectors import cross, dot
-from .canonical_frame import MAX_ORDER, NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
+from .canonical_frame import NOISE_LEVEL, EquivalentFrames, _lexicographic_maximum
 
 MAX_AXIAL_ORDER = 30
-MAX_TILT = 1e-2  # tilt of an axis: about one that leans by more, the harmonics say nothing of the body
+MAX_TILT = 1e-2  # rad; harmonics about an axis with a larger tilt say nothing about the body
 LEAST_HEIGHT = 1e-2  # relative to the radius: least unit of height, as float32 makes flat bodies uneven
 TRIANGLES_PER_BLOCK = 1 << 13
 
@@ -126,8 +126,9 @@ def turn_by_harmonics(
         return alike
     order = np.roll([0, 1, 2], 2 - axis)
     bases = [harmonics.in_frame(frame[:, order]) for frame in alike.frames]
-    m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])
-    candidates = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m + k > MAX_ORDER))
+    m, k = np.meshgrid(np.arange(harmonics.order + 1), [0, 1])  # to second order none is left
+    noise = max(noise, float(alike.noise.min(initial=np.inf))) if len(alike.noise) else noise
+    candidates = np.argwhere((np.abs(harmonics.values) > 2.0 * noise) & (m > 0) & (m + k > 2))
     if not len(candidates):
         return alike
     k, m = candidates[np.argmin(candidates.sum(axis=1))]

@@ -27,7 +27,7 @@ from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
 from ..verdict.finding import MeasureError
 from .findings import MOMENTS_OVERFLOW
-from .tensors import frame_about
+from .plain_body import frame_about
 
 MAX_ORDER = 6  # enough for the axes of prisms up to hexagonal, of a cube and of an icosahedron
 NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times the noise of float32 coordinates
@@ -35,7 +35,7 @@ NOISE_LEVEL = 1e-5  # a normalized third moment below this is noise: ten times t
 NOISE_GROWTH = (1.0, 1.0, 1.0, 1.0, 3.0, 8.0, 15.0)
 CLEAR_HARMONIC = 1e-2  # a harmonic above this fixes a direction well; weaker ones are used only without a better one
 FLAT_EXTENT_RTOL = 1e-6  # relative to the largest extent: along an axis of less, a body is a lamina and has no skewness
-MAX_EQUAL_SHARE = 0.25  # share of the range over directions: at most that much counts as equal
+MAX_EQUAL_SHARE = 0.25  # share of the range over all directions: larger differences never count as equal
 START_DIRECTIONS = 240  # directions at which the search for extreme ones starts
 MAX_START_GAP = 0.18  # largest angle between any direction and the nearest start
 ASCENT_STEPS = 16  # steps from a start to a maximum; flat maxima need most of them

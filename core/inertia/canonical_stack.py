@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
-from ..moments.exponents import monomial_count, monomial_index, monomials, order_from_count
+from ..moments.exponents import monomial_count, monomial_index, monomial_values, monomials, order_from_count
 from ..moments.moments import Moments
 from ..verdict.finding import MeasureError
 from .canonical_frame import NOISE_GROWTH, extents_of
 from .findings import MOMENTS_OVERFLOW
-from .tensors import SYMMETRIES
+from .plain_body import SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 THIRD = monomial_count(2)  # index of the first moment of third order
@@ -53,8 +53,7 @@ def choose_about_axis(
         rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
         weights, columns, forms = _harmonics(axis, moments.order)
         size = fixed.size[bodies[rows]]
-        powers = monomials(moments.order)[columns + THIRD]
-        unit = np.multiply.reduce(extents_of(size)[:, None] ** powers, axis=2)
+        unit = monomial_values(extents_of(size), moments.order)[:, columns + THIRD]
         harmonic = np.abs(raw[rows][:, THIRD:] @ forms.T) / unit
         is_round[rows] = ~(harmonic > weights * least[rows][:, columns]).any(axis=1)
         # keep only the first frame for each direction of the axis
@@ -99,7 +98,7 @@ def _along_axes(
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]
     powers = monomials(order)[THIRD:]
     degree, extents = powers.sum(axis=1), extents_of(size)
-    unit = np.multiply.reduce(extents[:, None] ** powers, axis=2)
+    unit = monomial_values(extents, order)[:, THIRD:]
     thin = np.minimum.reduce(np.where(powers > 0, extents[:, None], np.inf), axis=2)
     noise = fixed.noise + 4.0 * fixed.step[bodies, None] / thin + degree * fixed.tilt[bodies, None]
     return raw[:, THIRD:] / unit, np.array(NOISE_GROWTH)[degree] * noise + error / unit, raw

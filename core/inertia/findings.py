@@ -6,8 +6,8 @@ from ..verdict.finding import error, note
 
 NO_CERTAIN_VOLUME = error(
     "no_certain_volume",
-    "The volume is zero within rounding. Close the surface, set Kind to Shell, or check for vertices far away from "
-    "the object.",
+    "The volume is zero within rounding, or float32 coordinates may change more than a tenth of it. Close the surface, "
+    "move vertices nearer to the object's origin, set Kind to Shell, or use Measure Section for a flat shape.",
 )
 MOMENTS_OVERFLOW = error(
     "moments_overflow",

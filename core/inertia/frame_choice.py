@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arrays import cross_rows, lengths
-from .tensors import EQUAL_TRACE_ATOL
+from .plain_body import EQUAL_TRACE_ATOL
 from .third_moment_frames import AXES, IS_FIXED, ThirdMomentFrames
 
 MAX_TRACE_AMBIGUITY = 0.1  # traces farther apart never count as equal; closer than EQUAL_TRACE_ATOL, always
 AXIS_RANK = np.array([4, 2, 1])  # axes that point along the preferred ones count in this order
-MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by a shape's second moments, and a copy's
+MIN_ALIGNED_COSINE = 0.999  # between an axis fixed by second moments and the same axis of a copy
 
 
 def align_frames(frames: NDArray, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> NDArray[np.float64]:

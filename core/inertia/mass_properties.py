@@ -8,9 +8,9 @@ eigenvalues, I_1 = m(λ_2+λ_3), so that no moment exceeds the sum of the other 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import hypot
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,7 @@ from .principal_frames import OwnMoments, PrincipalFrame, principal_frame, princ
 from .third_moment_frames import ThirdMomentFrames
 
 IDENTITY_3 = np.eye(3)
+MAX_INPUT_SHARE = 0.1  # of a volume: a larger bound for float32 coordinates leaves none
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +80,7 @@ class MassProperties:
             raise ValueError("moments below third order")
         if not 0.0 <= density < np.inf:
             raise ValueError("impossible density: {!r}".format(density))
-        if not moments.raw[0] > moments.rounding_error[0]:
+        if not has_certain_total(moments):
             raise MeasureError(NO_CERTAIN_VOLUME)
         return cls._with_frame(moments, density, principal_frame(moments, preferred_axes, refine, higher))
 
@@ -142,6 +143,16 @@ class MassProperties:
         """(3,) sqrt(I/m) about the principal axes."""
         return np.sqrt(self.principal.moments / self.mass)
 
+    def axes_bound(self, strain: float) -> float:
+        """Return a bound of the turn of the principal axes of different moments, in radians (Davis and Kahan 1970).
+
+        They turn with the errors of inertia, and with a `strain` of the body.
+        """
+        moments = self.principal.moments
+        off = self.rounding_error["inertia"] + self.input_error["inertia"] + 2.0 * strain * moments[2]
+        gap = float(np.diff(moments).min()) - off
+        return math.asin(off / gap) if off < gap else math.pi
+
     def in_frame(self, rotation: ArrayLike, origin: ArrayLike) -> MassProperties:
         """Return the same body in the frame with the columns of a rotation as axes and with this origin."""
         rotation = rotation_array("rotation", rotation)
@@ -154,6 +165,14 @@ class MassProperties:
             inertia=(inertia + inertia.swapaxes(-1, -2)) / 2.0,
             principal=replace(self.principal, axes=inverse @ self.principal.axes),
         )
+
+
+def has_certain_total(moments: Moments) -> PerBody:
+    """Return whether totals exceed their rounding, and volumes also ten times what float32 coordinates may change."""
+    least = moments.rounding_error[..., 0]
+    if moments.measure == Measure.VOLUME:
+        least = np.maximum(least, moments.input_error[..., 0] / MAX_INPUT_SHARE)
+    return moments.raw[..., 0] > least
 
 
 def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike | None = None) -> MassProperties:
@@ -238,7 +257,7 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
 
     They hold for the worst signs of all errors, with the divisor at its smallest.
     """
-    delta, raw = np.stack([moments.rounding_error, moments.input_error]), moments.raw
+    delta, raw = np.array([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off
     total = np.where(is_bounded, total, 1.0)[..., None]
@@ -263,5 +282,5 @@ def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, Per
 
 def _lengths(vectors: NDArray) -> NDArray[np.float64]:
     """Return the lengths (...,) of (..., k) vectors with squares that may underflow."""
-    lengths = [hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
+    lengths = [math.hypot(*vector) for vector in vectors.reshape(-1, vectors.shape[-1]).tolist()]
     return np.array(lengths).reshape(vectors.shape[:-1])

@@ -40,8 +40,8 @@ from .findings import (
     STRICT_RULE_UNDEFINED,
 )
 from .frame_choice import align_frames, complete_free_axes, nearest_frames
+from .plain_body import EQUAL_AXES, SYMMETRIES
 from .shared_search import shared_frames
-from .tensors import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import HALF_TURN_SIGNS, ThirdMomentFrames, third_moment_frames
 
 NO_VALUES = np.empty(0)

@@ -15,7 +15,7 @@ from sys import float_info
 from ..numerics.vectors import subtract
 from ..verdict.finding import QueryError
 from .findings import AXIS_POINTS_COINCIDE
-from .tensors import IDENTITY, Axes, Vector, along_axes, frame_about, move_tensor, turn_tensor
+from .plain_body import IDENTITY, Axes, PlainBody, Vector, along_axes, frame_about, move_tensor, turn_tensor
 
 MIN_AXIS_RATIO = 1e-6  # relative to the coordinates: float32 points nearer to each other give no direction
 U = float_info.epsilon / 2.0
@@ -40,29 +40,26 @@ class Reference:
             raise QueryError(AXIS_POINTS_COINCIDE)
         return cls(first, frame_about([along / length for along in way]))
 
-    def refer(
-        self, mass: float, center: Sequence[float], inertia: Sequence[float], bounds: Sequence[dict[str, float]]
-    ) -> ReferredInertia:
-        """Refer the inertia of one body, given in the same coordinates, to this frame, by the parallel-axis theorem.
+    def refer(self, body: PlainBody) -> ReferredInertia:
+        """Refer the inertia of a body, given in the same coordinates, to this frame, by the parallel-axis theorem.
 
-        inertia: six entries, about the center. bounds: as `MassProperties` has them, of rounding and of float32
-        coordinates. With e the bound of the center, and d = |c - p|, the tensor is off by at most its own bound plus
-        √2 d² times that of the mass plus m (6 d e + 2 e²).
+        With e the bound of the center, and d = |c - p|, the tensor is off by at most its own bound plus √2 d² times
+        that of the mass plus m (6 d e + 2 e²).
         """
-        arm = subtract(center, self.origin)
+        arm = subtract(body.center, self.origin)
         distance = hypot(*arm)
-        rounded = 2.0 * U * sum(map(abs, (*center, *self.origin)))
-        size = hypot(*inertia, *inertia[3:]) + sqrt(2.0) * mass * distance * distance
-        referred = []
-        for delta, own in zip(bounds, (rounded, 0.0)):
-            off = delta["center"] + own
-            tensor = delta["inertia"] + sqrt(2.0) * distance * distance * delta["mass"]
-            tensor += mass * (6.0 * distance * off + 2.0 * off * off)
-            referred.append({"mass": delta["mass"], "center": off, "inertia": tensor})
-        referred[0]["center"] += 8.0 * U * distance
-        referred[0]["inertia"] += 40.0 * U * size
-        turned = turn_tensor(move_tensor(inertia, mass, arm), self.axes)
-        return ReferredInertia(self, mass, along_axes(arm, self.axes), turned, *referred)
+        rounded = 2.0 * U * sum(map(abs, (*body.center, *self.origin)))
+        size = hypot(*body.inertia, *body.inertia[3:]) + sqrt(2.0) * body.mass * distance * distance
+        bounds = []
+        for bound, own in ((body.error_bound, rounded), (body.error_bound["input"], 0.0)):
+            mass, center = bound["volume"] * body.density, bound["center_of_mass"] + own
+            inertia = bound["inertia"] + sqrt(2.0) * distance * distance * mass
+            inertia += body.mass * (6.0 * distance * center + 2.0 * center * center)
+            bounds.append({"mass": mass, "center": center, "inertia": inertia})
+        bounds[0]["center"] += 8.0 * U * distance
+        bounds[0]["inertia"] += 40.0 * U * size
+        turned = turn_tensor(move_tensor(body.inertia, body.mass, arm), self.axes)
+        return ReferredInertia(self, body.mass, along_axes(arm, self.axes), turned, *bounds)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
-from ..moments.exponents import monomial_count, monomials
+from ..moments.exponents import monomial_count, monomial_values, monomials
 from ..moments.moments import Measure, Moments
 from ..moments.symmetric_tensors import tensor_index
 from ..numerics.arrays import cross_rows, lengths
@@ -33,11 +33,11 @@ from .canonical_frame import (
     canonical_frames,
 )
 from .findings import MOMENTS_OVERFLOW
-from .tensors import EQUAL_AXES, SYMMETRIES
+from .plain_body import EQUAL_AXES, SYMMETRIES
 from .third_moment_frames import FIXED_AXIS, HALF_TURN_SIGNS, ThirdMomentFrames
 
 GRID = 1e-6  # step of normalized moments, times NOISE_GROWTH: a tenth of NOISE_LEVEL
-LEAST_BOUND = 2.0**-30  # instead of smaller bounds; others are rounded up to three binary digits: copies have the same
+LEAST_BOUND = 2.0**-30  # least bound; larger ones are rounded up to three binary digits, so that copies agree
 MAX_KNOWN = 1024  # problems that are remembered
 MAX_TAIL = 4.0  # times NOISE_GROWTH: for larger moments, as of spikes, rounding turns axes by more than noise
 MAX_CORRECTION = 1e-4  # bodies with frames that a refinement turns by more are searched one by one
@@ -62,11 +62,12 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
     if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
         raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
     found: list[EquivalentFrames | None] = [None] * len(bodies)
-    for name in EQUAL_AXES:
-        rows = np.flatnonzero(fixed.symmetry[bodies] == SYMMETRIES.index(name))
-        if len(rows) and name != "asymmetric":
-            for row, frames in zip(rows.tolist(), _frames_alike(moments.at(rows), fixed, bodies[rows], name)):
-                found[row] = frames
+    symmetry = fixed.symmetry[bodies]
+    for number in set(symmetry.tolist()) - {SYMMETRIES.index("asymmetric")}:
+        rows = np.flatnonzero(symmetry == number)
+        alike = _frames_alike(moments.at(rows), fixed, bodies[rows], SYMMETRIES[number])
+        for row, frames in zip(rows.tolist(), alike):
+            found[row] = frames
     return [
         canonical_frames(moments.at(i), fixed.spread(int(body)), fixed.frames(int(body))) if frames is None else frames
         for i, (body, frames) in enumerate(zip(bodies, found))
@@ -155,7 +156,7 @@ def _whitened(
         turned = basis.transpose(0, 2, 1)
         raw, error = rotate_moments(raw, MAX_ORDER, turned), rotate_moments(error, MAX_ORDER, np.abs(turned))
     with np.errstate(all="ignore"):
-        unit = np.multiply.reduce(extent[:, None] ** POWERS, axis=2)
+        unit = monomial_values(extent, MAX_ORDER)
         raw, error = raw / unit, error / unit
     starts = [monomial_count(degree - 1) for degree in range(1, MAX_ORDER + 1)]
     bound = np.maximum.reduceat(error, [0, *starts], axis=1)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..moments.moments import SECOND_MOMENT_INDEX, THIRD_MOMENT_INDEX, Moments
 from .canonical_frame import NOISE_LEVEL, SecondMomentAxes
-from .tensors import EQUAL_AXES, EQUAL_MOMENTS_RTOL, SYMMETRIES
+from .plain_body import EQUAL_AXES, EQUAL_MOMENTS_RTOL, SYMMETRIES
 
 EQUAL_SCORES_RTOL = 1e-4  # scores closer than this, relatively, are equally clear
 # For each axis i the axes i, j and k that its third moments M_iii, M_ijj and M_ikk pair it with.
@@ -128,7 +128,8 @@ def third_moment_frames(
     is_clear = np.abs(third) > noise + error
     first = is_clear.argmax(axis=2)  # zero if none is more than noise
     is_scored = fixed & is_clear.any(axis=2)
-    scores = np.where(is_scored, third[np.arange(len(third))[:, None], AXES, first], 0.0)
+    body = np.arange(len(third))[:, None]
+    scores, unsure = [np.where(is_scored, values[body, AXES, first], 0.0) for values in (third, noise + error)]
     inertia = (spread[:, [1, 0, 0]] + spread[:, [2, 2, 1]]) * (scale * total)[:, None]
     return ThirdMomentFrames(
         is_body,
@@ -139,7 +140,7 @@ def third_moment_frames(
         step * np.sqrt(scale),
         tilts.max(axis=1),
         noise_factor * NOISE_LEVEL,
-        _allowed_signs(scores),
+        _allowed_signs(scores, unsure.max(axis=1)),
         skewness[:, :, 0],
         noise[:, :, 0] + skewness_error[:, :, 0],
     )
@@ -151,10 +152,10 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
     below = size + error <= noise
     decided = (clear[:, :, 0] | (clear | below).all(axis=2) | ~fixed).all(axis=1)
     body, first = np.arange(len(size))[:, None], clear.argmax(axis=2)
-    size, error = size[body, AXES, first], error[body, AXES, first]
+    size, error, noise = size[body, AXES, first], error[body, AXES, first], noise[body, AXES, first]
     last = size.argmin(axis=1)[:, None]  # the least of three scores: both others have to be clear of it
-    least, least_error = size[body, last], error[body, last]
-    apart = (size - least > 2.0 * (error + least_error)).sum(axis=1) == 2
+    least, unsure = size[body, last], (noise + error).max(axis=1, keepdims=True)
+    apart = (size - least > EQUAL_SCORES_RTOL * least + 2.0 * (error + unsure)).sum(axis=1) == 2
     return decided & (apart | ~(fixed & clear.any(axis=2)).all(axis=1))
 
 
@@ -190,11 +191,11 @@ def _third_scores(
     return scores, score_error
 
 
-def _allowed_signs(scores: NDArray) -> NDArray[np.bool_]:
-    """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores."""
+def _allowed_signs(scores: NDArray, unsure: NDArray) -> NDArray[np.bool_]:
+    """Return an (n, 4) mask of the HALF_TURN_SIGNS that agree with (n, 3) scores; (n,) `unsure` is their noise."""
     size, counts = np.abs(scores), scores != 0.0
     # The weakest of three is dropped; the last of equal ones.
-    weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL)
+    weak = size <= size.min(axis=1, keepdims=True) * (1.0 + EQUAL_SCORES_RTOL) + unsure[:, None]
     last = 2 - weak[:, ::-1].argmax(axis=1)
     counts = counts & ~(counts.all(axis=1)[:, None] & (last[:, None] == AXES))
     return ((HALF_TURN_SIGNS * scores[:, None] > 0.0) | ~counts[:, None]).all(axis=2)

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.canonical_frame import MAX_ORDER
-from ..inertia.findings import AXES_FREE, MOMENTS_OVERFLOW
-from ..inertia.mass_properties import MassProperties
+from ..inertia.findings import AXES_FREE, MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
+from ..inertia.mass_properties import MassProperties, has_certain_total
 from ..inertia.principal_frames import OwnMoments, PrincipalFrame
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments, U, monomial_count
@@ -26,6 +26,7 @@ from .body import Body
 from .findings import (
     AXES_FROM_THIRD_ORDER,
     DENSITY_FROM_MEMBERS,
+    LARGE_BOUND,
     NO_VOLUME,
     WALL_UNSUPPORTED,
     ZERO_QUANTITY,
@@ -36,6 +37,9 @@ from .settings import Settings
 # Up to so many faces, higher moments for a principal frame take negligible time.
 MAX_FACES_HIGH_ORDER = 20_000
 NO_AXES_FIXED = "isotropic"
+MAX_CENTER_BOUND = 1e-3  # relative to the largest radius of gyration: the center is uncertain above it
+# What error bounds are compared with, and what they are shares of.
+BOUNDED = ("volume", "value"), ("area", "value"), ("smallest principal moment", "value"), ("center of mass", "size")
 Extent = tuple[float, float, float]  # a volume or area, and the bounds of rounding and of float32 coordinates
 
 
@@ -100,7 +104,12 @@ def measure_body(body: Body, settings: Settings, *, findings: tuple[Finding, ...
         mass_moments=(moments, factor),
         higher_mass=None if body.higher_mass is None else body.higher_mass * factor,
         health=body.health,
-        findings=(*findings, *body.findings, *((finding(AXES_FROM_THIRD_ORDER),) if left_open else ())),
+        findings=(
+            *findings,
+            *body.findings,
+            *find_large_bounds(measured.at(None), body.area.at(None), properties)[0],
+            *((finding(AXES_FROM_THIRD_ORDER),) if left_open else ()),
+        ),
         length=float(measured.raw[0]) if wire else None,
         display_volume=body.display_volume,
         estimated=body.estimated,
@@ -137,6 +146,23 @@ def measure_total(
     )
 
 
+def find_large_bounds(volume: Moments, area: Moments, properties: MassProperties) -> list[tuple[Finding, ...]]:
+    """Return for each of n stacked bodies the findings about error bounds that its values do not exceed clearly."""
+    errors, principal = (properties.rounding_error, properties.input_error), properties.principal.moments.reshape(-1, 3)
+    inertia, center = (sum([np.atleast_1d(bounds[name]) for bounds in errors]) for name in ("inertia", "center"))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shares = [(each.rounding_error + each.input_error)[:, 0] / each.raw[:, 0] for each in (volume, area)]
+        shares += [inertia / principal[:, 0], center / np.sqrt(principal[:, 2] / properties.mass)]
+    # A sheet's volume is as uncertain as its area; a straight wire has no moment about its axis.
+    limits = [1.0 if volume.measure == Measure.VOLUME else np.inf, 1.0]
+    limits += [np.inf if volume.measure == Measure.LENGTH else 1.0, MAX_CENTER_BOUND]
+    found: list[tuple[Finding, ...]] = [()] * len(volume.raw)
+    for body, i in np.argwhere(np.greater(np.transpose(shares), limits)).tolist():
+        quantity, whole = BOUNDED[i]
+        found[body] += (finding(LARGE_BOUND, quantity=quantity, whole=whole, share=float(shares[i][body])),)
+    return found
+
+
 def _total_moments(extent: Extent, about: NDArray[np.float64], measure: Measure) -> Moments:
     """Return moments of which only the total and its bounds are known; all others are zero."""
     raw, rounding, inputs = np.zeros((3, monomial_count(KNOWN_ORDER)))
@@ -171,6 +197,8 @@ def find_extent(body: Body, settings: Settings) -> Moments:
         if settings.kind == "shell" and body.area.total > 0.0:
             raise ReadError(ZERO_QUANTITY, quantity="thickness")
         raise ReadError(NO_VOLUME)
+    if not has_certain_total(volume):
+        raise ReadError(NO_CERTAIN_VOLUME)
     return volume
 
 

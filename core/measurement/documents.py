@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import isfinite, sqrt
 from typing import Any
 
-from ..inertia.tensors import TENSOR
+from ..inertia.plain_body import TENSOR
 
 SCHEMA = "body-moments/1"
 FRAMES = ("world", "object")

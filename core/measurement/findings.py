@@ -14,6 +14,11 @@ ZERO_QUANTITY = error("zero_quantity", "The {quantity:word} is zero. Set it.")
 WALL_UNSUPPORTED = error(
     "wall_unsupported", "{quantity:word} is not available for walls of real thickness. Set Wall to Thin."
 )
+LARGE_BOUND = warning(
+    "large_bound",
+    "The error bound of the {quantity:word} is {share:percent} of its {whole:word}. Do not rely on it, or move "
+    "vertices nearer to the object's origin.",
+)
 AXES_FROM_THIRD_ORDER = warning(
     "axes_from_third_order",
     "The principal axes use moments to order 3 only, as the mesh has many faces; Apply to Object and --pose use "

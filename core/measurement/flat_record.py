@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..flat.regions import plane_positions
-from ..flat.section import project
+from ..flat.section import foot
 from ..flat.section_properties import Plane
 from ..moments.complex_form import Invariant
 from ..moments.exponents import monomial_index
@@ -64,7 +64,7 @@ def flat_record(
     }
     if order is not None:
         point = _point(about, centroid, axes, location, frame[2])
-        placed = moments.truncate(order).about_point(np.append(project(plane, point[None])[0], 0.0))
+        placed = moments.truncate(order).about_point(foot(plane, point))
         entry["moments"] = {
             "order": order,
             "about": placed.about[:2],

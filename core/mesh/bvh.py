@@ -148,7 +148,7 @@ class Bvh:
             self.high[leaf, k] = np.maximum.reduceat(self.top[k], self.first[leaf])
         for level in range(int(depth.max()) - 1, -1, -1):
             deep = np.flatnonzero(depth > level)
-            node = np.repeat(offset[deep] + (1 << level) - 1, 1 << level) + np.tile(np.arange(1 << level), len(deep))
+            node = (offset[deep][:, None] + ((1 << level) - 1 + np.arange(1 << level))).ravel()
             child = self.child[node]
             self.low[node] = np.minimum(self.low[child], self.low[child + 1])
             self.high[node] = np.maximum(self.high[child], self.high[child + 1])

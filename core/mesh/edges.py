@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import first_occurrence, sums_by_index
+from ..numerics.arrays import NEXT_AXIS, first_occurrence, sums_by_index
 from ..numerics.graph import EDGES_PER_BLOCK, connected_components
 from .surface import Surface
 
@@ -71,7 +71,7 @@ def _sides_at(
         if not sizes.all() or ends[-1] != len(corners):
             return None
         owner = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
-        following = np.roll(corners, -1)
+        following = np.concatenate([corners[1:], corners[:1]])
         following[ends - 1] = corners[ends - sizes]
         return lambda start: (
             owner[start : start + EDGES_PER_BLOCK],
@@ -147,7 +147,7 @@ class Edges:
     def boundary_ends(self, triangles: NDArray[np.integer]) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
         """Return the start vertices and the end vertices of the boundary sides of (m, 3) triangles."""
         side = self.boundary_sides()
-        return triangles.ravel()[side], np.roll(triangles, -1, axis=1).ravel()[side]
+        return triangles.ravel()[side], triangles.take(NEXT_AXIS, 1).ravel()[side]
 
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
@@ -155,7 +155,7 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
 
     quads: the last 2 * `quads` triangles are halves a, b, c and a, c, d of quads, and diagonals are edges of their own.
     """
-    start, stop = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    start, stop = triangles.ravel(), triangles.take(NEXT_AXIS, 1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
     bits = (len(low) // width).bit_length() + 1  # neighbors in the mesh share the table's cached part

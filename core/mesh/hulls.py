@@ -36,8 +36,8 @@ class ConvexHull:
 
     points, indices: (h, 3) corners as given, and (h,) their indices in the input. triangles: (m, 3) rows of `points`,
     counter-clockwise from outside. neighbors: (m, 3) the triangle across each side: from corner 0 to 1, from 1 to 2,
-    from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distance of points outside: above the
-    tolerance if the limit of corners was reached.
+    from 2 to 0. is_flat: True if all points are in one plane. gap: bound of the distances of points outside the hull;
+    above the tolerance if the limit of corners was reached.
     """
 
     points: NDArray[np.float64]

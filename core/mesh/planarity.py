@@ -154,11 +154,17 @@ class PlanarityAccumulator:
 
 @dataclass(frozen=True, eq=False)
 class StackPlanarity:
-    """Flatness of the faces of n surfaces: `Planarity` of each, and whether it has faces without area."""
+    """Flatness of the faces of n surfaces: `Planarity` of each; (f,) the faces without area, and if it has such."""
 
     non_planar_counts: NDArray[np.intp]
     volume_spread: NDArray[np.float64]
+    is_degenerate: NDArray[np.bool_]
     has_degenerate: NDArray[np.bool_]
+
+    def at(self, i: int, faces: slice) -> Planarity:
+        """Return the planarity of one surface with these faces."""
+        degenerate = np.flatnonzero(self.is_degenerate[faces])
+        return Planarity(int(self.non_planar_counts[i]), float(self.volume_spread[i]), degenerate)
 
 
 def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
@@ -198,6 +204,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
     return StackPlanarity(
         np.add.reduceat(non_planar, first_face, dtype=np.intp),
         np.ldexp(total, 3 * exponent) / 6.0,
+        degenerate,
         np.logical_or.reduceat(degenerate, first_face),
     )
 
@@ -218,7 +225,7 @@ def _classify_rows(
         coordinates = np.ldexp(coordinates.astype(np.float64, order="C"), scale)
         first, second, *third = [coordinates[:, i] - coordinates[:, j] for i, j in pairs]
         across = cross(first, second)
-        vectors = np.stack([first, second, across])
+        vectors = np.array([first, second, across])
         squares = np.add.reduce(vectors * vectors, axis=1)
         bare.append(squares[2] <= _degenerate_limit(np.maximum(squares[0], squares[1]), off))
         if third:

@@ -53,15 +53,16 @@ class LineGrids:
     def over_boxes(cls, low: NDArray, high: NDArray, lines: NDArray[np.integer]) -> LineGrids:
         """Make grids of about `lines`, (b,), lines each over boxes, (b, 3)."""
         axes = np.argsort(low - high, axis=1, kind="stable")
-        extent, center = (np.take_along_axis(sides, axes, 1) for sides in (high - low, (low + high) / 2.0))
+        body = np.arange(len(low))[:, None]
+        extent, center = (high - low)[body, axes], ((low + high) / 2.0)[body, axes]
         width = extent[:, :2] + LINE_SLOPES * extent[:, 2:]
         width = np.maximum(width, 1e-6 * width.max(axis=1, keepdims=True) + np.finfo(float).tiny)
         rows = np.clip(np.rint(np.sqrt(lines * width[:, 0] / width[:, 1])), 1, lines)
         columns = np.maximum(np.rint(lines / rows), 1)
-        most = np.stack([rows, np.ceil(columns + COLUMN_SLOPE * rows)], axis=1) + 1.0
+        most = np.array([rows, np.ceil(columns + COLUMN_SLOPE * rows)]).T + 1.0
         size = most.max(axis=0).astype(np.intp) + 1
         origin = np.floor(most / 2.0) + LATTICE_SHIFT
-        return cls(axes, center, width / np.stack([rows, columns], axis=1), origin, *size.tolist())
+        return cls(axes, center, width / np.array([rows, columns]).T, origin, *size.tolist())
 
     @classmethod
     def through_points(cls, points: NDArray[np.float64], sizes: NDArray[np.float64]) -> LineGrids:
@@ -76,7 +77,7 @@ class LineGrids:
             places = points.T[self.axes[0]].astype(np.float64)
             center, cell, origin = self.center.T, self.cell.T, self.origin.T
         else:
-            places = np.take_along_axis(points, self.axes[body], 1).T.astype(np.float64)
+            places = points[np.arange(len(points)), self.axes[body].T].astype(np.float64)
             center, cell, origin = self.center[body].T, self.cell[body].T, self.origin[body].T
         places -= center
         along = places[2]

@@ -15,12 +15,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..numerics.arguments import float_array, index_array, number_array
+from ..numerics.arguments import float_array, has_form, index_array, number_array
+from ..numerics.arrays import cross_rows, lengths
 from ..numerics.vectors import cross, dot
 
 NO_TRIANGLES = np.empty((0, 3), np.int32)
 NO_QUADS = np.empty((0, 4), np.int32)
+NEXT_CORNER = [1, 2, 3, 0]
 HALVES = [0, 1, 2, 0, 2, 3]  # corners of a quad's triangles
+POINT_TYPES, INDEX_TYPES = (np.dtype(np.float32), np.dtype(np.float64)), (np.dtype(np.int32), np.dtype(np.int64))
 INDEX_SHAPES = {
     "triangles": ("m", 3),
     "quads": ("q", 4),
@@ -71,16 +74,17 @@ class Surface:
     displacement: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
-        points = number_array("points", self.points, "n", 3)
-        # Files have float32 in either byte order: it must be known as such; other numbers become float64.
-        kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
-        object.__setattr__(self, "points", points.astype(kind, copy=False))
+        if not has_form(self.points, POINT_TYPES, (3,)):
+            points = number_array("points", self.points, "n", 3)
+            # Files have float32 in either byte order: it must be known as such; other numbers become float64.
+            kind = np.float32 if points.dtype.newbyteorder("=") == np.float32 else np.float64
+            object.__setattr__(self, "points", points.astype(kind, copy=False))
         for name, shape in INDEX_SHAPES.items():
             values = getattr(self, name)
-            if values is not None:
+            if values is not None and not has_form(values, INDEX_TYPES, shape[1:]):
                 indices = index_array(name, values, *shape)
                 # Numbers of faces, edges and vertices are added to others, which must neither overflow nor round.
-                kind = indices.dtype if indices.dtype in (np.int32, np.int64) else np.int64
+                kind = indices.dtype if indices.dtype in INDEX_TYPES else np.int64
                 object.__setattr__(self, name, indices.astype(kind, copy=False))
         if self.displacement is not None:
             object.__setattr__(self, "displacement", float_array("displacement", self.displacement, 3))
@@ -147,7 +151,12 @@ class Surface:
 def normals(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
     """Return (m, 3) normals of triangles, each twice as long as its triangle's area."""
     a, b, c = (points[triangles[:, k]].astype(np.float64, copy=False) for k in range(3))
-    return np.cross(b - a, c - a)
+    return cross_rows(b - a, c - a)
+
+
+def triangle_areas(points: NDArray[np.floating], triangles: NDArray[np.integer]) -> NDArray[np.float64]:
+    """Return (m,) areas of triangles."""
+    return 0.5 * lengths(normals(points, triangles))[:, 0]
 
 
 def join_surfaces(surfaces: Sequence[Surface]) -> Surface:
@@ -174,7 +183,7 @@ def half_ulp(largest: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
     """Return (q, 4) quads turned so that Blender cuts them from their first corners to their third: into `HALVES`."""
-    return np.where(flipped_quads(points, quads)[:, None], np.roll(quads, -1, axis=1), quads)
+    return np.where(flipped_quads(points, quads)[:, None], quads.take(NEXT_CORNER, 1), quads)
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import indices_in_range
+from ..numerics.arrays import as_unsigned, segment_starts
 from ..numerics.graph import connected_components
 from .edges import face_of_each, ring_sizes
 from .surface import HALVES, Surface, half_ulp, turned_quads
@@ -99,56 +99,64 @@ class SurfaceStack(TriangleStack):
     edge_counts: NDArray[np.intp]
 
     @staticmethod
-    def takes(surface: Surface) -> bool:
-        """Return whether a surface can be one of a stack: with the mesh's own corners and edges, of float32 points."""
-        corners, edges = surface.corner_vertices, surface.corner_edges
-        return (
+    def takes(surfaces: Sequence[Surface]) -> list[bool]:
+        """Return which surfaces can be in a stack: with the mesh's own corners and edges, of float32 points."""
+        fits = [
             surface.points.dtype == np.float32
             and surface.displacement is None
-            and corners is not None
-            and edges is not None
-            and 0 < len(corners) == len(edges)
+            and surface.corner_vertices is not None
+            and surface.corner_edges is not None
+            and 0 < len(surface.corner_vertices) == len(surface.corner_edges)
             and len(surface.triangles) + len(surface.quads) > 0
-            and indices_in_range(corners, len(surface.points))
-            and int(edges.max()) < 2 * len(corners)
-            and int(edges.min()) >= 0
-        )
+            for surface in surfaces
+        ]
+        known = [surface for surface, is_fit in zip(surfaces, fits) if is_fit]
+        if not known:
+            return fits
+        counts = np.array([(len(surface.points), len(np.asarray(surface.corner_edges))) for surface in known])
+        starts, in_range = segment_starts(counts[:, 1]), np.ones(len(known), bool)
+        for name, limit in (("corner_vertices", counts[:, 0]), ("corner_edges", 2 * counts[:, 1])):
+            numbers = np.concatenate([getattr(surface, name) for surface in known])
+            in_range &= np.maximum.reduceat(as_unsigned(numbers), starts) < limit
+        by_surface = iter(in_range.tolist())
+        return [is_fit and next(by_surface) for is_fit in fits]
 
     @classmethod
     def from_surfaces(cls, surfaces: Sequence[Surface]) -> SurfaceStack:
         """Stack surfaces that it `takes`, at least one."""
-        corner_vertices = [np.asarray(surface.corner_vertices) for surface in surfaces]
-        corner_edges = [np.asarray(surface.corner_edges) for surface in surfaces]
         point_counts, corner_counts, single, quad_counts = np.array(
             [
-                [len(array) for array in (surface.points, corners, surface.triangles, surface.quads)]
-                for surface, corners in zip(surfaces, corner_vertices)
+                [len(surface.points), len(np.asarray(surface.corner_edges)), len(surface.triangles), len(surface.quads)]
+                for surface in surfaces
             ]
         ).T
-        edge_counts = np.array([int(edges.max()) + 1 for edges in corner_edges])
-        numbers = [face_of_each(surface) for surface in surfaces]
-        face_counts = np.array([max(int(faces.max(initial=-1)) for faces in pair) + 1 for pair in numbers])
+        bodies = np.arange(len(surfaces))
+        of_triangle, of_quad, of_corner = (bodies.repeat(counts) for counts in (single, quad_counts, corner_counts))
         points = np.concatenate([surface.points for surface in surfaces])
-        first_point, first_face = np.cumsum(point_counts) - point_counts, np.cumsum(face_counts) - face_counts
-        first_edge = np.cumsum(edge_counts) - edge_counts
         triangles = np.concatenate([surface.triangles for surface in surfaces]).astype(np.intp)
         quads = np.concatenate([surface.quads for surface in surfaces]).astype(np.intp)
-        triangles += np.repeat(first_point, single)[:, None]
-        quads += np.repeat(first_point, quad_counts)[:, None]
         quad_faces, triangle_faces = (
-            np.concatenate(faces).astype(np.intp) + np.repeat(first_face, counts)
-            for faces, counts in zip(zip(*numbers), (quad_counts, single))
+            np.concatenate(faces).astype(np.intp) for faces in zip(*[face_of_each(surface) for surface in surfaces])
         )
-        corners = np.concatenate(corner_vertices).astype(np.intp)
-        corners += np.repeat(first_point, corner_counts)
-        edges = np.concatenate(corner_edges).astype(np.intp)
-        edges += np.repeat(first_edge, corner_counts)
+        corners = np.concatenate([np.asarray(surface.corner_vertices) for surface in surfaces]).astype(np.intp)
+        edges = np.concatenate([np.asarray(surface.corner_edges) for surface in surfaces]).astype(np.intp)
+        edge_counts = np.maximum.reduceat(edges, segment_starts(corner_counts)) + 1
+        face_counts = np.zeros(len(surfaces), np.intp)
+        np.maximum.at(face_counts, of_triangle, triangle_faces + 1)
+        np.maximum.at(face_counts, of_quad, quad_faces + 1)
+        if len(surfaces) > 1:  # numbers go on from surface to surface
+            first_point, first_face = segment_starts(point_counts), segment_starts(face_counts)
+            triangles += first_point[of_triangle][:, None]
+            quads += first_point[of_quad][:, None]
+            triangle_faces += first_face[of_triangle]
+            quad_faces += first_face[of_quad]
+            corners += first_point[of_corner]
+            edges += segment_starts(edge_counts)[of_corner]
         cut, cut_faces = triangles, triangle_faces
         if len(quads):
-            owner = np.repeat(np.tile(np.arange(len(surfaces)), 2), np.concatenate([single, 2 * quad_counts]))
-            order = owner.argsort(kind="stable")
-            cut = np.concatenate([triangles, turned_quads(points, quads)[:, HALVES].reshape(-1, 3)])[order]
-            cut_faces = np.concatenate([triangle_faces, np.repeat(quad_faces, 2)])[order]
+            order = np.concatenate([of_triangle, of_quad.repeat(2)]).argsort(kind="stable")
+            cut = np.concatenate([triangles, turned_quads(points, quads).take(HALVES, 1).reshape(-1, 3)])[order]
+            cut_faces = np.concatenate([triangle_faces, quad_faces.repeat(2)])[order]
         return cls(
             points,
             cut,
@@ -193,7 +201,7 @@ class SurfaceStack(TriangleStack):
             corners, edges = corners[known], edges[known]
         sizes_met = sizes[sizes > 0]
         ends = np.cumsum(sizes_met)
-        following = np.roll(corners, -1)
+        following = np.concatenate([corners[1:], corners[:1]])
         if len(ends):
             following[ends - 1] = corners[ends - sizes_met]
         face = np.repeat(np.flatnonzero(sizes), sizes_met)
@@ -220,7 +228,9 @@ class SurfaceStack(TriangleStack):
             alone[above] = alone[below] = False
             sides = np.stack([corners[alone], following[alone]])
             sides = sides[:, is_open[self.point_owners[sides[0]]]]
-        return Connections(oriented & (single == 0), is_open, np.diff(last, prepend=-1), component, sides)
+        last[1:] -= last[:-1].copy()
+        last[0] += 1
+        return Connections(oriented & (single == 0), is_open, last, component, sides)
 
 
 @dataclass(frozen=True, eq=False)

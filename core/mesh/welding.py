@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import first_occurrence, hash_uint64
+from ..numerics.arrays import NEXT_AXIS, first_occurrence, hash_uint64, lengths
 from ..numerics.graph import connected_components
 
 # Points near to each other are near along this direction, too; planes and axes of usual bodies are not across it.
@@ -87,7 +87,7 @@ def vertex_tolerance(
     requested[vertices] = True
     triangles = triangles[requested[triangles].any(axis=1)]
     corners = points[triangles].astype(np.float64)
-    longest = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)
+    longest = lengths(corners - corners.take(NEXT_AXIS, 1))[..., 0].max(axis=1)
     size = np.full(len(points), np.inf)
     np.minimum.at(size, triangles.ravel(), np.repeat(longest, 3))
     return np.minimum(tolerance, WELD_LIMIT_RTOL * size[vertices])

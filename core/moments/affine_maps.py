@@ -23,6 +23,7 @@ from .exponents import count_of_degree, monomial_count, monomial_index, monomial
 # float32 entries alone may have made it: such a matrix cannot be distinguished from one that flattens.
 SINGULAR_RTOL = 4.0 * float(np.finfo(np.float32).eps)
 SIMILARITY_RTOL = 1e-5  # a float32 rotation matrix is a similarity to about 1e-7; a real shear is far above this
+ROTATIONS_PER_BLOCK = 128  # with tables of coefficients that stay in the cache
 HIGHEST_ODD = 3.0  # safety factor of the estimate from the two lower even degrees; a thin bar needs 1.3
 
 
@@ -91,8 +92,11 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
 
 def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
     """Return (..., K) moments of bodies after rotations (..., 3, 3), from their moments `raw`; no error bounds."""
-    shape = np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2])
-    out = np.array(np.broadcast_to(raw, (*shape, raw.shape[-1])))
+    if raw.ndim == 2 and len(rotation) == len(raw) > ROTATIONS_PER_BLOCK:
+        blocks = [slice(start, start + ROTATIONS_PER_BLOCK) for start in range(0, len(raw), ROTATIONS_PER_BLOCK)]
+        return np.concatenate([rotate_moments(raw[block], order, rotation[block]) for block in blocks])
+    out = np.zeros((*np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2]), raw.shape[-1]))
+    out += raw
     table = np.ones((*rotation.shape[:-2], 1, 1))
     for degree in range(1, order + 1):
         table = _raise_polynomials(table, degree, rotation)
@@ -103,6 +107,8 @@ def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.fl
 
 def _raise_polynomials(table: NDArray, degree: int, forms: NDArray) -> NDArray[np.float64]:
     """Return (..., rows, rows) coefficients of the images of a degree's monomials. table: those one degree lower."""
+    if degree == 1:
+        return forms
     count, below = count_of_degree(degree), count_of_degree(degree - 1)
     padded = np.concatenate([table, np.zeros((*table.shape[:-1], 1))], axis=-1)
     raised = padded[..., quotient_indices(degree, below)]  # times x, y, z: (..., below, 3, rows)

@@ -79,6 +79,15 @@ def monomials(order: int) -> NDArray[np.int64]:
     return table
 
 
+def monomial_values(points: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+    """Return (n, K) the monomials to an order at points (n, 3)."""
+    powers = np.ones((order + 1, 3, len(points)))
+    powers[1:] = points.T
+    powers = np.multiply.accumulate(powers)
+    p, q, r = monomials(order).T
+    return (powers[p, 0] * powers[q, 1] * powers[r, 2]).T
+
+
 def factorial_ratios(exponents: NDArray[np.integer], more: int) -> NDArray[np.float64]:
     """Return (K,) α! / (|α| + `more`)! of (K, n) exponents, correctly rounded."""
     return np.array([prod(map(factorial, row)) / factorial(sum(row) + more) for row in exponents.tolist()])

@@ -87,5 +87,5 @@ def _image_error_bounds(
     rounding[1:] += np.arange(1, order + 1) * carried(weight * tolerance, reach + tolerance, size)[0][:-1]
     if uneven.any():
         absolute = np.maximum.reduceat(absolute_moments(moments.raw, order), starts) + error + inputs
-        mapped_input += carried(weight * uneven, reach, absolute)[0]
+        rounding += carried(weight * uneven, reach, absolute)[0]
     return rounding[degree], mapped_input[degree]

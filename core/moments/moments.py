@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import check_filled, float_array, shape_error
-from ..numerics.arrays import PerBody
+from ..numerics.arrays import PerBody, as_rows
 from ..numerics.rotations import rotation_array
 from ..verdict.finding import MeasureError
 from ..verdict.findings import OBJECT_TOO_SMALL
@@ -200,10 +200,8 @@ class Moments:
         if not offset.any():
             return self
         away = np.abs(offset)
-        values = np.stack(
-            [self.raw, self.rounding_error, self.input_error, np.abs(self.raw) + self.rounding_error], axis=-2
-        )
-        shifted = apply_translation(values, self.order, np.stack([offset, away, away, away], axis=-2))
+        values = [self.raw, self.rounding_error, self.input_error, np.abs(self.raw) + self.rounding_error]
+        shifted = apply_translation(as_rows(values), self.order, as_rows([offset, away, away, away]))
         raw, error, moved, size = (shifted[..., i, :] for i in range(4))
         rounding = (4.0 * monomials(self.order).sum(axis=1) + 16.0) * U
         return unchecked_moments(raw, point, self.measure, error + rounding * size, moved)
@@ -230,8 +228,8 @@ class Moments:
         """Return the moments of the body's image under matrix[:3, :3] @ x + matrix[:3, 3], about the image of `about`.
 
         Volume and mass follow any map, mass unchanged and volume by |det|. Areas and lengths follow a similarity only;
-        the deviation of a float32 rotation from one goes into `input_error`. ValueError if the matrix is not finite (4,
-        4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
+        the deviation of a float32 rotation from one goes into `rounding_error`. ValueError if the matrix is not finite
+        (4, 4), or no similarity although one is needed; MeasureError if the image is too small for its measure to be a
         number.
         """
         affine = float_array("matrix", matrix, *self.about.shape[:-1], 4, 4, finite=True)
@@ -274,11 +272,19 @@ def sum_moments(parts: Sequence[Moments]) -> Moments:
 
 def stack_moments(parts: Sequence[Moments]) -> Moments:
     """Stack moments of one measure, each about its own point, along a leading axis, to the lowest of their orders."""
-    count = min([part.raw.shape[-1] for part in parts])
-    raw, rounding, inputs = (
-        np.array([getattr(part, name)[:count] for part in parts]) for name in ("raw", "rounding_error", "input_error")
+    order = min([part.order for part in parts])
+    return join_moments([part.truncate(order).at(None) for part in parts])
+
+
+def join_moments(stacks: Sequence[Moments]) -> Moments:
+    """Join stacks of one measure and order into one stack."""
+    if len(stacks) == 1:
+        return stacks[0]
+    raw, about, rounding, inputs = (
+        np.concatenate([getattr(stack, name) for stack in stacks])
+        for name in ("raw", "about", "rounding_error", "input_error")
     )
-    return unchecked_moments(raw, np.array([part.about for part in parts]), parts[0].measure, rounding, inputs)
+    return unchecked_moments(raw, about, stacks[0].measure, rounding, inputs)
 
 
 @np.errstate(over="ignore", invalid="ignore")  # callers check for overflow
@@ -299,12 +305,9 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     factors = measure_scale_factors(moments.measure, linear.reshape(-1, 3, 3).transpose(1, 2, 0).copy())
     weight, weight_error, uneven = [factor.reshape(*lead, 1) for factor in factors]
     # The images of the reference point are rounded, and the body moves with them.
-    stretch = np.abs(linear).sum(axis=-1).max(axis=-1)
-    tolerance = (
-        6
-        * U
-        * (np.abs(offsets).max(axis=-1) + np.abs(center).max(axis=-1) + stretch * np.abs(about).max(axis=-1))[..., None]
-    )
+    stretch = np.add.reduce(np.abs(linear), axis=-1).max(axis=-1, keepdims=True)
+    reach = np.abs(offsets).max(axis=-1, keepdims=True) + np.abs(center).max(axis=-1, keepdims=True)
+    tolerance = 6 * U * (reach + stretch * np.abs(about).max(axis=-1, keepdims=True))
     weight_error = weight_error + (1 + 6 * order + 8) * U * weight
     away = np.abs(offset)
     rows = [moments.raw, moments.rounding_error, moments.input_error, np.abs(moments.raw) + moments.rounding_error]
@@ -312,14 +315,17 @@ def image(moments: Moments, matrices: NDArray, center: NDArray) -> Moments:
     if uneven.any():
         rows.append(absolute_moments(moments.raw, order) + moments.rounding_error + moments.input_error)
         shifts.append(away + tolerance)
-    shifted = apply_translation(apply_linear(np.stack(rows, axis=-2), order, linear), order, np.stack(shifts, axis=-2))
+    shifted = as_rows(rows)
+    if order:
+        shifted = apply_translation(apply_linear(shifted, order, linear), order, as_rows(shifts))
     mapped, error, mapped_input, size = [shifted[..., i, :] for i in range(4)]
     rounding = weight * error + (weight_error + (4.0 * order + 50.0) * U * weight) * size
     for axis, raised in enumerate(product_indices(order) if order else ()):
         moved = monomials(order)[raised, axis] * tolerance * weight * size[..., : len(raised)]
         rounding[..., raised] += moved
-    moved_input = weight * (mapped_input + uneven * shifted[..., -1, :])  # a face at a time, some more and some less
-    return unchecked_moments(weight * mapped, center, moments.measure, rounding, moved_input)
+    if uneven.any():
+        rounding = rounding + weight * uneven * shifted[..., -1, :]  # a face at a time, some more and some less
+    return unchecked_moments(weight * mapped, center, moments.measure, rounding, weight * mapped_input)
 
 
 def measure_scale_factors(measure: Measure, linear: NDArray) -> tuple[NDArray, NDArray, NDArray]:

@@ -45,6 +45,11 @@ def index_array(name: str, values: ArrayLike, *shape: Length, count: int | None 
     return array
 
 
+def has_form(values: object, types: tuple[np.dtype, ...], row: tuple[Length, ...]) -> bool:
+    """Return whether values are an array of one of these types with rows of this shape: it needs no conversion."""
+    return type(values) is np.ndarray and values.dtype in types and values.ndim > 0 and values.shape[1:] == row
+
+
 def check_type(name: str, value: object, kind: type) -> None:
     """Raise TypeError if a parameter is not of a class."""
     if not isinstance(value, kind):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cross products and lengths of rows, ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences, Morton order."""
+"""Vectors in rows, ranges of segments, pairs in bounded pieces, hashes of rows, first occurrences, Morton order."""
 
 from __future__ import annotations
 
@@ -28,10 +28,19 @@ def lengths(vectors: NDArray) -> NDArray:
     return np.sqrt(np.add.reduce(vectors * vectors, axis=-1, keepdims=True))
 
 
+def as_rows(vectors: list[NDArray]) -> NDArray:
+    """Return the vectors (..., k) as rows (..., m, k): `np.stack` along the axis before the last, in less time."""
+    return np.concatenate([vector[..., None, :] for vector in vectors], axis=-2)
+
+
 def indices_in_range(indices: NDArray[np.integer], count: int) -> bool:
     """Return whether all indices are from 0 to count - 1."""
-    unsigned = indices.view(indices.dtype.str.replace("i", "u"))  # a negative index becomes a large one
-    return not indices.size or bool(unsigned.max() < count)
+    return not indices.size or bool(as_unsigned(indices).max() < count)
+
+
+def as_unsigned(indices: NDArray[np.integer]) -> NDArray[np.unsignedinteger]:
+    """Return a view in which a negative index is a large one."""
+    return indices.view(indices.dtype.str.replace("i", "u"))
 
 
 def spread_bits(value: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -50,7 +59,7 @@ def segment_ranges(counts: NDArray) -> NDArray[np.intp]:
 
 def segment_starts(counts: NDArray) -> NDArray[np.intp]:
     """Return 0, counts[0], counts[0] + counts[1], …: the start of each segment of these lengths."""
-    return np.cumsum(counts) - counts
+    return counts.cumsum() - counts
 
 
 def sums_by_index(indices: NDArray[np.integer], weights: NDArray, count: int = 0) -> NDArray[np.float64]:

@@ -63,7 +63,7 @@ def quaternion(rotation: ArrayLike) -> NDArray[np.float64]:
         ]
     )
     best = outer.diagonal(axis1=0, axis2=1).argmax(axis=-1)
-    column = np.take_along_axis(outer, best[None, None], axis=1)[:, 0]
+    column = outer.reshape(4, 4, -1)[:, best.ravel(), np.arange(best.size)].reshape(4, *best.shape)
     column = column / np.sqrt(np.add.reduce(column * column))
     return np.where(column[0] >= 0.0, column, -column).T + 0.0  # no negative zeros
 
@@ -81,9 +81,12 @@ def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.b
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt(np.add.reduce(linear * linear, axis=1, keepdims=True))
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)
-    u, _, v = np.linalg.svd(columns)
-    skew = np.abs(columns.transpose(0, 2, 1) @ columns) * OFF_DIAGONAL
-    return u @ v, skew.max(axis=(1, 2)) > MAX_AXIS_COSINE
+    skew = (np.abs(columns.transpose(0, 2, 1) @ columns) * OFF_DIAGONAL).max(axis=(1, 2))
+    rows = np.flatnonzero(~(skew == 0.0) | (length == 0.0).any(axis=(1, 2)))
+    if len(rows):  # the others have right angles already
+        u, _, v = np.linalg.svd(columns[rows])
+        columns[rows] = u @ v
+    return columns, skew > MAX_AXIS_COSINE
 
 
 def along_x(axis: NDArray) -> NDArray[np.float64]:

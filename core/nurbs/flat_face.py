@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.bspline import SplineSpace
-from .bezier_form import bezier_space
 from .curve import Curve
 from .curve_moments import plane_moments
 from .patch import Face, Patch
@@ -93,20 +92,6 @@ class FlatFace:
         normal = np.cross(*(matrix[:3, :3] @ self._frame).T)
         loops = tuple(tuple(curve.transform(matrix) for curve in loop) for loop in self.loops)
         return FlatFace(loops, normal / np.linalg.norm(normal))
-
-    def cones(self) -> list[Patch] | None:
-        """Return the cones from the center to the boundary's curves, which are Bézier; None if they would overlap."""
-        if len(self.loops) > 1:
-            return None
-        cones = []
-        for curve in self.curves:
-            arms = curve.points - self.center
-            if not (np.cross(arms[:-1], arms[1:]) @ self.normal > 0.0).all():
-                return None
-            points = np.stack([np.broadcast_to(self.center, arms.shape), curve.points], axis=1)
-            weights = None if curve.weights is None else np.stack([curve.weights] * 2, axis=1)
-            cones.append(Patch((curve.space, bezier_space(2, 2)), points, weights))
-        return cones
 
     def area_moments(self, order: int, about: NDArray) -> Moments:
         """Return the moments of the region's area about any point (3,)."""

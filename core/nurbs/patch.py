@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Protocol, Self, runtime_checkable
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,35 +21,11 @@ from ..numerics.bspline import SplineSpace
 from ..verdict.tolerances import check_size
 from .curve import Curve, checked_points
 
+if TYPE_CHECKING:
+    from .flat_face import FlatFace
+
+Face: TypeAlias = "Patch | FlatFace"
 SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
-
-
-@runtime_checkable
-class Face(Protocol):
-    """A face of a body: a patch, or a region of a plane (`flat_face`)."""
-
-    @property
-    def points(self) -> NDArray[np.float64]:
-        """(m, n, 3) control points."""
-        ...
-
-    @property
-    def spaces(self) -> tuple[SplineSpace, ...]:
-        """Function spaces."""
-        ...
-
-    @property
-    def sides(self) -> tuple[tuple[Curve, bool], ...]:
-        """The curves around the face, each with True if the face is on its left."""
-        ...
-
-    def reverse_orientation(self) -> Self:
-        """Return the same face, facing the other way."""
-        ...
-
-    def transform(self, matrix: ArrayLike) -> Self:
-        """Return its image under an affine map (4, 4)."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +132,8 @@ def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
 def control_box(patches: Sequence[Face]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the least (3,) and the largest (3,) coordinates of all control points."""
     for patch in patches:
-        check_type("patches", patch, Face)
+        if not hasattr(patch, "sides"):
+            check_type("patches", patch, Patch)
     return (
         np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
         np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),

@@ -5,7 +5,8 @@
 Every patch has four sides, curves that run round it with the patch on their left; the sides of a flat face are the
 curves that bound it. A side is closed if it is a point (a
 pole) or coincides with another side: of the same patch (a cyclic direction, a seam) or of another one, run the other
-way. Sides coincide if they agree parameter by parameter, or else point by point. A vector area of zero proves nothing:
+way. Sides coincide if they agree parameter by parameter, or else point by point; a side along several other ones is cut
+where these end. A vector area of zero proves nothing:
 an open cylinder's is zero too.
 
 Open sides are joined to loops, and a loop is closed by the cone to its centroid. For a flat loop of any shape the cone
@@ -27,6 +28,7 @@ from ..numerics.arrays import following_pairs
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
+from .bezier_form import bezier_curves
 from .curve import Curve
 from .findings import DISCONTINUOUS_PATCH
 from .patch import Face, Patch
@@ -38,6 +40,7 @@ PAIRS_PER_BLOCK = 4096  # pairs of sides compared at a time
 PAIRS_PER_BATCH = 1 << 20  # Candidate pairs of sides at a time.
 FOLDED_ANGLE = 1e-3  # radians: patches that lie on each other
 MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itself.
+MAX_CUT_SIDES = 400  # Limit of open sides that are compared with each other's ends.
 MAX_SIDE_PAIRS = 100_000  # Limit of closed sides compared point by point.
 
 
@@ -65,8 +68,8 @@ class PatchTopology:
     against most of their component, or against its first if as many face each way. loops: the holes. open_sides,
     non_manifold_sides: the numbers of sides that are open, or coincide with several other sides. misoriented_sides: the
     number of joined pairs that run the same way before any patch is turned. seam_gap: the sum over joined sides of
-    largest distance times length. seams: (k, 2) joined sides, counted over all patches in turn. unclosable:
-    (number,) mask of components with open sides that form no loop, or with a one-sided surface.
+    largest distance times length. seams: (k, 2) joined sides that were not cut, counted over all patches in turn.
+    unclosable: (number,) mask of components with open sides that form no loop, or with a one-sided surface.
     """
 
     component: NDArray[np.intp]
@@ -85,17 +88,22 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     """Find the seams, orientation and holes of patches; MeasureError if a patch may be torn at a knot."""
     if any(space.is_discontinuous for patch in patches for space in patch.spaces):
         raise MeasureError(DISCONTINUOUS_PATCH)
-    sides = [patch.sides for patch in patches]
-    curves = [curve for around in sides for curve, _ in around]
-    count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
-    points = np.array([curve.apply_weights(_uniform_table(curve.space, count)) for curve in curves])
-    length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
-    wide = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
-    owner = np.repeat(np.arange(len(patches)), list(map(len, sides)))
-    forward = np.array([ahead for around in sides for _, ahead in around])
-    left, right, same, gap, non_manifold_sides = _pair_sides(
-        _coincident_sides(curves, points, np.flatnonzero(wide), tolerance), points, owner, forward
-    )
+    around_patches = [patch.sides for patch in patches]
+    curves = [curve for around in around_patches for curve, _ in around]
+    owner = np.repeat(np.arange(len(patches)), list(map(len, around_patches)))
+    forward = np.array([ahead for around in around_patches for _, ahead in around])
+    number_of = np.arange(len(curves))
+    sides = _join_sides(curves, owner, forward, tolerance)
+    pieces = _cut_sides(curves, sides, tolerance)
+    if pieces:
+        counts = np.array(list(map(len, pieces)))
+        cut_owner, cut_forward = np.repeat(owner, counts), np.repeat(forward, counts)
+        cut_curves = [curve for row in pieces for curve in row]
+        cut_sides = _join_sides(cut_curves, cut_owner, cut_forward, tolerance)
+        if cut_sides.open_length < sides.open_length - tolerance:
+            curves, owner, forward, sides = cut_curves, cut_owner, cut_forward, cut_sides
+            number_of = np.repeat(np.where(counts == 1, number_of, -1), counts)
+    points, left, right, same, free = sides.points, sides.left, sides.right, sides.same, sides.free
 
     # Two sides fit if one runs against the other; else one of their patches must turn.
     misoriented = same == (forward[left] == forward[right])
@@ -106,8 +114,6 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
     unclosable = np.zeros(number, bool)
     unclosable[component[conflict]] = True
 
-    free = wide.copy()
-    free[left] = free[right] = False
     loops, forward = [], forward ^ flipped[owner]
     for loop_sides, complete in _find_loops(points, np.flatnonzero(free), forward, tolerance):
         if not complete:
@@ -121,12 +127,73 @@ def find_topology(patches: Sequence[Face], tolerance: float) -> PatchTopology:
         flipped,
         tuple(loops),
         int(free.sum()),
-        non_manifold_sides,
+        sides.non_manifold,
         int(misoriented.sum()),
-        float((gap * length[left]).sum()),
-        np.stack([left, right], axis=1),
+        sides.gap,
+        np.stack([number_of[left], number_of[right]], axis=1)[(number_of[left] >= 0) & (number_of[right] >= 0)],
         unclosable,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Sides:
+    """Sides and how they meet.
+
+    points: (n, m, 3) samples at equal steps. left, right: (k,) joined sides; same: (k,) whether their curves run the
+    same way. free: (n,) mask of the open ones, of `open_length` in all. gap, non_manifold: as in PatchTopology.
+    """
+
+    points: NDArray[np.float64]
+    left: NDArray[np.intp]
+    right: NDArray[np.intp]
+    same: NDArray[np.bool_]
+    free: NDArray[np.bool_]
+    open_length: float
+    gap: float
+    non_manifold: int
+
+
+def _join_sides(
+    curves: Sequence[Curve], owner: NDArray[np.intp], forward: NDArray[np.bool_], tolerance: float
+) -> _Sides:
+    """Find the sides that coincide. owner: (n,) patch of each side; forward: (n,) whether the patch is on its left."""
+    count = max([SAMPLES_PER_SIDE] + [2 * len(curve.space.spans) + 1 for curve in curves])
+    points = np.array([curve.apply_weights(_uniform_table(curve.space, count)) for curve in curves])
+    length = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
+    free = np.linalg.norm(points - points[:, :1], axis=2).max(axis=1) > tolerance
+    left, right, same, gap, non_manifold = _pair_sides(
+        _coincident_sides(curves, points, np.flatnonzero(free), tolerance), points, owner, forward
+    )
+    free[left] = free[right] = False
+    return _Sides(
+        points, left, right, same, free, float(length[free].sum()), float((gap * length[left]).sum()), non_manifold
+    )
+
+
+def _cut_sides(curves: Sequence[Curve], sides: _Sides, tolerance: float) -> list[list[Curve]]:
+    """Return the pieces of each side, open ones cut where other open ones end; none if there is nothing to cut."""
+    open_sides = np.flatnonzero(sides.free)
+    if not 3 <= len(open_sides) <= MAX_CUT_SIDES:
+        return []
+    ends = sides.points[open_sides][:, [0, -1]].reshape(-1, 3)
+    pieces, is_cut = [[curve] for curve in curves], False
+    for k in open_sides:
+        curve, samples = curves[k], sides.points[k]
+        step = np.linalg.norm(np.diff(samples, axis=0), axis=1).max()
+        near = ends[np.linalg.norm(ends[:, None] - samples, axis=2).min(axis=1) <= step + tolerance]
+        near = near[np.linalg.norm(near[:, None] - samples[[0, -1]], axis=2).min(axis=1) > 2.0 * tolerance]
+        t = nearest_parameters(curve, samples, near, tolerance) if len(near) else np.zeros(0)
+        t = np.unique(t[np.linalg.norm(near - curve.evaluate(t), axis=1) <= tolerance])
+        if not len(t):
+            continue
+        marks = [curve.space.domain[0]]
+        for at in t.tolist():
+            if np.linalg.norm(np.diff(curve.evaluate([marks[-1], at]), axis=0)) > 2.0 * tolerance or len(marks) == 1:
+                marks.append(at)
+        marks.append(curve.space.domain[1])
+        pieces[k] = [piece for part in zip(marks[:-1], marks[1:]) for piece in bezier_curves(curve, part)]
+        is_cut = True
+    return pieces if is_cut else []
 
 
 @lru_cache(maxsize=64)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.exponents import count_of_degree, monomial_count, monomials, quotient_indices
+from ..moments.exponents import count_of_degree, monomial_count, monomial_values, monomials
 from ..moments.moments import Measure, Moments, U, unchecked_moments
 from ..numerics.arrays import batches
 from ..numerics.vectors import cross, dot
@@ -46,7 +46,7 @@ def extend_small_moments(
         sums.append(np.add.reduceat(_coefficients(a, b, c, order)[known:] * det, starts, axis=1).T)
         sizes.append(np.add.reduceat(np.abs(det), starts))
     raw = np.concatenate(sums) * factors
-    largest = np.multiply.reduce(reach[:, None] ** powers, axis=2)
+    largest = monomial_values(reach, order)[:, known:]
     # A coefficient is off by (6 n + 8) u, a determinant as much as the known total, and the sums by their lengths.
     relative = U * (14.0 * degree + 16.0 + 3.0 * counts[:, None])
     size = np.concatenate(sizes)[:, None] / (2.0 * degree + 6.0)
@@ -62,19 +62,23 @@ def extend_small_moments(
 
 def _coefficients(a: NDArray, b: NDArray, c: NDArray, order: int) -> NDArray[np.float64]:
     """Return the (K, t) S_α of triangles with corners (3, t)."""
-    levels = np.zeros((2, 3, a.shape[1]))  # C, D and S of degree 0, and a row of zeros
-    levels[0] = 1.0
     vectors, out = np.stack([a, c, b], axis=1), np.empty((monomial_count(order), a.shape[1]))
-    out[0] = 1.0
+    levels, terms = (
+        np.empty((2, count_of_degree(order), 3, a.shape[1])),
+        np.empty((count_of_degree(order - 1), *a.shape)),
+    )
+    levels[0, 0] = out[0] = 1.0  # C, D and S of degree 0
     for degree in range(1, order + 1):
         below, count = count_of_degree(degree - 1), count_of_degree(degree)
-        grown = np.zeros((count + 1, 3, a.shape[1]))
-        for quotients, vector in zip(quotient_indices(degree, below), vectors):
-            terms = levels.take(quotients, axis=0)
-            terms *= vector
-            grown[:-1] += terms
+        known, grown = levels[1 - degree % 2, :below], levels[degree % 2, :count]
+        np.multiply(known, vectors[0], out=grown[:below])
+        grown[below:] = 0.0
+        for z, vector in enumerate(vectors[1:]):
+            np.multiply(known, vector, out=terms[:below])
+            for rows in range(1, degree + 1):  # In each run of equal q + r, rows times y or z are the next run's.
+                source, target = rows * (rows - 1) // 2, rows * (rows + 1) // 2 + z
+                grown[target : target + rows] += terms[source : source + rows]
         grown[:, 1] += grown[:, 0]
         grown[:, 2] += grown[:, 1]
-        out[monomial_count(degree - 1) : monomial_count(degree)] = grown[:-1, 2]
-        levels = grown
+        out[monomial_count(degree - 1) : monomial_count(degree)] = grown[:, 2]
     return out

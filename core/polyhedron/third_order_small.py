@@ -64,11 +64,11 @@ def small_moments(
         sums.append(_segment_sums(corners, counts[part], center[part], area, area_moments))
     of_volume, of_area, side, base, sizes = sums[0] if len(sums) == 1 else map(np.concatenate, zip(*sums))
     products, number = side[:, :, None] * base[:, None] * counts[:, None, None], counts[:, None]
-    tau = np.stack([products[:, i, j] + products[:, j, i] for i, j in AXIS_PAIRS], axis=1)
+    tau = np.array([products[:, i, j] + products[:, j, i] for i, j in AXIS_PAIRS]).T
     lengths = np.sqrt(np.add.reduce(side * side, axis=1)) + np.sqrt(np.add.reduce(base * base, axis=1))
     edges = lengths[:, None] * number  # bounds their sum, at the triangles' first corners
     rounding, inputs = error_bounds(reach, half_ulp, tau, edges, sizes, number, 3.0 * number, area)
-    raw, cones = of_volume / DIVISORS, np.stack([sizes[:, 0], of_volume[:, 0]], axis=1)
+    raw, cones = of_volume / DIVISORS, np.array([sizes[:, 0], of_volume[:, 0]]).T
     error = rounding[0] / CONE_DIVISORS + 8.0 * U * np.abs(raw)
     volume = unchecked_moments(raw, center, Measure.VOLUME, error, inputs[0])
     if not area:
@@ -138,7 +138,7 @@ def error_bounds(
     """
     moved_reach = reach + half_ulp
     powers, displaced = monomial_bounds(reach), monomial_bounds(moved_reach)
-    weight = 9.0 * U * np.stack([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
+    weight = 9.0 * U * np.array([np.add.reduce(reach * tau, axis=1), np.add.reduce(tau, axis=1)])[:, :, None]
     size = sizes.T[:, :, None] * (1.0 + 1e-9)
     # Then come their products with the nodes, the sums, and what underflow may lose.
     steps = PRODUCT_ROUNDINGS + sum_roundings

@@ -36,7 +36,7 @@ from .findings import (
 )
 from .stated import StatedInertial, rotation_of_angles
 
-AGREES, DIFFERS = 5e-3, 1e-2  # For radius of gyration and inertia: equal; too different for digits to explain.
+AGREES, DIFFERS = 5e-3, 1e-2  # Relative differences: below the first equal; above the second not by rounded digits.
 LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³, possible range of a robot: from foam to above the heaviest metal.
@@ -133,7 +133,7 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
         return found
     factor, density = found.finding.values["factor"], stated.mass / reference.volume
     other = density * factor**3  # were the mesh scaled by 1/factor
-    if DENSITIES[0] <= other <= DENSITIES[1]:  # Then `density` is not in the range: cubes of factors are farther apart.
+    if DENSITIES[0] <= other <= DENSITIES[1]:  # Both cannot be in the range: a cube of a factor exceeds it.
         return Diagnosis(finding(AUDIT_UNIT, part="lengths of the mesh", factor=1.0 / factor), is_of_geometry=True)
     return found
 

@@ -14,7 +14,7 @@ from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding
 from .model import Inertial, Shape
 
-# The tensor's entries as URDF and SDF name them.
+# The names of the tensor's entries in URDF and SDF.
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
 Angles = tuple[float, float, float]
 LEAST, MOST = 1e-30, 1e30  # of lengths in m and scales: fifth powers and their products stay in the range of float64
@@ -65,8 +65,8 @@ class StatedShape:
     `shape`: for a mesh, its `file` is the name in the description.
     `angles`: roll, pitch and yaw, if the pose was stated so.
     `points`, `triangles`: of a mesh in the description itself, else None.
-    ValueError, with the numbers as text, if a size is not positive (a factor of a mesh: is zero), or if a size or the
-    place is not finite, or too large or small to compute with.
+    ValueError, with the numbers as text, if a size is not positive, a factor of a mesh is zero, or a size or the place
+    is not finite, or too large or small to compute with.
     """
 
     shape: Shape

@@ -29,20 +29,13 @@ from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16
+_METERS = {"": 1.0, "deci": 0.1, "centi": 1e-2, "milli": 1e-3, "micro": 1e-6, "nano": 1e-9, "kilo": 1e3}
 UNITS = {
-    name: unit
-    for names, unit in {
-        "m,meter,meters,metre,metres": 1.0,
-        "dm,decimeter,decimeters,decimetre,decimetres": 1e-1,
-        "cm,centimeter,centimeters,centimetre,centimetres": 1e-2,
-        "mm,millimeter,millimeters,millimetre,millimetres": 1e-3,
-        "um,\u00b5m,\u03bcm,micron,microns,micrometer,micrometers,micrometre,micrometres": 1e-6,
-        "nm,nanometer,nanometers,nanometre,nanometres": 1e-9,
-        "km,kilometer,kilometers,kilometre,kilometres": 1e3,
-        "in,inch,inches": 0.0254,
-        "ft,foot,feet": 0.3048,
-    }.items()
-    for name in names.split(",")
+    **{prefix + name: unit for prefix, unit in _METERS.items() for name in ("meter", "meters", "metre", "metres")},
+    **{"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "nm": 1e-9, "km": 1e3},
+    **dict.fromkeys(("um", "\u00b5m", "\u03bcm", "micron", "microns"), 1e-6),
+    **dict.fromkeys(("in", "inch", "inches"), 0.0254),
+    **dict.fromkeys(("ft", "foot", "feet"), 0.3048),
 }
 TIMES = {"s", "sec", "second", "seconds", "ms", "millisecond", "milliseconds", "us", "\u00b5s", "ns", "hz"}
 SPACE_KINDS = {"domain", "space", "stub", "none", "???"}  # The samples along other axes are no places.
@@ -82,18 +75,15 @@ def read_header(path: Path, limits: Limits) -> tuple[dict[str, str], int | None]
         raise FileError(FILE_UNRECOGNIZED, format="NRRD")
     fields = {}
     text = bytes(head[: end.start() if end else len(head)])
-    for line in _decoded(text).splitlines()[1:]:
+    try:
+        lines = text.decode().splitlines()
+    except UnicodeDecodeError:
+        lines = text.decode("latin-1").splitlines()
+    for line in lines[1:]:
         name, colon, value = line.partition(":")
         if colon and not value.startswith("="):  # “:=” sets a key's value
             fields[name.strip().lower()] = value.strip()
     return fields, end.end() if end else None
-
-
-def _decoded(text: bytes) -> str:
-    try:
-        return text.decode()
-    except UnicodeDecodeError:
-        return text.decode("latin-1")
 
 
 def data_file(fields: dict[str, str]) -> str | None:

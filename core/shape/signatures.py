@@ -50,7 +50,7 @@ MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
 MAX_SIZE = 1e150  # meters; the ratio of two sizes is still a number
 MAX_DESCRIPTOR = 1e100  # its square is still a number
 MIN_CHIRALITY = 1e-11  # a chirality below this is rounding
-CHIRALITY_NOISE_FACTOR = 10.0  # chirality that noise may cause, by the difference of shapes that it causes
+CHIRALITY_NOISE_FACTOR = 10.0  # noise that changes the shape by 1 may cause this much chirality
 # chiralities with a difference below this share of their sum, or the reverse, decide the hand
 CLEAR_CHIRALITY_SHARE = 0.2
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_ranges, unique_pairs
+from ..numerics.arrays import cross_rows, lengths, segment_ranges, unique_pairs
 from ..numerics.graph import connected_components
 
 MAX_GAP_ASPECT = 1e-3  # width by length, at most, of a gap that counts as none
@@ -53,12 +53,14 @@ def join_sides(
     count = len(start)
     vertex = np.concatenate([start, stop])
     direction = end - begin
-    length = np.linalg.norm(direction, axis=1)[:, None]
+    length = lengths(direction)
     direction = np.divide(direction, length, out=np.zeros_like(direction), where=length > 0.0)
     direction = np.concatenate([direction, -direction])  # both seen from the vertex
     order = np.argsort(vertex, kind="stable")
-    first = np.flatnonzero(np.concatenate([[True], np.diff(vertex[order]) != 0]))
-    degree = np.diff(np.append(first, len(order)))
+    in_order = vertex[order]
+    stops = np.flatnonzero(np.concatenate([in_order[1:] != in_order[:-1], [True]])) + 1
+    first = np.concatenate([[0], stops[:-1]])
+    degree = stops - first
 
     simple = first[degree == 2]
     left, right = [order[simple]], [order[simple + 1]]
@@ -144,26 +146,8 @@ class BoundaryLoops:
 
 
 @dataclass(frozen=True, eq=False)
-class Caps:
-    """The caps of holes: cones over loops of boundary sides.
-
-    `apexes`: (l, 3) one for each loop, in the points' own type, so that it carries the same coordinate error.
-    `triangles`: (k, 3) with three different vertices, the apexes after the points; a single triangle over three sides.
-    `side`: (k,) the side under each. `counts`: (o, 3) flat and curved caps, and their area, by owner.
-    """
-
-    apexes: NDArray[np.floating]
-    triangles: NDArray[np.integer]
-    side: NDArray[np.intp]
-    counts: NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
 class OwnedLoops:
-    """The loops of boundary sides with ends `start` and `stop`, (r,), that are joined head to tail.
-
-    Sides are joined within their owners: bodies, or components of a body. `owner`: (l,) of each loop.
-    """
+    """The loops of (r,) boundary sides, joined head to tail within bodies or components: the `owner` of each loop."""
 
     points: NDArray[np.floating]
     start: NDArray[np.integer]
@@ -172,39 +156,35 @@ class OwnedLoops:
     owner: NDArray[np.intp]
 
     @classmethod
-    def of_sides(
-        cls,
-        points: NDArray[np.floating],
-        start: NDArray[np.integer],
-        stop: NDArray[np.integer],
-        owner: NDArray[np.integer],
-    ) -> OwnedLoops:
-        """Find the loops of sides between points. owner: (r,) of each side."""
+    def of_sides(cls, points: NDArray, start: NDArray, stop: NDArray, owner: NDArray) -> OwnedLoops:
+        """Find the loops of sides from and to these (r,) points. owner: (r,) of each side."""
         begin, end = points[start].astype(np.float64), points[stop].astype(np.float64)
         first, second = owner * len(points) + start, owner * len(points) + stop
         loops = find_loops(begin, end, join_sides(begin, end, first, second, directed=True))
         return cls(points, start, stop, loops, loops.of_each(owner))
 
-    def caps(self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]) -> Caps:
-        """Cap all loops, each by the cone to its centroid.
+    def cones(self) -> tuple[NDArray[np.floating], NDArray[np.integer], NDArray[np.intp]]:
+        """Return the loops' centroids, in the points' own type; (k, 3) triangles to them from (k,) sides: the caps.
 
-        tolerance: (o,) of each owner: flatter loops are flat, and narrower ones no holes. counted: (o,) mask of owners.
+        Centroids are numbered after the points. Three sides get a single triangle.
         """
-        loops, within = self.loops, tolerance[self.owner]
-        centroids = len(self.points) + np.arange(len(self.owner))
+        loops, centroids = self.loops, len(self.points) + np.arange(len(self.owner))
         apex = np.where(np.bincount(loops.of_side) == 3, loops.of_each(self.start), centroids)
         triangles = np.stack([self.stop, self.start, apex[loops.of_side]], axis=1)
         kept = np.flatnonzero(has_distinct_vertices(triangles))
+        return loops.centroid.astype(self.points.dtype), triangles[kept], kept
+
+    def count_caps(self, tolerance: NDArray[np.float64], counted: NDArray[np.bool_]) -> NDArray[np.float64]:
+        """Return (o, 3) flat caps, curved caps, and their area, of owners with these tolerances that are `counted`."""
+        loops, within = self.loops, tolerance[self.owner]
         is_flat, is_hole = loops.out_of_plane <= within, loops.has_area(within) & counted[self.owner]
         columns = is_flat, ~is_flat, np.where(is_flat, loops.planar_area, loops.cone_area)
         counts = [np.bincount(self.owner, column * is_hole, len(counted)) for column in columns]
-        return Caps(
-            loops.centroid.astype(self.points.dtype), triangles[kept], kept, np.stack(counts, axis=1, dtype=np.float64)
-        )
+        return np.stack(counts, axis=1, dtype=np.float64)
 
 
 def has_distinct_vertices(triangles: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return a (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
+    """Return an (m,) mask of triangles with three different vertices; the others have no boundary and no area."""
     a, b, c = triangles.T
     return (a != b) & (b != c) & (c != a)
 
@@ -219,17 +199,17 @@ def find_loops(
     origin = np.empty((number, 3))
     origin[of_side[::-1]] = begin[::-1]  # about the loop's first vertex: a coordinate that all share stays exact
     a, b = begin - origin[of_side], end - origin[of_side]
-    length = np.linalg.norm(b - a, axis=1)
+    length = lengths(b - a)[:, 0]
     perimeter = np.asarray(np.bincount(of_side, length), np.float64)
     middle = (a + b) * (0.5 * length)[:, None]
     divisor = np.where(perimeter > 0.0, perimeter, 1.0)
-    center = np.stack([np.bincount(of_side, middle[:, k]) / divisor for k in range(3)], axis=1)
+    center = np.array([np.bincount(of_side, middle[:, k]) / divisor for k in range(3)]).T
     a -= center[of_side]
     b -= center[of_side]
-    wedge = np.cross(a, b) / 2.0
-    vector = np.stack([np.bincount(of_side, wedge[:, k]) for k in range(3)], axis=1)
-    flat = np.linalg.norm(vector, axis=1)
-    cone = np.asarray(np.bincount(of_side, np.linalg.norm(wedge, axis=1)), np.float64)
+    wedge = cross_rows(a, b) / 2.0
+    vector = np.array([np.bincount(of_side, wedge[:, k]) for k in range(3)]).T
+    flat = lengths(vector)[:, 0]
+    cone = np.asarray(np.bincount(of_side, lengths(wedge)[:, 0]), np.float64)
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = vector / flat[:, None]
         height = np.zeros(number)

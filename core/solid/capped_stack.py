@@ -85,6 +85,8 @@ def cap_stack(
     for chosen, reach in ((start, tolerance), (np.flatnonzero(can[owner]), np.zeros(len(can)))):
         of = owner[chosen]
         can[of[may_have_neighbor(stack.points[chosen], reach[of], of)]] = False
+    if not can.any():
+        return None
     onto = np.full(total, -1)
     onto[start] = stop
     begins, ends = side_ends(stack.triangles, np.arange(stack.triangles.size))
@@ -115,16 +117,16 @@ def _capped(
     side: NDArray[np.intp],
     found: OwnedLoops,
 ) -> StackCaps:
-    """Add the caps of loops to their surfaces. part: (t,) of each triangle; side: (r,) the sides of the loops."""
-    count, owner, caps = len(stack), stack.point_owners, found.caps(tolerance, is_capped)
-    body, kept = owner[found.start], caps.side
+    """Add the caps of loops to their surfaces. part: (t,) components of triangles; side: (r,) sides of the loops."""
+    count, owner, (apexes, caps, kept) = len(stack), stack.point_owners, found.cones()
+    body = owner[found.start]
     cap_counts = np.bincount(body[kept], minlength=count)
     point_order = np.concatenate([owner, found.owner]).argsort(kind="stable")
     bodies = np.concatenate([np.repeat(np.arange(count), stack.triangle_counts), body[kept]])
     order = bodies.argsort(kind="stable")
     triangles = TriangleStack(
-        np.concatenate([stack.points, caps.apexes])[point_order],
-        point_order.argsort()[np.concatenate([stack.triangles, caps.triangles])[order]],
+        np.concatenate([stack.points, apexes])[point_order],
+        point_order.argsort()[np.concatenate([stack.triangles, caps])[order]],
         stack.point_counts + np.bincount(found.owner, minlength=count),
         stack.triangle_counts + cap_counts,
     )
@@ -134,7 +136,7 @@ def _capped(
         triangles,
         np.concatenate([part, part[side[kept] // 3]])[order],
         cap_counts,
-        caps.counts,
+        found.count_caps(tolerance, is_capped),
         edges[np.lexsort((edges[:, 1], edges[:, 0], body))],
         np.bincount(body, minlength=count),
     )

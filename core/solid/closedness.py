@@ -48,7 +48,7 @@ class CheckedSurface:
 
 @dataclass(frozen=True, eq=False)
 class GivenIntegrals:
-    """Integrals over the faces as given: `volume` to order 3, and `area`, also of faces that a repair leaves out.
+    """Integrals over the faces as given: `volume` to order 3, and `area`.
 
     `all_cones_agree`: True if all cones from the reference point over the faces are known to have the same sign.
     `proven`: the mesh if its own edges prove it closed and oriented, else None.

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import Edges, find_edges
+from ..mesh.edges import Edges, face_of_each, find_edges, ring_sizes
 from ..mesh.surface import Surface, normals
 from ..mesh.welding import same_vertices_groups
 from ..numerics.arrays import first_occurrence
@@ -21,7 +21,7 @@ from .findings import (
     DUPLICATE_FACES_COUNTED,
     DUPLICATE_FACES_IGNORED,
 )
-from .repaired_mesh import RepairedMesh
+from .repaired_mesh import RepairedMesh, copy_with
 
 
 def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -60,7 +60,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
             mesh = mesh.with_findings(finding(code, copies, slight=slight, count=len(copies)))
     if not len(ignored):
         return mesh
-    mesh = replace(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True)
+    mesh = copy_with(mesh.with_rows(np.flatnonzero(~left_out)), topology_changed=True, left_out=ignored)
     return mesh.with_state(edges=find_edges(mesh.triangles))
 
 
@@ -72,6 +72,25 @@ def copied_faces(surface: Surface) -> NDArray[np.integer]:
     """
     triangles, face = surface.all_triangles()
     return np.unique(face[same_vertices_groups(triangles, face) != face])
+
+
+def without_faces(surface: Surface, faces: NDArray[np.integer]) -> Surface:
+    """Return the surface without some mesh faces. The others keep their numbers."""
+    quad_faces, triangle_faces = face_of_each(surface)
+    quads, triangles = ~np.isin(quad_faces, faces), ~np.isin(triangle_faces, faces)
+    sizes = ring_sizes(triangle_faces, quad_faces)
+    corners = ~np.isin(np.repeat(np.arange(len(sizes)), sizes), faces)
+    rings = surface.corner_vertices, surface.corner_edges
+    vertices, edges = [ring[corners] if ring is not None and len(ring) == len(corners) else None for ring in rings]
+    return replace(
+        surface,
+        triangles=surface.triangles[triangles],
+        quads=surface.quads[quads],
+        triangle_faces=triangle_faces[triangles],
+        quad_faces=quad_faces[quads],
+        corner_vertices=vertices,
+        corner_edges=edges,
+    )
 
 
 def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDArray[np.bool_]:

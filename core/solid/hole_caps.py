@@ -26,7 +26,7 @@ from .boundary_loops import (
     vertex_pairs,
 )
 from .findings import DUPLICATE_FACES_COUNTED, NON_MANIFOLD_COMPONENTS, ONE_SIDED_COMPONENTS, T_JUNCTIONS
-from .repaired_mesh import FoldedLoops, RepairedMesh, ZeroAreaLoops
+from .repaired_mesh import FoldedLoops, RepairedMesh, ZeroAreaLoops, copy_with
 from .shared_walls import wall_links
 
 
@@ -65,11 +65,11 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     component, number = group_components(edges, *connected_components(count, a, b), _edges_along(mesh))
     is_open = np.zeros(number, bool)
     is_open[component[twisted]] = True
-    report = replace(mesh.report, components=number)
+    report = copy_with(mesh.report, components=number)
     if misoriented.any():
         sides = distinct_vertex_pairs(mesh.state.given, np.concatenate([first[misoriented], second[misoriented]]))
-        elements = replace(report.defective_elements, inconsistent_edges=sides)
-        report = replace(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
+        elements = copy_with(report.defective_elements, inconsistent_edges=sides)
+        report = copy_with(report, inconsistent_edges=int(np.count_nonzero(misoriented)), defective_elements=elements)
     return replace(
         mesh,
         findings=_without_walls(mesh, np.concatenate(walls)),
@@ -79,7 +79,7 @@ def orient_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         open=is_open,
         caps=np.zeros((number, 3)),
         report=report,
-        state=replace(mesh.state, one_sided=is_open),
+        state=copy_with(mesh.state, one_sided=is_open),
     )
 
 
@@ -109,7 +109,7 @@ def find_unclosable_components(mesh: RepairedMesh, tolerance: float) -> Repaired
     return replace(
         mesh,
         open=mesh.open | (unclosable & ~folded.components),
-        state=replace(mesh.state, component_edges=edges, folded=folded),
+        state=copy_with(mesh.state, component_edges=edges, folded=folded),
     )
 
 
@@ -155,22 +155,22 @@ def cap_holes(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     found = OwnedLoops.of_sides(mesh.points, *mesh.oriented_ends(side), component)
     is_open = mesh.open.copy()
     is_open[found.owner[~found.loops.complete]] = True
-    caps = found.caps(np.full(mesh.number, tolerance), ~is_open)
-    return replace(
+    apexes, caps, under = found.cones()
+    return copy_with(
         mesh,
-        points=np.concatenate([mesh.points, caps.apexes]),
+        points=np.concatenate([mesh.points, apexes]),
         open=is_open,
-        caps=caps.counts,
+        caps=found.count_caps(np.full(mesh.number, tolerance), ~is_open),
         capped_edges=vertex_pairs(mesh.state.given, side),
         capped_component=component,
-    ).with_caps(caps.triangles, side[caps.side] // 3)
+    ).with_caps(caps, side[under] // 3)
 
 
 def turn_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     """Turn the faces that were found to disagree. Sides have other numbers from here on."""
     if not mesh.flipped.any():
         return mesh
-    return replace(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
+    return copy_with(mesh, triangles=np.where(mesh.flipped[:, None], mesh.triangles[:, ::-1], mesh.triangles))
 
 
 def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -184,7 +184,7 @@ def report_closedness(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
         edges = np.concatenate([elements.non_manifold_edges, elements.boundary_edges])
         findings.append(finding(NON_MANIFOLD_COMPONENTS, edges, count=count, total=mesh.number))
     closed = not (mesh.open.any() or mesh.caps.any())
-    return replace(mesh, findings=(*mesh.findings, *findings), report=replace(mesh.report, closed=closed))
+    return copy_with(mesh, findings=(*mesh.findings, *findings), report=copy_with(mesh.report, closed=closed))
 
 
 def _edges_along(mesh: RepairedMesh) -> NDArray[np.bool_]:

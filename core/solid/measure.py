@@ -19,10 +19,12 @@ import numpy as np
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
 from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
-from .duplicate_faces import copied_faces
+from .duplicate_faces import copied_faces, without_faces
 from .orientation import OrientedSolid, orient_components
 from .repair import repair_surface
+from .repaired_mesh import RepairedMesh
 from .self_intersection import find_self_intersection
+from .solid_stack import SolidStack
 from .solid_verdict import SolidIntegrals, judge
 
 MAX_WELDED_SHARE = 0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
@@ -62,17 +64,34 @@ def measure_solid(surface: Surface, *, shell: bool = False, threads: int = 1) ->
     ('reoriented', 1.0, [3])
     """
     checked = check_surface(surface)
-    given = integrate_and_prove(checked, shell, threads)
+    return _measure_given(checked, integrate_and_prove(checked, shell, threads), shell, threads)
+
+
+def measure_left_over(stack: SolidStack, i: int, surface: Surface) -> SolidIntegrals:
+    """Measure a surface that its stack left over as number `i`, as `measure_solid` does, from the stack's integrals."""
+    checked = check_surface(surface)
+    return _measure_given(checked, stack.given(i, surface) or integrate_and_prove(checked, False, 1), False, 1)
+
+
+def _measure_given(checked: CheckedSurface, given: GivenIntegrals, shell: bool, threads: int) -> SolidIntegrals:
     mesh = given.proven or repair_surface(checked.surface, checked.tolerance)
-    oriented = orient_components(checked, given, mesh, threads)
-    solid = _judge(checked, given, oriented, shell)
-    if mesh.max_displacement and mesh.max_displacement * given.area.total > MAX_WELDED_SHARE * abs(
-        oriented.volume.total
-    ):
+    solid = _measure_repaired(checked, given, mesh, shell, threads)
+    moved = mesh.max_displacement * solid.area.total
+    if moved and moved > MAX_WELDED_SHARE * abs(solid.oriented.volume.total):
         mesh = repair_surface(checked.surface, checked.tolerance, weld_near=False)
-        unwelded = _judge(checked, given, orient_components(checked, given, mesh, threads), shell)
+        unwelded = _measure_repaired(checked, given, mesh, shell, threads)
         return solid if unwelded.method is Verdict.OPEN else unwelded
     return solid
+
+
+def _measure_repaired(
+    checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, shell: bool, threads: int
+) -> SolidIntegrals:
+    """Measure the body of a repaired mesh. Faces that are left out of a solid count in none of its numbers."""
+    if len(mesh.left_out) and not shell:
+        checked = replace(checked, surface=without_faces(checked.surface, mesh.left_out))
+        given = integrate_and_prove(checked, shell, threads)
+    return _judge(checked, given, orient_components(checked, given, mesh, threads), shell)
 
 
 def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:

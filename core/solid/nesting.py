@@ -16,13 +16,15 @@ from numpy.typing import NDArray
 
 from ..mesh.boxes import overlapping_box_pairs
 from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, sort_components
-from ..numerics.arrays import segment_ranges
+from ..numerics.arrays import cross_rows, lengths, segment_ranges
 
 NO_PAIRS = np.empty((0, 2), np.intp)
 NO_LENGTHS = np.empty(0)
+NO_INDICES = np.empty(0, np.intp)
 MAX_COMPONENT_PAIRS = 100_000
 # Points under the skin of a component of few faces, tested for being surrounded twice.
 MAX_OVERLAP_SAMPLES = 4096
+FIRST_SAMPLES = 8  # The first of so many samples decides for most pairs that intersect.
 SAMPLES_PER_PAIR = 256, 8, 50_000  # points under the skin for one pair: at most, at least; and for all pairs together
 BREAKTHROUGH_TRIANGLES = 4096, 8, 20_000  # Limits, as above, of the triangles with edges tested for reaching out.
 MAX_STEPS_PER_EDGE = 16
@@ -206,27 +208,37 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
     depth = np.bincount(inner, minlength=number)
     parent = np.full(number, -1)
     order = np.lexsort((outer, depth[outer]))
-    parent[inner[order]] = outer[order]  # the last one, the deepest, of equally deep ones that of the highest number
+    parent[inner[order]] = outer[order]  # the last assignment counts: the deepest container
     return parent
 
 
 def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one."""
+    """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one.
+
+    Pairs of one orientation are counted until both kinds of points are found.
+    """
     most, least, together = SAMPLES_PER_PAIR
-    number = np.clip(together // len(small), least, most)
-    pair = np.repeat(np.arange(len(small)), number)
-    sampled = small[pair]
-    place = _interior_samples(
-        points, components, tree, sampled, np.tile(np.arange(number), len(small)), number, tolerance
-    )
-    self_winding, self_sure = tree.winding_numbers(place, sampled, tolerance)
-    keep = self_sure & (self_winding != 0)
-    place, pair = place[keep], pair[keep]
-    winding, sure = tree.winding_numbers(place, large[pair], tolerance)
-    pair, inside = pair[sure], winding[sure] != 0
-    return np.bincount(pair[inside], minlength=len(small)), np.bincount(pair[~inside], minlength=len(small))
+    number = max(least, min(together // len(small), most))
+    samples, counts = np.arange(number), np.zeros((2, len(small)), np.intp)
+    needs_all = components.volume[small] * components.volume[large] < 0.0  # the larger count decides
+    is_first = samples % FIRST_SAMPLES == 0 if number > least else samples >= 0
+    for chosen in (samples[is_first], samples[~is_first]):
+        # Pairs with samples inside and outside intersect, whatever further samples say.
+        open_pairs = np.flatnonzero(needs_all | ~counts.all(axis=0))
+        pair, k = open_pairs.repeat(len(chosen)), np.concatenate([chosen] * len(open_pairs) or [NO_INDICES])
+        if not len(pair):
+            continue
+        sampled = small[pair]
+        place = _interior_samples(points, components, tree, sampled, k, number, tolerance)
+        self_winding, self_sure = tree.winding_numbers(place, sampled, tolerance)
+        keep = self_sure & (self_winding != 0)
+        place, pair = place[keep], pair[keep]
+        winding, sure = tree.winding_numbers(place, large[pair], tolerance)
+        pair, inside = pair[sure], winding[sure] != 0
+        counts += [np.bincount(pair[is_chosen], minlength=len(small)) for is_chosen in (inside, ~inside)]
+    return counts[0], counts[1]
 
 
 def _interior_samples(
@@ -247,8 +259,8 @@ def _interior_samples(
     weight = np.stack([0.17 + k * 0.7548776662 % 1.0, 0.11 + k * 0.5698402910 % 1.0, 0.23 + k * 0.3247179572 % 1.0])
     weight /= weight.sum(axis=0)
     place = np.einsum("kn,nkj->nj", weight, corner)
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    area = np.linalg.norm(normal, axis=1)
+    normal = cross_rows(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    area = lengths(normal)[:, 0]
     depth = 10.0 ** (-2 - k % 3) * np.sqrt(area)  # a thin shell needs less than a thick one allows
     inward = -np.sign(components.volume[component]) * np.maximum(depth, 4.0 * tolerance)
     return place + normal * np.divide(inward, area, out=np.zeros_like(area), where=area > 0.0)[:, None]

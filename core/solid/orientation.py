@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.bvh import SortedComponents, sort_components
-from ..mesh.surface import Surface, normals
+from ..mesh.surface import Surface, triangle_areas
 from ..moments.moments import Moments, sum_moments
-from ..numerics.arrays import PerBody
+from ..numerics.arrays import PerBody, lengths
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.health import MeshHealth
 from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, FLAT_CAP_VOLUME_RTOL
 from .closedness import CheckedSurface, GivenIntegrals
 from .nesting import ComponentRelations, cavity_host, classify_pairs, orient_nested_components
-from .repaired_mesh import RepairedMesh
+from .repaired_mesh import RepairedMesh, copy_with
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +51,10 @@ class ComponentComparison:
         intersecting, breaking = np.zeros((2, len(solid)), bool)
         through = cavities[relations.mostly_in[:, 0]] & ~cavities[relations.mostly_in[:, 1]]
         breaking[relations.mostly_in[through, 0]] = True
-        keys = [pairs @ [len(solid), 1] for pairs in (relations.intersecting, relations.mostly_in[through])]
-        intersecting[relations.intersecting[~np.isin(keys[0], keys[1])]] = True
+        pairs = relations.intersecting
+        if through.any():
+            pairs = pairs[~np.isin(pairs @ [len(solid), 1], relations.mostly_in[through] @ [len(solid), 1])]
+        intersecting[pairs] = True
         return cls(
             flipped,
             solid,
@@ -67,7 +69,7 @@ class ComponentComparison:
 
     def add_to(self, report: MeshHealth) -> MeshHealth:
         """Return the report with the numbers of nested components, cavities and overlapping components."""
-        return replace(
+        return copy_with(
             report,
             nested_components=int(self.nested.sum()),
             cavities=int(self.cavities.sum()),
@@ -95,7 +97,7 @@ class ClosedParts:
         points = self.points.astype(np.float64)
         if linear is not None:
             points = points @ np.asarray(linear).T
-        return np.linalg.norm(normals(points, self.triangles), axis=1) / 2.0
+        return triangle_areas(points, self.triangles)
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,7 +180,7 @@ def orient_components(
 def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> ComponentComparison:
     """Find the components with a volume, and their relations. Points touch nearer than `tolerance`."""
     components = sort_components(mesh.points, mesh.triangles, mesh.component, mesh.number)
-    size = np.linalg.norm(components.high - components.low, axis=1)
+    size = lengths(components.high - components.low)[:, 0]
     threshold = zero_volume(size, components.area, mesh.caps.any(axis=1), error)
     solid = ~mesh.open & (np.abs(components.volume) > threshold)
     return ComponentComparison.from_relations(
@@ -187,8 +189,11 @@ def compare_components(mesh: RepairedMesh, tolerance: float, error: float) -> Co
 
 
 def zero_volume(size: PerBody, area: PerBody, capped: PerBody, error: PerBody) -> PerBody:
-    """Return the volume below which a component is flat: a closed sheet's rounding, or a capped flat sheet's error."""
-    return np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, CLOSED_SHEET_VOLUME_RTOL * size) * area
+    """Return the volume below which a component is flat: of a sheet, capped or closed, by rounding and float32."""
+    return (
+        np.where(capped, FLAT_CAP_VOLUME_RTOL * size + 4.0 * error, np.maximum(CLOSED_SHEET_VOLUME_RTOL * size, error))
+        * area
+    )
 
 
 def _oriented_surface(

@@ -9,7 +9,6 @@ by themselves.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from ..mesh.surface import Surface
 from .duplicate_faces import drop_duplicate_faces
@@ -22,7 +21,7 @@ from .hole_caps import (
     report_closedness,
     turn_faces,
 )
-from .repaired_mesh import UNKNOWN, RepairedMesh
+from .repaired_mesh import UNKNOWN, RepairedMesh, copy_with
 from .weld_open_parts import drop_collapsed_triangles, split_into_triangles, weld_equal_positions, weld_near_positions
 
 STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (
@@ -50,4 +49,4 @@ def repair_surface(surface: Surface, tolerance: float, weld_near: bool = True) -
     for step in STEPS:
         if len(mesh.triangles) and (weld_near or step is not weld_near_positions):
             mesh = step(mesh, tolerance)
-    return replace(mesh, state=UNKNOWN)
+    return copy_with(mesh, state=UNKNOWN)

@@ -141,15 +141,17 @@ def measure_excess(
     order = np.lexsort((crossings.along, group))
     group, of_part, body = group[order], of_part[order], crossings.body[order]
     begins = np.flatnonzero(np.concatenate([[True], group[1:] != group[:-1]]))
-    which = np.repeat(np.arange(len(begins)), np.diff(np.append(begins, len(group))))
+    last = np.concatenate([begins[1:], [len(group)]]) - 1
+    which = np.repeat(np.arange(len(begins)), last + 1 - begins)
     depth = np.cumsum(crossings.sign[order])
-    last = np.append(begins[1:], len(group)) - 1
     depth -= (depth[begins] - crossings.sign[order][begins])[which]
     complete = depth[last] == 0
     lines = np.bincount(body[begins], minlength=bodies)
     unsure = np.where(lines > 0, np.bincount(body[begins], ~complete, minlength=bodies) / np.maximum(lines, 1), 1.0)
 
-    inner = np.flatnonzero(complete[which] & ~np.isin(np.arange(len(group)), last))
+    is_inner = complete[which]
+    is_inner[last] = False
+    inner = np.flatnonzero(is_inner)
     along, body, depth = crossings.along[order], body[inner], depth[inner]
     length = along[inner + 1] - along[inner]
     outward = np.sign(sums_by_index(of_part[inner], depth * length, int(of_part.max()) + 1))

@@ -27,9 +27,9 @@ from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding
 from ..verdict.health import NO_FACES, DefectiveElements, Intersection, MeshHealth
-from ..verdict.tolerances import CLOSED_SHEET_VOLUME_RTOL, WELDING_RTOL
+from ..verdict.tolerances import WELDING_RTOL
 from .capped_stack import StackCaps, cap_stack
-from .closedness import SUM_ROUNDING
+from .closedness import SUM_ROUNDING, GivenIntegrals, prove_closed, same_sign
 from .orientation import zero_volume
 from .self_intersection import MAX_UNSURE_LINES, measure_excess
 from .solid_verdict import SolidIntegrals, cap_finding, shape_findings
@@ -42,19 +42,32 @@ CLEAR_VOLUME = 4.0  # times the volume that counts as none: bodies with smaller 
 class SolidStack:
     """The moments of the bodies that n surfaces bound, meaningless unless measured.
 
-    `is_measured`: (n,) surfaces closed as they are or by caps; the others have to be measured one by one.
+    `is_measured`: (n,) surfaces closed as they are or by caps; `is_integrated`: (n,) surfaces whose integrals hold for
+    the faces as given, at least. `cones`: (n, 2) sums of the cones over faces, positive and signed.
     `volume`, `area`: to order 3 and 0, about each body's own point; area without caps.
     `size`: (n,) diagonal of the bounding box. `intersection`: (n,) objects of type Intersection.
     """
 
     is_measured: NDArray[np.bool_]
+    is_integrated: NDArray[np.bool_]
+    cones: NDArray[np.float64]
     volume: Moments
     area: Moments
     size: NDArray[np.float64]
     planarity: StackPlanarity
     intersection: NDArray[np.object_]
     component_counts: NDArray[np.intp]
+    first_face: NDArray[np.intp]
     caps: StackCaps
+
+    def given(self, i: int, surface: Surface) -> GivenIntegrals | None:
+        """Return the integrals over the faces of a surface that is not measured, or None if they do not hold."""
+        if not self.is_integrated[i]:
+            return None
+        stop = self.first_face[i + 1] if i + 1 < len(self.first_face) else None
+        planarity = self.planarity.at(i, slice(self.first_face[i], stop))
+        agree = bool(same_sign(*self.cones[i].tolist()))
+        return GivenIntegrals(self.volume.at(i), self.area.at(i), planarity, agree, prove_closed(surface))
 
     def health(self, i: int) -> MeshHealth:
         """Return the state of a measured body's surface."""
@@ -117,9 +130,11 @@ def is_small(surface: Surface) -> bool:
     return len(surface.triangles) + 2 * len(surface.quads) <= MAX_SMALL_TRIANGLES
 
 
-def can_be_stacked(surface: Surface) -> bool:
-    """Return whether `measure_stack` can measure a surface."""
-    return is_small(surface) and SurfaceStack.takes(surface)
+def can_be_stacked(surfaces: Sequence[Surface]) -> list[bool]:
+    """Return which surfaces `measure_stack` can measure."""
+    fits = [is_small(surface) for surface in surfaces]
+    taken = iter(SurfaceStack.takes([surface for surface, is_fit in zip(surfaces, fits) if is_fit]))
+    return [is_fit and next(taken) for is_fit in fits]
 
 
 def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
@@ -128,7 +143,7 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     low, high = stack.box
     center = (low / 2.0 + high / 2.0).astype(np.float32).astype(np.float64)
     reach = np.maximum(high - center, center - low) * (1.0 + 4.0 * U)
-    volume, area, _ = small_moments(
+    volume, area, cones = small_moments(
         stack.points,
         stack.triangles,
         stack.triangle_counts,
@@ -140,8 +155,9 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
     )
     planarity, links = stack_planarity(stack), stack.connections()
     size, farthest = np.sqrt(np.add.reduce((high - low) ** 2, axis=1)), reach.max(axis=1)
-    usable = (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate & stack.uses_all_points()
-    usable &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)  # float32: none is too large
+    is_integrated = stack.uses_all_points()
+    is_integrated &= (farthest > 1.0 / MAX_UNSCALED_REACH) & (farthest < MAX_UNSCALED_REACH)  # float32: none too large
+    usable = is_integrated & (links.component_counts <= MAX_COMPONENTS) & ~planarity.has_degenerate
     error = np.sqrt(np.add.reduce(stack.coordinate_error**2, axis=1))
     tolerance = np.maximum(WELDING_RTOL * size, 4.0 * error)
     none, part = np.zeros(len(stack), np.intp), links.component[stack.triangle_faces]
@@ -150,29 +166,43 @@ def measure_stack(surfaces: Sequence[Surface]) -> SolidStack:
         caps, volume = made, made.add_to(volume)
     capped, triangles, part = caps.is_capped, caps.triangles, caps.part
     is_measured = usable & (links.is_closed | capped)
-    least = np.maximum(CLOSED_SHEET_VOLUME_RTOL * size * area.raw[:, 0], volume.rounding_error[:, 0])
-    if capped.any():
-        least = np.maximum(least, zero_volume(size, area.raw[:, 0], capped, error))
+    least = np.maximum(zero_volume(size, area.raw[:, 0], capped, error), volume.rounding_error[:, 0])
     is_measured &= volume.raw[:, 0] > least
-    rows = np.flatnonzero(is_measured)
-    is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
+    is_star = links.component_counts == 1
+    if (is_measured & is_star).any():
+        centers = volume.about + volume.raw[:, 1:4] / np.where(is_measured, volume.raw[:, 0], 1.0)[:, None]
+        is_proven = _are_stars(triangles, centers)
+        if not is_proven[is_measured & ~capped].all():
+            is_proven |= ~capped & _are_stars(triangles, volume.about)
+        is_star &= is_proven
+    rows = np.flatnonzero(is_measured & ~is_star)  # A star is a body, and does not go through itself.
+    if len(rows):
+        is_measured[rows] = are_physical(volume.at(rows), low[rows], high[rows], size[rows])
     several = np.flatnonzero(is_measured & (links.component_counts > 1))
     if len(several):
         is_measured[several] = _stand_apart(triangles, part, several, links.component_counts, tolerance, capped, error)
     intersection = np.full(len(stack), Intersection.NOT_CHECKED, object)
     intersection[is_measured] = Intersection.EXCLUDED
-    centers = volume.about + volume.raw[:, 1:4] / np.where(is_measured, volume.raw[:, 0], 1.0)[:, None]
-    is_star = _are_stars(triangles, centers)
-    if not is_star[is_measured & ~capped].all():
-        is_star |= ~capped & _are_stars(triangles, volume.about)
-    rows = np.flatnonzero(is_measured & ~(is_star & (links.component_counts == 1)))
+    rows = np.flatnonzero(is_measured & ~is_star)
     if len(rows):
         chosen = triangles.owned(rows)[1]
         intersection[rows] = _search_self_intersections(
             triangles.some(rows), tolerance[rows], _renumbered(part[chosen])
         )
         is_measured[rows] = intersection[rows] == Intersection.NOT_FOUND
-    return SolidStack(is_measured, volume, area, size, planarity, intersection, links.component_counts, caps)
+    return SolidStack(
+        is_measured,
+        is_integrated & ~capped,
+        cones,
+        volume,
+        area,
+        size,
+        planarity,
+        intersection,
+        links.component_counts,
+        stack.first_face,
+        caps,
+    )
 
 
 def _renumbered(labels: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -215,9 +245,9 @@ def _are_stars(stack: TriangleStack, points: NDArray) -> NDArray[np.bool_]:
     cones = np.add.reduce(corners[:, 0] * (after[:, 1] * before[:, 2] - before[:, 1] * after[:, 2]))
     la, lb, lc = np.sqrt(np.add.reduce(corners * corners))
     ab, bc, ca = np.add.reduce(corners * corners.take(NEXT_AXIS, 1))
-    with np.errstate(over="ignore", invalid="ignore"):  # beyond float32 there is no star: it is looked at otherwise
+    with np.errstate(over="ignore", invalid="ignore"):  # beyond the range of float32 a body counts as no star
         halves = np.arctan2(cones, la * lb * lc + ab * lc + bc * la + ca * lb)
-    total, signed, angle = np.add.reduceat(np.stack([np.abs(cones), cones, halves]), stack.first_triangle, axis=1)
+    total, signed, angle = np.add.reduceat(np.array([np.abs(cones), cones, halves]), stack.first_triangle, axis=1)
     return (total - signed <= SUM_ROUNDING * total) & (np.rint(angle / (2.0 * np.pi)) == 1.0)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..inertia.mass_properties import are_physical
 from ..mesh.planarity import Planarity
-from ..mesh.surface import Surface, half_ulp
+from ..mesh.surface import Surface, half_ulp, triangle_areas
 from ..moments.moments import Moments
 from ..numerics.arrays import unique_pairs
 from ..polyhedron.integration import polyhedron_moments
@@ -37,7 +37,7 @@ from .findings import (
     VERTICES_WELDED,
 )
 from .orientation import ClosedParts, ComponentComparison, OrientedSolid
-from .repaired_mesh import RepairedMesh
+from .repaired_mesh import RepairedMesh, copy_with
 from .self_intersection import SelfIntersection
 
 MIN_REPORTED_AMBIGUITY = 1e-6  # Share of the volume; smaller ambiguities are not reported.
@@ -55,7 +55,7 @@ class SolidIntegrals:
     volume : Moments
         To order 3, about the middle of the bounding box.
     area : Moments
-        The area of the input's faces, without caps, to order 0, or 3 for a shell.
+        The area of the input's faces, without caps and copies left out, to order 0, or 3 for a shell.
     health : MeshHealth
         State of the input.
     method : Verdict
@@ -65,7 +65,7 @@ class SolidIntegrals:
     oriented : OrientedSolid
         The surface that was measured, and its components.
     given_surface : Surface
-        The surface that was given, without the vertices that no face uses.
+        The surface that was given, without the vertices that no face uses and the copies of faces that are left out.
 
     Examples
     --------
@@ -169,7 +169,7 @@ def judge(
     elif intersection is not None and verdict is not Verdict.OPEN:
         findings += _intersection_findings(intersection, volume.total)
     findings += shape_findings(oriented.is_solid, given.planarity, volume)
-    health = replace(
+    health = copy_with(
         _health(checked, given.planarity, oriented, flipped, len(inverted), cap_share),
         self_intersection=Intersection.NOT_CHECKED if intersection is None else intersection.state,
     )
@@ -200,7 +200,7 @@ def _health(
         edges = tuple(vertices[pairs] for pairs in edges)
     if oriented.comparison is not None:
         report = oriented.comparison.add_to(report)
-    return replace(
+    return copy_with(
         report,
         inverted_components=inverted_count,
         degenerate_faces=len(planarity.degenerate_faces),
@@ -221,12 +221,7 @@ def _of_input(item: Finding, vertices: NDArray[np.intp] | None) -> Finding:
 
 def _is_slight(mesh: RepairedMesh, rows: NDArray[np.bool_], size: float, volume: float) -> bool:
     """Return whether triangles are too small to matter, by their area times the body's size. rows: (t,)."""
-    return bool(_areas(mesh, rows).sum() * size < NEGLIGIBLE * volume)
-
-
-def _areas(mesh: RepairedMesh, rows: NDArray[np.bool_]) -> NDArray[np.float64]:
-    a, b, c = np.moveaxis(mesh.points[mesh.triangles[rows]].astype(np.float64), 1, 0)
-    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return bool(triangle_areas(mesh.points, mesh.triangles[rows]).sum() * size < NEGLIGIBLE * volume)
 
 
 def _inverted_finding(mesh: RepairedMesh, inverted: NDArray[np.intp], size: float, volume: float) -> Finding:
@@ -280,7 +275,7 @@ def _component_findings(
 def _all_but_largest(mesh: RepairedMesh, which: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return a mask without its component of the largest area: the others contain the shared volume."""
     rows = which[mesh.component]
-    areas = np.bincount(mesh.component[rows], _areas(mesh, rows))
+    areas = np.bincount(mesh.component[rows], triangle_areas(mesh.points, mesh.triangles[rows]))
     others = which.copy()
     others[np.argmax(areas)] = False
     return others

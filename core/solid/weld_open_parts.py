@@ -7,8 +7,6 @@ Parts closed by themselves are not touched.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,7 +17,7 @@ from ..numerics.graph import connected_components
 from ..verdict.health import MeshHealth
 from .boundary_loops import has_distinct_vertices, side_ends
 from .duplicate_faces import is_duplicated
-from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState
+from .repaired_mesh import UNKNOWN, OpenParts, RepairedMesh, RepairState, copy_with
 
 
 def split_into_triangles(surface: Surface) -> RepairedMesh:
@@ -56,7 +54,7 @@ def weld_equal_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     vertices = _unique_sorted(onto[parts.vertices], len(mesh.points))
     return mesh.with_state(
         edges=edges if parts.are_all and len(rows) else UNKNOWN,
-        open_parts=replace(parts, rows=rows, vertices=vertices) if np.any(edges.count % 2) else None,
+        open_parts=copy_with(parts, rows=rows, vertices=vertices) if np.any(edges.count % 2) else None,
     )
 
 
@@ -73,7 +71,7 @@ def weld_near_positions(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
     place = mesh.points[vertices].astype(np.float64)
     moved = float(np.linalg.norm(place - place[same], axis=1).max())
     mesh, _ = _weld(mesh, parts.rows, vertices, same)
-    return replace(mesh, max_displacement=moved, topology_changed=True).with_state(edges=UNKNOWN, open_parts=None)
+    return copy_with(mesh, max_displacement=moved, topology_changed=True).with_state(edges=UNKNOWN, open_parts=None)
 
 
 def drop_collapsed_triangles(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
@@ -122,7 +120,7 @@ def _weld(
     triangles, onto = mesh.triangles.copy(), np.arange(len(mesh.points))
     onto[vertices] = vertices[same]
     triangles[rows] = onto[triangles[rows]]
-    return replace(mesh, triangles=triangles).with_report(welded=True), onto
+    return copy_with(mesh, triangles=triangles).with_report(welded=True), onto
 
 
 def _unique_sorted(values: NDArray[np.integer], width: int) -> NDArray[np.intp]:

@@ -15,7 +15,7 @@ from math import atan2
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..inertia.tensors import frame_about
+from ..inertia.plain_body import frame_about
 from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import check_filled, float_array
 

@@ -40,6 +40,12 @@ class Element:
     rows: int
     properties: tuple[Property, ...]
 
+    @property
+    def list_of_indices(self) -> int | None:
+        """The index of the property that lists the vertices of a face or strip, or None if there is none."""
+        names = [one.name if one.counter else "" for one in self.properties]
+        return next((names.index(name) for name in INDICES if name in names), None)
+
     def index(self, name: str) -> int:
         """Return the index of a property. Raises ValueError."""
         return [one.name for one in self.properties].index(name)

@@ -4,20 +4,29 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .decimals import parse_decimals
 from .ply_header import Element, Property
 
-BYTES_PER_BLOCK = 1 << 22
-FEW_ROWS = 64  # rows of one length: shorter runs are read one at a time
-SINGLE_ROWS = 1 << 14  # rows read one at a time before the next search for equal lengths
+BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
+FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.
+WINDOW = 1 << 14  # bytes or numbers among which lengths are looked for
+SINGLE_ROWS = 1 << 14  # rows of unequal lengths that are sorted by them
 MAX_LIST = 1 << 26  # numbers of a face: a larger count is damage, and would be read into memory
 NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
+_DECIMAL = b"0123456789.eE+- \t\r\n\v\f"
+_NOT_A_NUMBER = re.compile(rb"(?<!\S)[+-]?(?:nan\(\w*\)|1\.#\w+)", re.IGNORECASE)  # C's forms, unknown to numpy
+
+# The numbers of rows, and their columns: (n,) numbers or (n, k) lists.
+Block = tuple[NDArray[np.intp], list[NDArray]]
 
 
 class RowsError(Exception):
@@ -32,45 +41,96 @@ class RowReader:
         self._buffer: NDArray = np.zeros(0)  # bytes or numbers, once there are some
         self._text = b""
 
-    def read_rows(self, element: Element) -> Iterator[list[NDArray]]:
-        """Yield the next element in blocks of columns, (n,) numbers or (n, k) lists. All blocks have to be taken."""
-        left = element.rows if element.properties else 0
-        while left:
-            lengths = self._lengths(element.properties)
-            row = self._row_type(element.properties, lengths)
-            table = self._table(row, left)
-            same = np.ones(len(table), bool)
-            for number, length in lengths.items():
-                same &= table["n{}".format(number)] == length
-            count = len(table) if same.all() else int(np.argmin(same))
-            if count < min(FEW_ROWS, left):
-                for block in self._single_rows(element, min(left, SINGLE_ROWS)):
-                    left -= len(block[0])
-                    yield block
-                continue
-            self._buffer = self._buffer[count * row.itemsize // self._buffer.itemsize :]
-            left -= count
-            yield [table["p{}".format(number)][:count] for number in range(len(element.properties))]
-
-    def _lengths(self, properties: Sequence[Property]) -> dict[int, int]:
-        """Return the lengths of the lists of the next row by their property's index, and buffer the whole row."""
-        at, lengths = 0, {}
-        for number, one in enumerate(properties):
-            if one.counter:
-                lengths[number] = self._integer(at, one.counter)
-                at += self._size(one.counter)
-            at += self._size(one.type) * lengths.get(number, 1)
-            self._fill(at)
-        return lengths
-
-    def _row_type(self, properties: Sequence[Property], lengths: dict[int, int]) -> np.dtype:
-        fields: list[tuple] = []
-        for number, one in enumerate(properties):
-            if number in lengths:
-                fields.append(("n{}".format(number), self._type(one.counter)))
-                fields.append(("p{}".format(number), self._type(one.type), (lengths[number],)))
+    def read_rows(self, element: Element) -> Iterator[Block]:
+        """Yield the next element in blocks of rows with lists of the same lengths. All blocks have to be taken."""
+        done, properties = 0, element.properties
+        while done < element.rows and properties:
+            left = element.rows - done
+            starts, lengths = self._scan(properties, min(left, FEW_ROWS))
+            if (lengths == lengths[0]).all():
+                row = self._row_type(properties, lengths[0])
+                table = self._table(row, left)
+                same = np.ones(len(table), bool)
+                for number, length in enumerate(lengths[0]):
+                    same &= table["n{}".format(number)] == length
+                count = len(table) if same.all() else int(np.argmin(same))
+                yield np.arange(done, done + count), [table[name][:count] for name in _names(properties)]
+                end = count * row.itemsize // self._buffer.itemsize
             else:
-                fields.append(("p{}".format(number), self._type(one.type)))
+                starts, lengths = self._scan(properties, min(left, SINGLE_ROWS))
+                count, end = len(lengths), starts[-1]
+                yield from self._group_rows(properties, starts, lengths, done)
+            self._buffer = self._buffer[end:]
+            done += count
+
+    def _scan(self, properties: Sequence[Property], rows: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of their lists.
+
+        n: `rows`, or fewer that fill a block.
+        """
+        gap, lists = 0, []
+        for one in properties:
+            if one.counter:
+                lists.append((gap, one.counter, self._size(one.counter), self._size(one.type)))
+            gap = 0 if one.counter else gap + self._size(one.type)
+        starts: list[int] = [0]
+        lengths: list[int] = []
+        window = WINDOW
+        while len(starts) <= rows and starts[-1] <= BYTES_PER_BLOCK:
+            base, before = starts[-1], len(starts)
+            self._read_ahead(base + window)
+            # As lists, for it is a loop over rows: where one begins, the one before it tells.
+            plan = [(skip, self._numbers_at(kind, base, window), size, step) for skip, kind, size, step in lists]
+            with suppress(IndexError):  # The row goes on behind the window.
+                while len(starts) <= rows:
+                    at = starts[-1] - base
+                    for skip, counts, size, step in plan:
+                        at += skip
+                        lengths.append(counts[at])
+                        at += size + step * lengths[-1]
+                    starts.append(base + at + gap)
+            del lengths[len(lists) * (len(starts) - 1) :]
+            new = lengths[len(lists) * (before - 1) :]
+            if new and not 0 <= min(new) <= max(new) <= MAX_LIST:
+                raise RowsError
+            if len(starts) == before:
+                if base + window > len(self._buffer):
+                    raise RowsError
+                window *= 4
+        self._fill(starts[-1])
+        return np.array(starts), np.array(lengths, np.intp).reshape(len(starts) - 1, len(lists))
+
+    def _numbers_at(self, kind: str, start: int, count: int) -> list[int]:
+        """Return the whole numbers of a type at up to `count` offsets of the buffer."""
+        rest = len(self._buffer) + 1 - self._size(kind)
+        view = np.ndarray(max(rest, 0), self._type(kind), self._buffer, strides=self._buffer.strides)
+        with np.errstate(invalid="ignore"):
+            return view[start : start + count].astype(np.int64).tolist()
+
+    def _group_rows(
+        self, properties: Sequence[Property], starts: NDArray, lengths: NDArray, first: int
+    ) -> Iterator[Block]:
+        """Yield rows in blocks of equally long ones. starts, lengths: of `_scan`."""
+        order = np.lexsort(lengths.T)
+        changes = np.flatnonzero((lengths[order[1:]] != lengths[order[:-1]]).any(axis=1)) + 1
+        for rows in np.split(order, changes):
+            row = self._row_type(properties, lengths[rows[0]])
+            size = row.itemsize // self._buffer.itemsize
+            first_row = self._buffer[starts[rows[0]] :][:size]
+            parts = self._buffer[starts[rows][:, None] + np.arange(size)] if len(rows) > 1 else first_row
+            table = np.frombuffer(parts.tobytes(), row)
+            yield first + rows, [table[name] for name in _names(properties)]
+
+    def _row_type(self, properties: Sequence[Property], lengths: Sequence[int] | NDArray[np.intp]) -> np.dtype:
+        fields: list[tuple] = []
+        left = iter(enumerate(lengths))
+        for name, one in zip(_names(properties), properties):
+            if one.counter:
+                number, length = next(left)
+                fields.append(("n{}".format(number), self._type(one.counter)))
+                fields.append((name, self._type(one.type), (length,)))
+            else:
+                fields.append((name, self._type(one.type)))
         return np.dtype(fields)
 
     def _table(self, row: np.dtype, left: int) -> NDArray:
@@ -80,37 +140,12 @@ class RowReader:
         count = min(left, len(self._buffer) * unit // row.itemsize)
         return np.frombuffer(self._buffer, row, count)
 
-    def _single_rows(self, element: Element, rows: int) -> Iterator[list[NDArray]]:
-        """Yield `rows` rows, read one at a time, in blocks of equally long rows."""
-        by_lengths: dict[tuple[int, ...], list[bytes]] = {}
-        types: dict[tuple[int, ...], np.dtype] = {}
-        for _ in range(rows):
-            lengths = self._lengths(element.properties)
-            key = tuple(lengths.values())
-            if key not in types:
-                types[key] = self._row_type(element.properties, lengths)
-            size = types[key].itemsize // self._buffer.itemsize
-            by_lengths.setdefault(key, []).append(self._buffer[:size].tobytes())
-            self._buffer = self._buffer[size:]
-        for key, found in by_lengths.items():
-            table = np.frombuffer(b"".join(found), types[key])
-            yield [table["p{}".format(number)] for number in range(len(element.properties))]
-
     def _size(self, kind: str) -> int:
         """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a text."""
         return int(kind[1:]) if self._order else 1
 
     def _type(self, kind: str) -> np.dtype:
         return np.dtype(self._order + kind) if self._order else NUMBERS
-
-    def _integer(self, at: int, kind: str) -> int:
-        """Return the length of a list, stored at an index of the buffer. Raises RowsError."""
-        end = at + self._size(kind)
-        self._fill(end)
-        value = self._buffer[at:end].view(self._type(kind))[0]
-        if not 0 <= value <= MAX_LIST or value != int(value):
-            raise RowsError
-        return int(value)
 
     def _fill(self, count: int) -> None:
         """Fill the buffer to `count` bytes or numbers. Raises RowsError if the file has fewer."""
@@ -130,7 +165,7 @@ class RowReader:
     def _numbers(self) -> NDArray[np.float64]:
         """Return the next (n,) numbers of a text, n = 0 at its end. Raises RowsError."""
         while True:
-            chunk = self._file.read(BYTES_PER_BLOCK)
+            chunk = self._file.read(BYTES_PER_BLOCK // 4)
             text, self._text = self._text + chunk, b""
             if chunk:
                 end = max(text.rfind(space) for space in (b" ", b"\n", b"\t", b"\r")) + 1
@@ -142,6 +177,13 @@ class RowReader:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
-                return np.fromstring(text.decode("ascii"), NUMBERS, sep=" ")
+                if not text.translate(None, _DECIMAL):
+                    return parse_decimals(text)[0]
+                return np.fromstring(_NOT_A_NUMBER.sub(b"nan", text).decode("ascii"), NUMBERS, sep=" ")
             except (ValueError, DeprecationWarning) as error:
                 raise RowsError from error
+
+
+def _names(properties: Sequence[Property]) -> list[str]:
+    """Return the names of the columns in the type of a row: properties may share a name."""
+    return ["p{}".format(number) for number in range(len(properties))]

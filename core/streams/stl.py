@@ -19,21 +19,21 @@ from numpy.typing import NDArray
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError
 from .boxes import Box, box_of_blocks
+from .decimals import parse_decimals
+from .file_mesh import FileMesh, Polygons, merge_equal, name_of_file
 from .findings import STL_CUT_SHORT
 from .misread import map_file
-from .stl_text import BY_COUNT, BY_WORD, check_stl_text
+from .stl_text import BY_COUNT, BY_WORD, SOLID, check_stl_text
 
 HEAD, RECORD = 84, 50  # Bytes before the triangles, and bytes of each triangle.
 CORNERS = np.dtype({"names": ["at"], "formats": ["(3,3)<f4"], "offsets": [12], "itemsize": RECORD})
 TRIANGLES_PER_BLOCK, TRIANGLES_IN_CACHE = 1 << 17, 1 << 13
 SAMPLES = 1000  # triangles that show where the body is
-TEXT_PER_BLOCK = 1 << 22  # bytes
+TEXT_PER_BLOCK = 1 << 20  # bytes
 TEXT_PER_TRIANGLE = 250  # bytes, about
-SOLID_LINE = re.compile(rb"^[ \t]*(?:end)?solid\b[^\n]*$", re.IGNORECASE | re.MULTILINE)
-FACET_END = re.compile(rb"\bendfacet\b", re.IGNORECASE)
-# facet normal x y z outer loop vertex x y z vertex x y z vertex x y z endloop endfacet
-FACET_WORDS = 21
-NUMBERS = (8, 9, 10, 12, 13, 14, 16, 17, 18)
+FACET_END = b"endfacet"
+FACET_NUMBERS = 12  # of the normal and three corners
+_NORMAL = re.compile(rb"normal[^v]*")
 
 
 class StlFile:
@@ -79,24 +79,40 @@ class StlFile:
             for corners in _binary_corners(file) if self._binary else self._text_corners(file):
                 yield Surface(corners.reshape(-1, 3), rows[: len(corners)])
 
+    def mesh(self) -> FileMesh:
+        """Read all triangles, and merge equal points. FileError if a number is not finite."""
+        points = np.concatenate([np.zeros((0, 3), np.float32), *(piece.points for piece in self.pieces())])
+        box_of_blocks([points.reshape(-1, 3, 3)], "triangle")
+        points, index = merge_equal(points)
+        triangles = Polygons()
+        triangles.add(index.reshape(-1, 3))
+        return FileMesh(name_of_file(self._path), points, *triangles.join())
+
     def _text_corners(self, file: BinaryIO) -> Iterator[NDArray[np.float32]]:
         waiting = b""
+        file.readline()  # the first solid's name, of any words
         while chunk := file.read(TEXT_PER_BLOCK):
-            waiting += chunk
-            end = max((match.end() for match in FACET_END.finditer(waiting)), default=0)
+            waiting += chunk.lower()
+            end = waiting.rfind(FACET_END) + len(FACET_END) if FACET_END in waiting else 0
             corners = _parse(waiting[:end])
             waiting = waiting[end:]
             for start in range(0, len(corners), TRIANGLES_PER_BLOCK):
                 yield corners[start : start + TRIANGLES_PER_BLOCK]
-        if not re.search(rb"endsolid", waiting, re.IGNORECASE):
+        if b"endsolid" not in waiting:
             raise FileError(STL_CUT_SHORT, end=BY_WORD)
 
 
 def _parse(text: bytes) -> NDArray[np.float32]:
-    """Return the (n, 3, 3) corners of whole facets, which `check_stl_text` has checked."""
-    words = SOLID_LINE.sub(b"", text).split()
-    columns = [np.array([*map(float, words[place::FACET_WORDS])]) for place in NUMBERS]
-    return np.stack(columns, axis=1).astype(np.float32).reshape(-1, 3, 3)
+    """Return the (n, 3, 3) corners of whole facets in lower case, which `check_stl_text` has checked."""
+    if b"solid" in text:
+        text = SOLID.sub(b"", text)
+    count = text.count(FACET_END)
+    numbers, skipped = parse_decimals(text)[0], 3
+    if len(numbers) != FACET_NUMBERS * count:  # a normal that is no number
+        numbers, skipped = parse_decimals(_NORMAL.sub(b"", text))[0], 0
+        if len(numbers) != (FACET_NUMBERS - 3) * count:
+            raise FileError(STL_CUT_SHORT, end=BY_WORD)
+    return numbers.reshape(count, -1)[:, skipped:].astype(np.float32).reshape(-1, 3, 3)
 
 
 def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:

@@ -16,15 +16,13 @@ from .findings import STL_CUT_SHORT
 from .misread import SHORT, SHORT_OR_NAN, Data, Fault, find_number_fault, refuse_line, shorten
 
 BY_COUNT, BY_WORD = "where its number of triangles does", "with “endsolid”"  # words for the end of a file
+SOLID = re.compile(rb"(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
-_LOWER, _ANY_CASE = (
-    re.compile(
-        rb"(?:\s*+(?:(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+(?!\S)|facet\s++normal%b\s++outer\s++loop"
-        rb"(?:\s++%b%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+" % (_NORMAL, vertex, _CORNER),
-        re.IGNORECASE,
-    )
-    for vertex in (rb"(?-i:vertex)", rb"vertex")
+_FACETS = re.compile(
+    rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
+    % (SOLID.pattern, _NORMAL, _CORNER),
+    re.IGNORECASE,
 )
 _WORD = re.compile(rb"\S+")
 _CORNER_WORDS = ["vertex", True, True, True]  # True for a number that places a point
@@ -35,13 +33,11 @@ def check_stl_text(data: Data) -> None:
     """Raise FileError if an importer would misread a word."""
     first = _FIRST_LINE.match(data)
     at = first.end() if first else 0
-    # Blender reads only “vertex” in lower case. If any is, all must be.
-    is_lower = data.find(b"vertex", at) >= 0
-    while (at := _find_end(data, at, _LOWER if is_lower else _ANY_CASE)) < len(data):
+    while (at := _FACETS.match(data, at).end()) < len(data):  # type: ignore[union-attr]
         words = list(islice(_WORD.finditer(data, at), len(_FACET_WORDS)))
         is_cut = len(words) < len(_FACET_WORDS)
         for word, expected in zip(words[:-1] if is_cut else words, _FACET_WORDS):
-            fault = _find_fault(word[0], expected, is_lower)
+            fault = _find_fault(word[0], expected)
             if fault is not None:
                 refuse_line(data, word.start(), fault)
         if is_cut:
@@ -49,15 +45,7 @@ def check_stl_text(data: Data) -> None:
         at = words[-1].end()
 
 
-def _find_fault(word: bytes, expected: str | bool, is_lower: bool) -> Fault | None:
+def _find_fault(word: bytes, expected: str | bool) -> Fault | None:
     if isinstance(expected, bool):
         return find_number_fault(word, expected)
-    if expected.encode() in (word, word if is_lower and expected == "vertex" else word.lower()):
-        return None
-    return shorten(word), "“{}”".format(expected)
-
-
-def _find_end(data: Data, at: int, facets: re.Pattern[bytes]) -> int:
-    """Return the end of the valid facets and names of solids from an offset on."""
-    matched = facets.match(data, at)
-    return matched.end() if matched else at
+    return None if word.lower() == expected.encode() else (shorten(word), "“{}”".format(expected))

@@ -14,7 +14,7 @@ from ...blender import read
 from ...blender.session import stored
 from ...blender.write import properties, reports
 from ...blender.write.findings import NO_STORED_RESULTS
-from ...core.inertia.tensors import tensor_rows
+from ...core.inertia.plain_body import tensor_rows
 from ...core.verdict.finding import Finding, finding
 from .. import selection
 from .copy import copy_text
@@ -40,7 +40,8 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
             stored.reference.store(obj, context.scene)
             properties.retrigger_drivers(obj)
 
-        changed, failures = selection.apply_to_all(objects, store)
+        with stored.assembly.kept_up_to_date(context):  # the results are bound to their places, and stay the same
+            changed, failures = selection.apply_to_all(objects, store)
         texts = (
             "Stored the inertia of {count} object about the reference",
             "Stored the inertia of {count} objects about the reference",

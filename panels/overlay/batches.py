@@ -23,9 +23,10 @@ from numpy.typing import NDArray
 
 from ...blender.session.tracking import handlers
 from ...blender.settings.scene import BodyMomentsOverlaySettings
+from ...core.numerics.float32 import shortest_decimal
 from . import appearance as look
 from . import lines
-from .bodies import Bodies, collect
+from .bodies import Bodies, Entry, collect
 from .details import list_details
 from .draw import drawn_objects
 
@@ -37,10 +38,15 @@ Batch = gpu.types.GPUBatch
 
 @dataclass(eq=False)
 class _Drawn:
-    """The batches of a region; `key`: everything that they depend on besides the view."""
+    """The batches of a region; `key`: everything that they depend on besides the view, first the generation.
+
+    `segments`: (n, k, 2, 3) lines of the bodies, `entries` as arrays. While these are the same, their rows stay.
+    """
 
     key: tuple
+    entries: list[Entry]
     bodies: Bodies
+    segments: NDArray[np.float64]
     lines: tuple[Batch, ...]  # faint, full
     fills: tuple[Batch, ...]
     discs: tuple[Batch, ...] = ()  # hidden, seen
@@ -57,11 +63,7 @@ def draw_region(context: Context) -> None:
     if drawn is None or drawn.key != key:
         if drawn is None and len(_regions) == MAX_REGIONS:
             del _regions[next(iter(_regions))]
-        objects = drawn_objects(context, settings.show_all)
-        bodies, details = collect(context, objects), list_details(context, objects)
-        segments = [*lines.body_lines(bodies, settings), *(detail.segments for detail in details)]
-        fills = _fill_batches([detail.triangles for detail in details])
-        drawn = _regions[pointer] = _Drawn(key, bodies, _line_batches(segments), fills)
+        drawn = _regions[pointer] = _rebuild(context, key, drawn)
     if not (drawn.lines or drawn.fills or len(drawn.bodies.centers)):
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
@@ -70,6 +72,26 @@ def draw_region(context: Context) -> None:
         drawn.view_key = view_key
     with _restored_state():
         _draw_batches(drawn, view_key[2])
+
+
+def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
+    """Return current batches; rows of bodies that are the same as before are not computed again."""
+    scene, settings = context.scene, context.scene.body_moments.overlay
+    objects = drawn_objects(context, settings.show_all)
+    entries, details = collect(context, objects), list_details(context, objects)
+    rows = list(range(len(entries)))
+    if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
+        rows = [row for row in rows if entries[row] is not before.entries[row]]
+    bodies = Bodies.of([entries[row] for row in rows], shortest_decimal(scene.unit_settings.scale_length))
+    segments = lines.body_lines(bodies, settings)
+    if before is not None and len(rows) < len(entries):
+        before.bodies.put(rows, bodies)
+        before.segments[rows] = segments
+        bodies, segments = before.bodies, before.segments
+    colors = look.COLORS[bodies.verdicts].repeat(segments.shape[1], axis=0)
+    parts = [(segments.reshape(-1, 2, 3), colors), *(detail.segments for detail in details)]
+    fills = _fill_batches([detail.triangles for detail in details])
+    return _Drawn(key, entries, bodies, segments, _line_batches(parts), fills)
 
 
 def forget_regions() -> None:

@@ -37,12 +37,11 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
                 stood = balance_groups.support(empty, context.scene.frame_current) if settings.show_support else None
                 if stood is not None:
                     details.append(support_detail(stood))
-    for obj in objects:
-        if settings.show_faults and (found := faults.of_object(obj)) is not None:
-            details.append(_faults(obj, found))
-        if settings.show_support and (support := stability.support(obj, context.scene)) is not None:
-            details.append(support_detail(support))
-    return details
+    found = map(faults.of_object, objects) if settings.show_faults else ()
+    details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
+    checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
+    supports = [stability.support(obj, context.scene) for obj in checked]
+    return details + [support_detail(support) for support in supports if support is not None]
 
 
 def _path(path: balance_groups.Path) -> Detail:

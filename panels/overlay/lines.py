@@ -16,7 +16,6 @@ from .bodies import Bodies
 
 MARGIN = 40.0  # pixels around the view in which discs are still made
 MIN_NAMED = 8.0  # pixels of the longest axis from which on axes are named
-Segments = tuple[NDArray[np.float64], NDArray[np.float32]]  # (k, 2, 3) in the world, (k, 4) colors
 CIRCLE = 2.0 * np.pi / 48.0 * np.arange(49)
 RING = CIRCLE[::3]
 DASHES = 12  # dashes of a drop line
@@ -24,10 +23,10 @@ EDGES = np.array([[i, i | 1 << axis] for i in range(8) for axis in range(3) if n
 CORNERS = np.array([[(i >> axis & 1) * 2.0 - 1.0 for axis in range(3)] for i in range(8)])
 
 
-def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> list[Segments]:
-    """Return the segments of the enabled drawings."""
+def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> NDArray[np.float64]:
+    """Return the (n, k, 2, 3) segments of the enabled drawings, in the world."""
     place = bodies.centers, bodies.axes, bodies.gyration
-    drawings = []
+    drawings = [np.empty((len(bodies.centers), 0, 2, 3))]
     if settings.show_axes:
         drawings.append(axis_lines(*place))
     if settings.show_drop_line:
@@ -36,8 +35,7 @@ def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> list[Seg
         drawings.append(box_lines(*place))
     elif settings.equivalent == "ELLIPSOID":
         drawings.append(ellipsoid_lines(*place))
-    colors = look.COLORS[bodies.verdicts]
-    return [(lines.reshape(-1, 2, 3), colors.repeat(lines.shape[1], axis=0)) for lines in drawings]
+    return np.concatenate(drawings, axis=1)
 
 
 def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:

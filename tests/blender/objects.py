@@ -85,7 +85,7 @@ def measured(obj):
 
 def arrays(numbers):
     """Displayed or stored numbers of a body as arrays: center, tensor, principal moments, axes as columns."""
-    from body_moments.core.inertia.tensors import tensor_rows
+    from body_moments.core.inertia.plain_body import tensor_rows
 
     return SimpleNamespace(
         mass=numbers.mass,

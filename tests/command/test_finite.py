@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip("bpy")
 import numpy as np
 from body_moments.command.files import finite
+from body_moments.command.files.import_mesh import import_mesh
 from body_moments.core.streams.misread import NUMBER
 from body_moments.core.verdict.finding import FileError, finding
 
@@ -34,7 +35,7 @@ def refused(count, code, **place):
 def checked(path):
     """The finding about a file's numbers; None where all are finite."""
     try:
-        finite.check_numbers(str(path), path.suffix)
+        import_mesh(str(path)) if path.suffix in (".stl", ".ply") else finite.check_numbers(str(path), path.suffix)
     except FileError as error:
         return error.finding
     return None
@@ -170,17 +171,17 @@ def test_a_gltf_with_a_position_that_is_not_finite_is_refused(tmp_path, gltf):
     struct.pack_into("<f", binary, start + 12 * 5 + 4, math.nan)
     (tmp_path / "box.bin").write_bytes(binary)
     name = text["meshes"][0]["name"]
-    assert reason(path) == refused(1, "at_gltf_row", row=5, part="mesh", name=name)
+    assert reason(path) == refused(1, "at_row", element="mesh “{}”, row".format(name), row=5)
     # Repeat it with a single file, and with the data as text.
     text["buffers"][0].pop("uri")
     head = json.dumps(text).encode()
     head += b" " * (-len(head) % 4)
     body = struct.pack("<I4s", len(head), b"JSON") + head + struct.pack("<I4s", len(binary), b"BIN\0") + binary
     (tmp_path / "box.glb").write_bytes(struct.pack("<4s2I", b"glTF", 2, 12 + len(body)) + body)
-    said(tmp_path / "box.glb", 1, "at_gltf_row", row=5, part="mesh", name=name)
+    said(tmp_path / "box.glb", 1, "at_row", element="mesh “{}”, row".format(name), row=5)
     text["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(binary).decode()
     files.write_text(path, json.dumps(text))
-    said(path, 1, "at_gltf_row", row=5, part="mesh", name=name)
+    said(path, 1, "at_row", element="mesh “{}”, row".format(name), row=5)
 
 
 def test_gltf_text_numbers_and_overrides_are_checked(tmp_path, gltf):
@@ -198,7 +199,7 @@ def test_gltf_text_numbers_and_overrides_are_checked(tmp_path, gltf):
     for key, values in (("translation", [0, "word", "word"]), ("matrix", ["word", *range(15)])):
         text["nodes"][0][key] = values
         files.write_text(path, json.dumps(text).replace('"word"', "1e39"))
-        said(path, values.count("word"), "at_gltf_row", row=0, part="node", name=text["nodes"][0]["name"])
+        said(path, values.count("word"), "at_row", element="node", row=text["nodes"][0]["name"])
         del text["nodes"][0][key]
     end = len(binary)
     binary += struct.pack("<H2x3f", 3, 0.0, 0.0, math.inf)
@@ -222,8 +223,8 @@ def test_gltf_checks_cover_only_placed_points(tmp_path):
     accessors = [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"} for count in (4, 6)]
     text = {"buffers": [{"uri": "t.bin", "byteLength": numbers.nbytes}], "bufferViews": [view], "accessors": accessors}
     instancing = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 1}}}
-    other = finding("at_gltf_row", row=4, part="accessor", name="1")
-    of_mesh = finding("at_gltf_row", row=4, part="mesh", name="0")
+    other = finding("at_row", element="accessor 1, row", row=4)
+    of_mesh = finding("at_row", element="mesh “0”, row", row=4)
     for more, place in (
         ({"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 1}}]}]}, None),
         ({"meshes": [{"primitives": [{"attributes": {"POSITION": 1}}]}]}, of_mesh),

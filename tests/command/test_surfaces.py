@@ -9,6 +9,7 @@ pytest.importorskip("bpy")
 
 from tests.blender.batch_files import document, measured
 from tests.close import close
+from tests.core.cad.test_kernel_files import kernel_file
 from tests.core.exact_splines import sphere, torus
 from tests.core.iges_files import IgesFile, obj_text, unrolled
 
@@ -33,6 +34,12 @@ def test_microinches_and_kilometers(tmp_path):
         file.surface(unrolled(torus()))
         entry = measured(file.write(tmp_path / "ring.igs"), "--density", "1")
         assert close(entry["volume"], DONUT * meters**3, 1e-14)
+
+
+@pytest.mark.parametrize("name, volume", [("loft", 3883.4561009e-9), ("drilled", (8000.0 - 160.0 * np.pi) * 1e-9)])
+def test_body_of_a_kernel_is_exact(tmp_path, name, volume):
+    entry = measured(kernel_file(name, tmp_path), "--density", "1")
+    assert (entry["method"], entry["verdict"]) == ("NURBS exact", "exact") and close(entry["volume"], volume, 1e-10)
 
 
 def test_refused_entity_is_an_error_beside_other_records(tmp_path):

@@ -20,6 +20,15 @@ cube = bpy.data.objects["Cube"]
 cube.location = (1.0, 2.0, 3.0)
 bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
+# A person opens them with a click on their headers; here they are registered anew, as panels that start open.
+OPEN = """
+import bpy
+for cls in [cls for cls in bpy.types.Panel.__subclasses__() if cls.__name__.startswith("VIEW3D_PT_body_moments_")]:
+    if "DEFAULT_CLOSED" in getattr(cls, "bl_options", set()):
+        bpy.utils.unregister_class(cls)
+        cls.bl_options = cls.bl_options - {"DEFAULT_CLOSED"}
+        bpy.utils.register_class(cls)
+"""
 
 
 @pytest.hookimpl(wrapper=True)
@@ -82,14 +91,14 @@ def cube_file(run_blender, tmp_path_factory) -> Path:
 
 
 @contextmanager
-def open_window(run_blender, file: Path, folder: Path):
+def open_window(run_blender, file: Path, folder: Path, **more):
     """Blender's window with a file in it; skips where there is no screen to show it on."""
     if missing := harness.missing_tools():
         pytest.skip("needs {}".format(", ".join(missing)))
     artefacts = ROOT / "tests" / "window" / "artefacts"
     artefacts.mkdir(exist_ok=True)
     log = folder / "blender.log"
-    with harness.Window(run_blender.blender, run_blender.user, file, log, artefacts) as opened:
+    with harness.Window(run_blender.blender, run_blender.user, file, log, artefacts, **more) as opened:
         yield opened
 
 

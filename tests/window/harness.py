@@ -5,6 +5,7 @@
 `Window` starts Xvfb, Blender on it, and presses keys and buttons with xdotool, as a person does;
 what came of it is asked from inside Blender (inside.py), and scrot takes pictures. Nothing waits
 for a fixed time: drawing in software is slow, so everything polls until what it waits for is so.
+For the same reason the screen is small, and the viewport is drawn without anti-aliasing.
 """
 
 import contextlib
@@ -18,10 +19,17 @@ from pathlib import Path
 
 import numpy as np
 
-WIDTH, HEIGHT = 1600, 1000
+SIZE = 1000, 1000  # pixels of the screen
 START_LIMIT = 480.0  # seconds until Blender's window answers
 STEP_LIMIT = 240.0  # seconds until what was pressed has happened
 PAGES = 3  # Buttons are searched as far down the sidebar.
+# Ctrl C beside a button would save the selected objects in a file.
+PREPARED = """
+bpy.context.preferences.system.viewport_aa = "OFF"
+for keymap in bpy.context.window_manager.keyconfigs.user.keymaps:
+    for item in keymap.keymap_items:
+        item.active &= item.idname != "view3d.copybuffer"
+"""
 TOOLS = ("Xvfb", "xdotool", "scrot")
 
 
@@ -40,8 +48,9 @@ class Window:
     Positions are pixels from the lower left corner of the window, as Blender counts them.
     """
 
-    def __init__(self, blender: str, user: Path, file: Path, log: Path, artefacts: Path):
+    def __init__(self, blender: str, user: Path, file: Path, log: Path, artefacts: Path, size: tuple[int, int] = SIZE):
         self.blender, self.file, self.log, self.artefacts = blender, file, log, artefacts
+        self.width, self.height = size
         self.environment = {**os.environ, "BLENDER_USER_RESOURCES": str(user)}
         self.environment["LIBGL_ALWAYS_SOFTWARE"] = "1"
         self.questions = 0
@@ -61,7 +70,7 @@ class Window:
     def _start_screen(self, stack: contextlib.ExitStack) -> None:
         reading, writing = os.pipe()
         screen = ["Xvfb", "-displayfd", str(writing), "-nolisten", "tcp"]
-        screen += ["-screen", "0", f"{WIDTH}x{HEIGHT}x24"]
+        screen += ["-screen", "0", f"{self.width}x{self.height}x24"]
         server = subprocess.Popen(screen, pass_fds=[writing], stderr=subprocess.DEVNULL)
         stack.callback(_end, server)
         os.close(writing)
@@ -70,7 +79,7 @@ class Window:
 
     def _start_blender(self, stack: contextlib.ExitStack) -> None:
         script = Path(__file__).with_name("inside.py")
-        command = [self.blender, "-p", "0", "0", str(WIDTH), str(HEIGHT), str(self.file)]
+        command = [self.blender, "-p", "0", "0", str(self.width), str(self.height), str(self.file)]
         command += ["--python", str(script), "--", str(self.mailbox)]
         output = stack.enter_context(self.log.open("w", encoding="utf-8"))
         self.process = subprocess.Popen(
@@ -81,7 +90,7 @@ class Window:
             stderr=subprocess.STDOUT,
         )
         stack.callback(_end, self.process)
-        self.ask("pass", limit=START_LIMIT)
+        self.ask(PREPARED, limit=START_LIMIT)
 
     def output(self) -> str:
         """Return Blender's output so far; errors while panels are drawn appear only there."""
@@ -103,7 +112,7 @@ class Window:
                 raise RuntimeError(f"Blender ended ({self.process.returncode})\n{self.output()}")
             if time.monotonic() > end:
                 raise TimeoutError(f"no answer in {limit} s to:\n{source}\n{self.output()}")
-            time.sleep(0.02)
+            time.sleep(0.004)
         answer = json.loads(reply.read_text(encoding="utf-8"))
         if "error" in answer:
             raise RuntimeError(f"{source}\n{answer['error']}")
@@ -119,7 +128,7 @@ class Window:
             if time.monotonic() > end:
                 self.picture("timeout")
                 raise TimeoutError(f"not true after {limit} s: {expression}\n{self.output()}")
-            time.sleep(0.1)
+            time.sleep(0.02)
         return value
 
     # hands
@@ -127,10 +136,10 @@ class Window:
     def _xdotool(self, *words) -> None:
         subprocess.run(["xdotool", *map(str, words)], env=self.environment, check=True, timeout=240)
 
-    def move(self, x: float, y: float) -> None:
-        """Put the pointer there; the small step before lets Blender notice where it is."""
-        top = HEIGHT - 1 - y
-        self._xdotool("mousemove", round(x) - 2, round(top), "mousemove", round(x), round(top))
+    def move(self, x: float, y: float, *more) -> None:
+        """Put the pointer there; the small step before lets Blender notice where it is. more: words for xdotool."""
+        top = self.height - 1 - y
+        self._xdotool("mousemove", round(x) - 2, round(top), "mousemove", round(x), round(top), *more)
 
     def click(self, x: float, y: float) -> None:
         self.move(x, y)
@@ -212,33 +221,27 @@ class Window:
         What a row shows is what its button would copy.
         """
         x, y, width, height = self.region("UI")
-        found = {}
-        for down in range(24, height, 16):
-            for share in (0.5, 0.9, 0.95):
-                command = self._command_at(x + (width - 28) * share, y + height - down, tries=2)
-                if command:
-                    found[command] = None
-        return list(found)
+        places = [
+            (x + (width - 28) * share, y + height - down)
+            for down in range(24, height, 16)
+            for share in (0.5, 0.9, 0.95)
+        ]
+        return [*dict.fromkeys(filter(None, (self._command_at(*place) for place in places)))]
 
     def _button_at(self, x: float, y: float) -> str | None:
         """The operator of the button there."""
         command = self._command_at(x, y)
         return command and command.removeprefix("bpy.ops.").partition("(")[0]
 
-    def _command_at(self, x: float, y: float, tries: int = 4) -> str | None:
+    def _command_at(self, x: float, y: float) -> str | None:
         """The command of the button there.
 
         Blender tells no positions of buttons, but Ctrl C over one copies its command.
         """
-        self.ask("bpy.context.window_manager.clipboard = '-'")
-        self.move(x, y)
-        self.get("True")
-        self.key("ctrl+c")
-        for _ in range(tries):
-            copied = self.get("bpy.context.window_manager.clipboard")
-            if copied.startswith("bpy.ops."):
-                return copied
-        return None
+        self.move(x, y, "key", "ctrl+c")
+        manager = "bpy.context.window_manager"
+        copied = self.ask(f"result = {manager}.clipboard\n{manager}.clipboard = '-'")
+        return copied if copied.startswith("bpy.ops.") else None
 
     def _find_button(self, operator: str) -> tuple[float, float]:
         """Go down the sidebar in steps smaller than a button, then a page further, and so on."""
@@ -253,9 +256,7 @@ class Window:
                     if found == operator:
                         self.buttons[operator] = place
                         return place
-            self.move(x + column / 2, y + height / 2)
-            for _ in range(8):
-                self._xdotool("click", 5)  # the wheel
+            self.move(x + column / 2, y + height / 2, *["click", 5] * 8)  # the wheel
             self.get("True")
         self.picture("no-button")
         raise LookupError(f"no button for {operator} in the sidebar\n{self.output()}")

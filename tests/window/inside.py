@@ -6,7 +6,8 @@
 
 The other half (harness.py) puts `N.request`, Python source that sets `result`, into the folder
 MAILBOX. A timer runs it between two events of the window, in the context of its first 3D View, and
-answers with `N.reply`, JSON. While a file browser takes the window, that is the area.
+answers with `N.reply`, JSON. While a file browser takes the window, that is the area. The timer runs
+before the events that wait: a request is answered the second time that it is seen, after them.
 """
 
 import json
@@ -17,7 +18,8 @@ from pathlib import Path
 import bpy
 
 MAILBOX = Path(sys.argv[sys.argv.index("--") + 1])
-PERIOD = 0.01  # seconds
+PERIOD = 0.005  # seconds
+seen: list[Path] = []
 
 
 def answer(source: str) -> dict:
@@ -35,12 +37,13 @@ def answer(source: str) -> dict:
 
 
 def look() -> float:
-    for request in sorted(MAILBOX.glob("*.request")):
+    for request in seen:
         source = request.read_text(encoding="utf-8")
         request.unlink()
         partial = request.with_suffix(".partial")
         partial.write_text(json.dumps(answer(source)), encoding="utf-8")
         partial.rename(request.with_suffix(".reply"))
+    seen[:] = sorted(MAILBOX.glob("*.request"))
     return PERIOD
 
 

@@ -2,15 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every operator pressed once by mouse, what the panel shows compared with what is stored, and refusals read.
 
-The tests run in the order of the file and go on from one another, as a person does.
+The tests run in the order of the file and go on from one another, as a person does. Most buttons are far down in
+sub-panels, or in menus of Blender's own: each of these is the only entry of a menu of the test's own.
 """
 
 import ast
 import re
+from pathlib import Path
 
+import numpy as np
 import pytest
+from body_moments.core.robots.formats import FORMATS
 
-MENU = "VIEW3D_MT_body_moments"
+from tests.window.conftest import ROOT
+
+MENU, OWN_MENU = "VIEW3D_MT_body_moments", "VIEW3D_MT_test_body_moments"
 PART = "bpy.data.objects['Part']"
 PACKAGE = "bl_ext.user_default.body_moments"
 # A box of 60 around one of 40, of which one face is flipped; the scene's unit is a meter.
@@ -149,78 +155,320 @@ def test_a_refusal_is_read_in_the_panel_and_dismissed(window):
     window.wait(f"{refused} is None")
 
 
-# Each by its entry in Object > Body Moments: what is there before, and what must have happened.
-PRESSED = {
-    "object.body_moments_measure": ("", f"{PART}['body_volume'] == 48.0"),
+MADE = f"""
+class {OWN_MENU}(bpy.types.Menu):
+    bl_label = "Test"
+
+    def draw(self, context):
+        self.layout.operator_context = "INVOKE_DEFAULT"
+        idname, options = bpy.app.driver_namespace["pressed"]
+        button = self.layout.operator(idname)
+        for name, value in options.items():
+            setattr(button, name, value)
+
+bpy.utils.register_class({OWN_MENU})
+bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
+"""
+MEASURED = "bpy.ops.object.body_moments_measure()\n"
+ASSEMBLY = "bpy.ops.object.body_moments_measure_assembly(target='COLLECTION')\n"
+EDIT = "bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.mesh.select_all(action='SELECT')\n"
+ONE_FACE = (
+    "bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.mesh.select_mode(type='FACE')\n"
+    "bpy.ops.mesh.select_all(action='DESELECT')\n"
+    f"import bmesh\nb = bmesh.from_edit_mesh({PART}.data)\nb.faces.ensure_lookup_table()\n"
+    f"b.faces[0].select_set(True)\nbmesh.update_edit_mesh({PART}.data)\n"
+)
+CLIPBOARD = "bpy.context.window_manager.clipboard"
+COLLECTION = "bpy.context.collection"
+RIG = """
+bpy.ops.object.mode_set(mode="EDIT")
+bpy.ops.mesh.subdivide(number_cuts=4)
+bpy.ops.object.mode_set(mode="OBJECT")
+rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+bpy.context.scene.collection.objects.link(rig)
+bpy.context.view_layer.objects.active = rig
+bpy.ops.object.mode_set(mode="EDIT")
+for name, low in (("Lower", 0.0), ("Upper", 3.0)):
+    bone = rig.data.edit_bones.new(name)
+    bone.head, bone.tail = (1.0, 2.0, low), (1.0, 2.0, low + 3.0)
+bpy.ops.object.mode_set(mode="OBJECT")
+for name, below in (("Lower", True), ("Upper", False)):
+    group = part.vertex_groups.new(name=name)
+    group.add([v.index for v in part.data.vertices if (v.co.z < 0.0) == below], 1.0, "REPLACE")
+part.modifiers.new("Armature", "ARMATURE").object = rig
+bpy.context.view_layer.update()
+"""
+REFUSED = f"__import__('sys').modules['{PACKAGE}.blender.session.stored.outcome'].last() is not None"
+RIG_OBJECT = "bpy.data.objects['Rig']"
+# operator: options, what is there before, what must have happened
+CLICKED = {
+    "object.body_moments_copy_value": ({"value": "7.5", "unit": "kg"}, "", f"{CLIPBOARD} == '7.5'"),
+    "object.body_moments_copy_inertial": ({}, MEASURED, f"'inertia' in {CLIPBOARD}"),
+    "object.body_moments_store_reference": ({}, MEASURED, f"'body_reference' in {PART}"),
+    "object.body_moments_copy_reference": ({}, MEASURED, f"'Part, about' in {CLIPBOARD}"),
+    "object.body_moments_axis_from_selection": (
+        {},
+        "bpy.ops.object.duplicate()\nbpy.context.object.location.x += 9.0\npart.select_set(True)",
+        "bpy.context.scene.body_moments_reference.about == 'AXIS'",
+    ),
+    "object.body_moments_copy_moments": (
+        {},
+        MEASURED + "bpy.ops.object.body_moments_compute_moments('EXEC_DEFAULT', True)",
+        f"len({CLIPBOARD}.splitlines()) > 20",
+    ),
+    "object.body_moments_copy_section": (
+        {},
+        ONE_FACE + "bpy.ops.object.body_moments_measure_section('EXEC_DEFAULT', True)",
+        f"'Part' in {CLIPBOARD}",
+    ),
+    "object.body_moments_measure_as_shell": ({}, "", f"{PART}.body_moments.kind == 'SHELL'"),
+    "object.body_moments_equal_inertia": ({}, MEASURED, "len(bpy.data.objects) == 2"),
+    "object.body_moments_rigid_bodies": ({}, "", f"{PART}.rigid_body is not None"),
+    "object.body_moments_preset_add": (
+        {"name": "Window"},
+        "",
+        "'Window.py' in [path.name for d in bpy.utils.preset_paths('body_moments') "
+        "for path in __import__('pathlib').Path(d).iterdir()]",
+    ),
+    "object.body_moments_select_found": (
+        {"name": "Part"},
+        "bpy.ops.object.select_all(action='DESELECT')",
+        "[obj.name for obj in bpy.context.selected_objects] == ['Part']",
+    ),
+    "object.body_moments_sculpt_balance": (
+        {},
+        EDIT + "bpy.context.scene.cursor.location = (1.6, 2.0, 3.0)",
+        "bpy.context.window_manager.operators[-1].bl_idname == 'OBJECT_OT_body_moments_sculpt_balance'",
+    ),
+    "object.body_moments_select_refused": (
+        {},
+        "part.modifiers.new('Cast', 'CAST')\n"
+        "bpy.ops.object.body_moments_origin_to_center('EXEC_DEFAULT', True)\n"
+        "bpy.ops.object.select_all(action='DESELECT')",
+        "[obj.name for obj in bpy.context.selected_objects] == ['Part']",
+    ),
+    "object.body_moments_measure_assembly": ({"target": "COLLECTION"}, "", f"'body_mass' in {COLLECTION}"),
+    "object.body_moments_clear_assembly": ({"target": "COLLECTION"}, ASSEMBLY, f"'body_mass' not in {COLLECTION}"),
+    "object.body_moments_assembly_empty": (
+        {"target": "COLLECTION"},
+        ASSEMBLY,
+        "any(obj.type == 'EMPTY' for obj in bpy.data.objects)",
+    ),
+    "object.body_moments_assembly_origin": (
+        {"target": "COLLECTION"},
+        ASSEMBLY,
+        f"abs({COLLECTION}.instance_offset[0] - 1.5) < 1e-5",
+    ),
+    "view3d.body_moments_cursor_to_assembly": (
+        {"target": "COLLECTION"},
+        "bpy.context.scene.cursor.location = (0, 0, 0)",
+        "abs(bpy.context.scene.cursor.location.x - 1.5) < 1e-5",
+    ),
+    "object.body_moments_measure_bones": ({}, RIG, f"'body_mass' in {RIG_OBJECT}.pose.bones['Upper']"),
+    "object.body_moments_clear_bones": (
+        {},
+        RIG + "bpy.ops.object.body_moments_measure_bones()",
+        f"'body_mass' not in {RIG_OBJECT}.pose.bones['Upper']",
+    ),
+    "object.body_moments_rig_center": ({}, RIG, "'Rig Center of Mass' in bpy.data.objects"),
+    "object.body_moments_physics_rig": ({}, RIG, "any(obj.rigid_body for obj in bpy.data.objects)"),
     "object.body_moments_select_faults": (
+        {},
         f"import bmesh\nb = bmesh.new()\nb.from_mesh({PART}.data)\nb.faces.ensure_lookup_table()\n"
         f"bmesh.ops.reverse_faces(b, faces=[b.faces[2]])\nb.to_mesh({PART}.data)\nb.free()",
         "bpy.context.mode == 'EDIT_MESH'",
     ),
-    "object.body_moments_copy_report": (
-        "bpy.ops.object.body_moments_measure()",
-        "'Part' in bpy.context.window_manager.clipboard",
-    ),
-    "object.body_moments_clear": ("bpy.ops.object.body_moments_measure()", f"'body_mass' not in {PART}"),
-    "object.body_moments_origin_to_center": ("", f"abs({PART}.location.x - 1.5) < 1e-5"),
-    "object.body_moments_axes_to_principal": ("", f"max(abs(s - 1.0) for s in {PART}.scale) < 1e-5"),
+    "object.body_moments_clear": ({}, "bpy.ops.object.body_moments_measure()", f"'body_mass' not in {PART}"),
     "object.body_moments_align_to_world": (
+        {},
         f"{PART}.rotation_euler = (0.3, 0.2, 0.1)",
         f"max(abs(round(e) - e) for row in {PART}.matrix_world.to_3x3().normalized() for e in row) < 1e-4",
     ),
-    "object.body_moments_add_empty": ("", "any(obj.type == 'EMPTY' for obj in bpy.data.objects)"),
     "view3d.body_moments_cursor_to_center": (
+        {},
         "bpy.context.scene.cursor.location = (0, 0, 0)",
         "abs(bpy.context.scene.cursor.location.x - 1.5) < 1e-5",
     ),
     "object.body_moments_create_orientation": (
+        {},
         "",
         "bpy.context.scene.transform_orientation_slots[0].type not in ('GLOBAL', 'LOCAL')",
     ),
-    "object.body_moments_set_rigid_body_mass": (
-        "bpy.ops.rigidbody.object_add()",
-        f"abs({PART}.rigid_body.mass - 48000.0) < 1.0",
-    ),
-    "object.body_moments_add_nodes": ("", "'Center of Mass' in bpy.data.node_groups"),
-    "object.body_moments_measure_section": (
-        "bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.mesh.select_mode(type='FACE')\n"
-        "bpy.ops.mesh.select_all(action='DESELECT')\n"
-        f"import bmesh\nb = bmesh.from_edit_mesh({PART}.data)\nb.faces.ensure_lookup_table()\n"
-        f"b.faces[0].select_set(True)\nbmesh.update_edit_mesh({PART}.data)",
-        f"'body_section' in {PART}",
-    ),
+    "object.body_moments_measure_section": ({}, ONE_FACE, f"'body_section' in {PART}"),
     "object.body_moments_compute_moments": (
+        {},
         "",
         f"__import__('sys').modules['{PACKAGE}.blender.session.stored.moments'].computed_moments({PART}) is not None",
     ),
-    "object.body_moments_find_symmetry": ("", f"{PART}.body_moments_symmetry.group == 'D2h'"),
+    "object.body_moments_find_symmetry": ({}, "", f"{PART}.body_moments_symmetry.group == 'D2h'"),
     "object.body_moments_find_similar": (
+        {},
         "bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\nbpy.context.object.location.x += 9.0\n"
         f"bpy.context.view_layer.objects.active = {PART}\n{PART}.select_set(True)",
         "len(bpy.context.scene.body_moments_search.found) == 1",
     ),
     "object.body_moments_match_pose": (
+        {},
         "bpy.ops.object.duplicate()\ntwin = bpy.context.object\ntwin.name = 'Twin'\ntwin.location.x += 9.0\n"
         f"{PART}.select_set(True)\nbpy.context.view_layer.objects.active = {PART}",
         f"(bpy.data.objects['Twin'].location - {PART}.location).length < 1e-4",
     ),
     "object.body_moments_copy_settings": (
+        {},
         f"bpy.ops.object.duplicate()\nbpy.context.object.name = 'Twin'\n{PART}.body_moments.density = 5.0\n"
         f"{PART}.select_set(True)\nbpy.context.view_layer.objects.active = {PART}",
         "bpy.data.objects['Twin'].body_moments.density == 5.0",
     ),
 }
+# operator: the ending of the file that its browser is for, what is there before, what must have happened
+IN_BROWSER = {
+    "export_scene.body_moments_urdf": ("urdf", MEASURED, "{path}.is_file()"),
+    "export_scene.body_moments_sdf": ("sdf", MEASURED, "{path}.is_file()"),
+    "export_scene.body_moments_mjcf": ("xml", MEASURED, "{path}.is_file()"),
+    "export_scene.body_moments_usd": (
+        "usda",
+        MEASURED,
+        f"{{path}}.is_file() or 'usd_export' not in dir(bpy.ops.wm) and {REFUSED}",
+    ),
+    "export_scene.body_moments_gltf": ("glb", MEASURED, "{path}.is_file()"),
+    "object.body_moments_export_bill": ("csv", ASSEMBLY, "{path}.is_file()"),
+    "object.body_moments_save_numbers": ("json", MEASURED, "{path}.is_file()"),
+    "object.body_moments_fourier": ("npz", "", "{path}.is_file()"),
+    "object.body_moments_import_scan": ("npy", "", "any(obj.type == 'VOLUME' for obj in bpy.data.objects)"),
+    "object.body_moments_import_surfaces": ("obj", "", "any(obj.type == 'SURFACE' for obj in bpy.data.objects)"),
+    "import_scene.body_moments_audit": ("urdf", "", "'Audit of window.urdf' in bpy.data.texts"),
+    "object.body_moments_find_in_library": (
+        "jsonl",
+        "",
+        "bpy.context.scene.body_moments_search.looked_at == 'window.jsonl'",
+    ),
+}
+# pressed through another one, and the search for a material of a slot, which a key chooses
+BY_OTHERS = {
+    "object.body_moments_fourier_run": "object.body_moments_fourier",
+    "material.body_moments_set_density": "object.body_moments_set_material",
+}
 
 
-@pytest.mark.parametrize("operator", PRESSED)
-def test_an_operator_is_chosen_from_the_menu_and_does_its_work(window, operator):
-    before, after = PRESSED[operator]
+@pytest.fixture(scope="module")
+def prepared(window):
+    window.ask(MADE)
+    return window
+
+
+def click(window, operator, options, before):
     window.ask("if bpy.context.mode != 'OBJECT':\n    bpy.ops.object.mode_set(mode='OBJECT')\n" + BRICK + before)
+    window.ask(f"bpy.app.driver_namespace['pressed'] = ({operator!r}, {options!r})")
+    window.choose(OWN_MENU, operator)
+
+
+@pytest.mark.parametrize("operator", CLICKED)
+def test_a_click_does_its_work(prepared, operator):
+    options, before, after = CLICKED[operator]
+    click(prepared, operator, options, before)
+    if operator.endswith("preset_add"):  # its dialog
+        prepared.redraw()
+        prepared.key("Return")
+    prepared.wait(after, limit=60.0)
+    assert "Traceback" not in prepared.output()
+
+
+@pytest.mark.parametrize("operator", IN_BROWSER)
+def test_a_click_opens_a_file_browser_and_return_goes_on(prepared, operator, tmp_path):
+    ending, before, after = IN_BROWSER[operator]
+    path = tmp_path / f"window.{ending}"
+    write_input(operator, path)
+    click(prepared, operator, {}, before)
+    prepared.wait("area.type == 'FILE_BROWSER' and area.spaces.active.params is not None")
+    prepared.ask(
+        f"params = area.spaces.active.params\nparams.directory = {str(tmp_path).encode()!r}\n"
+        f"params.filename = {path.name!r}"
+    )
+    prepared.redraw()
+    prepared.move(800, 500)
+    prepared.key("Return")
+    prepared.wait("area.type == 'VIEW_3D'", limit=60.0)
+    prepared.wait(after.format(path=f"__import__('pathlib').Path({str(path)!r})"), limit=120.0)
+    assert "Traceback" not in prepared.output()
+
+
+def write_input(operator, path: Path) -> None:
+    if operator.endswith("import_scan"):
+        np.save(path, np.ones((4, 4, 4), np.float32))
+    elif operator.endswith("import_surfaces"):
+        corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\n"
+        surface = "cstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nparm u 0 1\nparm v 0 1\nend\n"
+        path.write_text(corners + surface, "utf-8")
+    elif operator.endswith("audit"):
+        inertial = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+        path.write_text(f'<robot name="r"><link name="l">{inertial}</link></robot>', "utf-8")
+    elif operator.endswith("find_in_library"):
+        path.write_text("", "utf-8")
+
+
+TURNED = f"{PART}.rotation_euler = (0.3, 0.2, 0.1)"
+EMPTIES = "[obj.parent is not None for obj in bpy.data.objects if obj.type == 'EMPTY']"
+PLACE = f"[round(value, 3) for value in {PART}.location]"
+MASS = f"[{PART}.rigid_body.mass, *{PLACE}]"
+CHECKBOX, TITLE, ROW = 144, 56, 23  # pixels from the pointer where F9 was pressed, and between settings
+# operator: which setting is clicked, what is there before, what is looked at, after the action, after the click
+REDONE = {
+    "object.body_moments_add_empty": (0, "", EMPTIES, [True], [False]),
+    "object.body_moments_add_nodes": (
+        0,
+        "",
+        "[group.name for group in bpy.data.node_groups]",
+        ["Center of Mass", "Center of Mass Marker"],
+        ["Center of Mass"],
+    ),
+    "object.body_moments_axes_to_principal": (0, TURNED, PLACE, [1.488, 2.049, 2.901], [1.488, 2.049, 2.901]),
+    "object.body_moments_set_rigid_body_mass": (
+        1,
+        "bpy.ops.rigidbody.object_add()",
+        MASS,
+        [48000.0, 1.0, 2.0, 3.0],
+        [48000.0, 1.5, 2.0, 3.0],
+    ),
+}
+
+
+@pytest.mark.parametrize("operator", REDONE)
+def test_redo_panel_repeats_the_action_and_undo_takes_it_back(window, operator):
+    row, before, looked_at, acted, clicked = REDONE[operator]
+    update = "\nbpy.context.view_layer.update()\nbpy.ops.ed.undo_push(message='Start')"
+    window.ask(BRICK + before + update)
+    start = window.get(looked_at)
     window.choose(MENU, operator)
-    window.wait(after, limit=60.0)
-    if window.get("bpy.context.mode != 'OBJECT'"):
-        window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
-
-
-def test_nothing_went_wrong_while_the_panels_were_drawn(window):
+    window.wait(f"{looked_at} == {acted!r}", limit=60.0)
+    window.move(500, 500)
+    window.key("F9")
+    window.redraw()
+    window.click(500 + CHECKBOX, 500 - TITLE - ROW * row)
+    window.wait(f"{looked_at} == {clicked!r}", limit=60.0)
+    window.redraw()
+    window.key("Escape")
+    window.point_at_view()
+    window.key("ctrl+z")
+    window.wait(f"{looked_at} == {start!r}", limit=60.0)
     assert "Traceback" not in window.output()
+
+
+def test_every_operator_has_been_pressed():
+    """By the strings that the tests of the window press, choose and click."""
+    made = set()
+    for folder in ("operators", "panels"):
+        for path in (ROOT / folder).rglob("*.py"):
+            for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+                if not isinstance(node, ast.Assign) or ast.unparse(node.targets[0]) != "bl_idname":
+                    continue
+                if isinstance(node.value, ast.Constant) and "." in node.value.value:
+                    made.add(node.value.value)
+    made |= {"export_scene.body_moments_" + name for name in FORMATS}
+    pressed = {*CLICKED, *IN_BROWSER, *REDONE}
+    for path in Path(__file__).parent.glob("test_*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in ("window.press", "window.choose"):
+                pressed |= {word.value for word in node.args if isinstance(word, ast.Constant)}
+    pressed |= {one for one, other in BY_OTHERS.items() if other in {*pressed, "object.body_moments_set_material"}}
+    assert made - pressed - {"object.body_moments_set_material"} == set()  # chosen in its menu
+    assert pressed - made <= {"VIEW3D_MT_body_moments"}

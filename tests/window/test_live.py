@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numbers of a NURBS object follow its control points while they are dragged, and go back with them."""
+"""Live numbers by mouse and keys: they follow the control points of a NURBS object while they are dragged, lag behind
+strokes of a brush and say so, and go back with them."""
 
 import math
 
 import pytest
 
-SCENE = """
+TORUS_SCENE = """
 for obj in list(bpy.data.objects):
     bpy.data.objects.remove(obj)
 bpy.context.scene.unit_settings.scale_length = 1.0
@@ -15,15 +16,15 @@ bpy.ops.view3d.view_selected()
 """
 MODULE = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.live.following']"
 LIVE = MODULE + ".current_numbers(bpy.context.object)"
-VOLUME = f"getattr({LIVE}, 'measurement', None) and {LIVE}.measurement.volume"
+TORUS_VOLUME = f"getattr({LIVE}, 'measurement', None) and {LIVE}.measurement.volume"
 TORUS = 2.0 * math.pi**2 * 0.75 * 0.0625 * (1.0 - 1.9e-7)
 
 
 def test_live_numbers_follow_drag_escape_undo_and_animation(window):
     def follows(factor):
-        window.wait(f"abs(({VOLUME} or 0.0) / {TORUS * factor} - 1.0) <= 1e-6")
+        window.wait(f"abs(({TORUS_VOLUME} or 0.0) / {TORUS * factor} - 1.0) <= 1e-6")
 
-    window.ask(SCENE)
+    window.ask(TORUS_SCENE)
     window.open_tab("Moments")
     window.press("object.body_moments_live")
     follows(1.0)
@@ -52,4 +53,70 @@ def test_live_numbers_follow_drag_escape_undo_and_animation(window):
     window.ask("bpy.context.scene.frame_set(21)")
     follows(3.0)
     assert "body_volume" not in window.get("list(bpy.context.object.keys())")
-    assert window.get(VOLUME) == pytest.approx(3.0 * TORUS, rel=1e-6)
+    assert window.get(TORUS_VOLUME) == pytest.approx(3.0 * TORUS, rel=1e-6)
+
+
+SPHERE_SCENE = """
+for obj in list(bpy.data.objects):
+    bpy.data.objects.remove(obj)
+bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32)
+bpy.ops.view3d.view_selected()
+bpy.ops.object.body_moments_measure()
+bpy.ops.object.body_moments_live()
+bpy.ops.object.mode_set(mode="SCULPT")
+"""
+SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
+FOLLOWING, STALENESS, RESULTS = (SESSION.format(name) for name in ("live.following", "tracking.staleness", "displayed"))
+SPHERE = "bpy.context.object"
+VOLUME = f"{FOLLOWING}.current_numbers({SPHERE}).measurement.volume"
+TRUTH = f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
+
+
+def stroke(window):
+    """Draw across the sphere; how far the numbers lag before the button is released."""
+    x, y, width, height = window.region("WINDOW")
+    x, y = x + width / 2, y + height / 2
+    window.move(x - 60, y)
+    window.get("True")
+    window._xdotool("mousedown", 1)
+    for step in range(8):
+        window.move(x - 60 + 15 * step, y + 8 * step)
+        window.get("True")
+    lag = window.get(f"str({FOLLOWING}.lag({SPHERE}))")
+    window._xdotool("mouseup", 1)
+    return lag
+
+
+def test_numbers_follow_a_stroke_when_it_stops(window):
+    window.ask(SPHERE_SCENE)
+    before = window.get(VOLUME)
+    assert stroke(window) == "behind"
+    window.wait(f"not {FOLLOWING}.lag({SPHERE}) and {VOLUME} != {before!r}")
+    truth = window.ask(TRUTH)
+    assert abs(truth / before - 1.0) > 1e-5
+    assert window.get(VOLUME) == pytest.approx(truth, rel=1e-6)
+    assert window.ask(f"result = {STALENESS}.stale_reason({SPHERE}, bpy.context.scene)") == "Geometry changed"
+    window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
+    assert "Traceback" not in window.output()
+
+
+def test_dynamic_topology_is_refused(window):
+    """The mesh that is drawn is then Sculpt Mode's own: numbers of the object's mesh are not those of what is seen."""
+    window.ask(SPHERE_SCENE)
+    window.open_tab("Moments")
+    window.ask("bpy.ops.sculpt.dynamic_topology_toggle()")
+    window.wait(f"{SPHERE}.use_dynamic_topology_sculpting")
+    stroke(window)
+    window.wait(f"{FOLLOWING}.current_numbers({SPHERE}).refusal is not None")
+    assert window.get(f"{FOLLOWING}.current_numbers({SPHERE}).refusal.code") == "sculpted_mesh"
+    window.press("object.body_moments_measure")
+    window.wait(f"{RESULTS}.failure({SPHERE}) is not None")
+    assert "Dyntopo" in window.get(f"str({RESULTS}.failure({SPHERE}))")
+    window.redraw()
+    window.picture("sculpt-dyntopo")
+    window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
+    truth = window.ask(TRUTH)
+    window.press("object.body_moments_measure")
+    window.wait(f"{STALENESS}.stale_reason({SPHERE}, bpy.context.scene) is None")
+    assert window.get(VOLUME) == pytest.approx(truth, rel=1e-6)
+    assert "Traceback" not in window.output()

@@ -26,7 +26,8 @@ def bracket_file(run_blender, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def window(run_blender, bracket_file, tmp_path_factory):
-    with open_window(run_blender, bracket_file, tmp_path_factory.mktemp("log")) as opened:
+    with open_window(run_blender, bracket_file, tmp_path_factory.mktemp("log"), size=(1600, 1000)) as opened:
+        opened.ask("bpy.context.preferences.system.viewport_aa = '8'")
         yield opened
 
 

@@ -4,17 +4,13 @@
 
 import pytest
 
-from tests.window.conftest import open_window
-from tests.window.test_subpanels import OPEN
+from tests.window.conftest import OPEN
 
 BUILD = """
-import sys
-
 import bmesh
-import bpy
 from mathutils import Matrix
-
-bpy.ops.wm.read_factory_settings(use_empty=True)
+for obj in list(bpy.data.objects):
+    bpy.data.objects.remove(obj)
 scene = bpy.context.scene
 armature = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
 scene.collection.objects.link(armature)
@@ -53,24 +49,20 @@ hat.matrix_parent_inverse = Matrix.Translation((0, 0.25, 0))
 armature.pose.bones["bone 2"].rotation_mode = "XYZ"
 armature.pose.bones["bone 2"].rotation_euler = (0.6, 0, 0)
 armature.select_set(True)
-bpy.ops.wm.save_as_mainfile(filepath=sys.argv[-1])
 """
 BONES = "bpy.data.objects['Rig'].pose.bones"
 
 
 @pytest.fixture(scope="module")
-def window(run_blender, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("rig")
-    script = folder / "rig.py"
-    script.write_text(BUILD, encoding="utf-8")
-    run_blender("--background", "--python-exit-code", "1", "--python", script, "--", folder / "rig.blend")
-    with open_window(run_blender, folder / "rig.blend", tmp_path_factory.mktemp("log")) as opened:
-        opened.ask(OPEN)
-        opened.open_tab("Moments")
-        yield opened
+def rig(window):
+    window.ask(BUILD)
+    window.ask(OPEN)
+    window.open_tab("Moments")
+    return window
 
 
-def test_bones_are_measured_and_drawn_in_their_pose(window):
+def test_bones_are_measured_and_drawn_in_their_pose(rig):
+    window = rig
     window.press("object.body_moments_measure_bones")
     window.wait(f"'body_mass' in {BONES}['bone 0']")
     masses = window.get(f"[bone['body_mass'] for bone in {BONES}]")
@@ -85,7 +77,8 @@ def test_bones_are_measured_and_drawn_in_their_pose(window):
     assert "Traceback" not in window.output()
 
 
-def test_the_bone_has_its_numbers_in_its_properties(window):
+def test_the_bone_has_its_numbers_in_its_properties(rig):
+    window = rig
     window.ask(
         "bpy.data.objects['Rig'].data.bones.active = bpy.data.objects['Rig'].data.bones['bone 3']\n"
         "editor = next(one for one in window.screen.areas if one.type == 'PROPERTIES')\n"
@@ -100,7 +93,8 @@ def test_the_bone_has_its_numbers_in_its_properties(window):
     assert "Traceback" not in window.output()
 
 
-def test_the_assembly_is_a_tree(window):
+def test_the_assembly_is_a_tree(rig):
+    window = rig
     window.ask(
         "bpy.ops.object.mode_set(mode='OBJECT')\n"
         "bpy.context.view_layer.active_layer_collection = bpy.context.view_layer.layer_collection.children['Character']"

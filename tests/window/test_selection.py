@@ -1,15 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of measured objects in the window: a click on a line selects, one on a column sorts, buttons copy and save,
-Live follows a drag."""
+"""The list of measured objects in the window: a click on a line selects, one on a column sorts, a button copies."""
 
 import csv
 import io
-import json
 
 import pytest
 
-from tests.window.test_subpanels import OPEN
+from tests.window.conftest import OPEN
 
 SCENE = """
 for obj in list(bpy.data.objects):
@@ -96,28 +94,6 @@ def test_a_click_on_a_line_selects_that_object(listed):
     window.redraw()
 
 
-def test_live_follows_a_drag_in_the_list_and_the_panel(listed):
-    window = listed
-    window.ask(
-        "bpy.ops.object.select_all(action='DESELECT')\nobj = bpy.data.objects['Large']\nobj.select_set(True)\n"
-        "bpy.context.view_layer.objects.active = obj"
-    )
-    window.press("object.body_moments_live")
-    module = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.displayed']"
-    volume = f"{module}.displayed(bpy.data.objects['Large'], bpy.context.scene).world.volume"
-    window.wait(f"abs({volume} - 27.0) < 1e-4")
-    window.ask("bpy.ops.object.mode_set(mode='EDIT')\nbpy.ops.mesh.select_all(action='SELECT')")
-    window.point_at_view()
-    window.type("s", "2")
-    window.wait(f"abs({volume} - 216.0) < 1e-3")
-    window.redraw()
-    window.picture("list-live")
-    window.key("Escape")
-    window.wait(f"abs({volume} - 27.0) < 1e-4")
-    window.ask("bpy.ops.object.mode_set(mode='OBJECT')")
-    assert window.get("bpy.data.objects['Large']['body_volume']") == pytest.approx(27.0, rel=1e-6)
-
-
 def center(window, operator):
     """The middle of a button."""
     x, y = window.place(operator)
@@ -178,34 +154,3 @@ def test_columns_sort_and_warnings_come_first_on_request(three):
     results = "bl_ext.user_default.body_moments.blender.session.displayed"
     total = f"__import__('sys').modules['{results}'].total(bpy.context)"
     assert window.get(f"[{total}.count, {total}.stale, {total}.doubtful]") == [3, ["C"], []]
-
-
-@pytest.mark.parametrize("ending", ["csv", "json"])
-def test_the_numbers_are_saved_through_the_file_browser(three, ending, tmp_path):
-    window, path = three, tmp_path / f"numbers.{ending}"
-    window.ask(
-        "bpy.context.preferences.view.filebrowser_display_type = 'SCREEN'\nbpy.ops.object.select_all(action='SELECT')"
-    )
-    window.redraw()
-    window.press("object.body_moments_save_numbers")
-    window.wait("area.type == 'FILE_BROWSER' and area.spaces.active.params is not None")
-    window.ask(
-        f"params = area.spaces.active.params\nparams.directory = {str(tmp_path).encode()!r}\n"
-        f"params.filename = {path.name!r}"
-    )
-    window.redraw()
-    window.picture("list-save")
-    window.move(800, 500)
-    window.key("Return")
-    window.wait("area.type == 'VIEW_3D'")
-    window.wait(f"__import__('pathlib').Path({str(path)!r}).is_file()")
-    text = path.read_text(encoding="utf-8")
-    masses = {name: window.get(f"bpy.data.objects[{name!r}]['body_mass']") for name in "ABC"}
-    if ending == "csv":
-        saved = {row["name"]: float(row["mass"]) for row in csv.DictReader(io.StringIO(text))}
-    else:
-        document = json.loads(text)
-        saved = {entry["name"]: entry["mass"] for entry in document["objects"]}
-        assert document["total"]["mass"] == pytest.approx(sum(masses.values()), rel=1e-12)
-    assert saved == masses
-    assert "Traceback" not in window.output()

@@ -50,7 +50,7 @@ from ..findings import (
 from ..wire import curves_in_world
 
 FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the fill is wrong
-# codes of refusals: the object is no body; it is not flat either, so that the first refusal is shown
+# Codes of refusals: that an object is no body; and that it is not flat either, so that the first refusal is shown.
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
@@ -104,10 +104,6 @@ class FlatRegion:
         if not np.isfinite([moments.raw, moments.rounding_error, moments.input_error]).all():
             raise ReadError(MOMENTS_OVERFLOW, order=order)
         return moments
-
-    def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
-        return np.append(project(self.plane, np.asarray(point, np.float64)[None])[0], 0.0)
 
 
 def flat_region(

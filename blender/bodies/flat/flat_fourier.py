@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.flat.section import foot
 from ....core.fourier.polygon import RegionTransform
 from ....core.fourier.spectrum import Spectrum
 from ....core.fourier.wave_vectors import FrequencyGrid
@@ -55,10 +56,10 @@ def flat_transform(
     """
     region = flat_region(obj, depsgraph, selected=False, exact=False, unit=unit)
     findings = (*region.findings, *area_findings(region, region.moments(1).total))
-    foot = region.foot(np.zeros(3) if frame == "world" else region.location)
     plane = region.plane
-    origin = plane.origin + plane.axes @ foot
+    at = foot(plane, np.zeros(3) if frame == "world" else region.location)
+    origin = plane.origin + plane.axes @ at
     if callable(q):
         q = q(float(np.ptp(region.used, axis=0).max()))
-    transform = RegionTransform(region.points - foot[:2], region.edges, q, region.rounded, region.stored)
+    transform = RegionTransform(region.points - at[:2], region.edges, q, region.rounded, region.stored)
     return FlatTransform(obj.name, transform, {"axes": plane.axes[:, :2].T, "origin": origin}, findings)

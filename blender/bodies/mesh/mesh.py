@@ -101,7 +101,9 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
         solid = measure_solid(part.surface, shell=shell, threads=threads)
         matrices = to_si(part.matrices, unit)
         volumes.append(sum_of_images(solid.volume, matrices))
-        image_areas = list(area_of_instances(part.surface, solid.area, matrices, _area(threads) if shell else None))
+        image_areas = list(
+            area_of_instances(solid.given_surface, solid.area, matrices, _area(threads) if shell else None)
+        )
         areas.extend(image_areas)
         total = float(solid.volume.raw[0])
         stretch = float(volumes[-1].raw[0]) / total if total else 0.0  # Σ |det|
@@ -140,7 +142,6 @@ def _sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) 
             [len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads) for solid, _ in parts]
         ),
         solids=tuple(parts),
-        sheets=tuple([part.surface for part in reading.parts]),
         threads=threads,
     )
 
@@ -177,7 +178,6 @@ def _single_surface_body(
     findings: Iterable[Finding],
     solid: SolidIntegrals,
     matrix: NDArray[np.float64],
-    surface: Surface,
     threads: int,
 ) -> MeshBody:
     """Return the body of one surface in one place."""
@@ -190,7 +190,6 @@ def _single_surface_body(
         tuple(findings),
         face_count=len(solid.repaired_surface.triangles) + len(solid.repaired_surface.quads),
         solids=tuple(solids),
-        sheets=(surface,),
         threads=threads,
     )
 
@@ -236,6 +235,5 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         (*findings, *_of_drawn(solid.findings, reading.parts, _drawn(reading))),
         solid,
         np.eye(4),
-        surface,
         threads,
     )

@@ -16,19 +16,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.inertia.canonical_frame import MAX_ORDER
-from ....core.inertia.mass_properties import MassProperties
+from ....core.inertia.mass_properties import MassProperties, has_certain_total
 from ....core.inertia.principal_frames import OwnMoments
 from ....core.inertia.third_moment_frames import third_moment_frames
-from ....core.measurement.builder import build_measurement
+from ....core.measurement.builder import build_measurement, find_large_bounds
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
 from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
-from ....core.moments.moments import Moments, image, stack_moments
+from ....core.moments.moments import Moments, image, join_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
 from ....core.polyhedron.sheared_areas import area_of_images
-from ....core.solid.measure import SolidIntegrals, measure_solid
+from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
@@ -88,32 +88,25 @@ class MeshShape:
 
 def measure_shapes(shapes: list[MeshShape]) -> tuple[Moments, Moments]:
     """Measure shapes in their own coordinates; return volumes to third order and areas, stacked by `row`."""
-    small = [shape for shape in shapes if can_be_stacked(shape.surface)]
-    volumes: list[Moments] = []
-    areas: list[Moments] = []
+    stackable = can_be_stacked([shape.surface for shape in shapes])
+    small = [shape for shape, is_stackable in zip(shapes, stackable) if is_stackable]
+    stacks: list[tuple[Moments, Moments]] = []
     if small:
         solids = measure_stack([shape.surface for shape in small])
-        volumes, areas = [solids.volume], [solids.area]
-        for i in np.flatnonzero(solids.is_measured).tolist():
-            small[i].row, small[i].solids, small[i].findings = i, solids, solids.findings(i)
-            small[i].method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
-    others = []
-    for shape in shapes:
-        if shape.solids is None:
-            solid = shape.alone = measure_solid(shape.surface)
-            shape.row, shape.method, shape.findings = len(small) + len(others), METHODS[solid.method], solid.findings
-            others.append(solid)
-    if others:
-        volumes.append(stack_moments([solid.volume for solid in others]))
-        areas.append(stack_moments([solid.area for solid in others]))
-    return _join_moments(volumes), _join_moments(areas)
-
-
-def _join_moments(stacks: list[Moments]) -> Moments:
-    if len(stacks) == 1:
-        return stacks[0]
-    names = "raw", "about", "rounding_error", "input_error"
-    return replace(stacks[0], **{name: np.concatenate([getattr(stack, name) for stack in stacks]) for name in names})
+        stacks.append((solids.volume, solids.area))
+        for i, (shape, is_measured) in enumerate(zip(small, solids.is_measured.tolist())):
+            if is_measured:
+                shape.row, shape.solids, shape.findings = i, solids, solids.findings(i)
+                shape.method = METHODS[Verdict.CAPPED if solids.caps.is_capped[i] else Verdict.EXACT]
+            else:
+                shape.alone = measure_left_over(solids, i, shape.surface)
+    left_over = [shape for shape in shapes if shape.solids is None]
+    for row, shape in enumerate(left_over, len(small)):
+        solid = shape.alone = shape.alone or measure_solid(shape.surface)
+        shape.row, shape.method, shape.findings = row, METHODS[solid.method], solid.findings
+        stacks.append((solid.volume.at(None), solid.area.at(None)))
+    volume, area = (join_moments(parts) for parts in zip(*stacks))
+    return volume, area
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,7 +255,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     from_mass = ~np.isnan(mass)
     with np.errstate(divide="ignore", invalid="ignore"):
         density = np.where(from_mass, mass / volume.raw[:, 0], density)
-    certain = (volume.raw[:, 0] > volume.rounding_error[:, 0]) & (density > 0.0) & (density < np.inf)
+    certain = has_certain_total(volume) & (density > 0.0) & (density < np.inf)
     rows = np.flatnonzero(certain)
     fixed = third_moment_frames(volume.at(rows))
     if not fixed.is_body.all():  # the others are refused by themselves
@@ -309,13 +302,13 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         rotation,
         np.array([member.location for member in members]) * unit,
         [fingerprint(numbers, key, member.digest) for numbers, key, member in zip(geometry, keys, members)],
-        [_findings(member) for member in members],
+        [_findings(*each) for each in zip(members, find_large_bounds(volume, area, properties))],
     )
 
 
-def _findings(member: StackMember) -> tuple[Finding, ...]:
-    """Return the findings about the member's shape, with the object's accepted ones marked."""
-    found = member.shape.findings
+def _findings(member: StackMember, bounds: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    """Return the findings about the member's shape and `bounds`, with the object's accepted ones marked."""
+    found = member.shape.findings + bounds
     return with_acceptance(found, accepted_codes(member.obj)) if found else ()
 
 
@@ -339,7 +332,9 @@ def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Mome
     regular[~even, :3, :3] = np.eye(3)
     placed = _placed(area, regular)
     for i in np.flatnonzero(~even).tolist():
-        found = area_of_images(members[i].shape.surface, matrices[i : i + 1, :3, :3])
+        shape = members[i].shape
+        surface = shape.surface if shape.alone is None else shape.alone.given_surface
+        found = area_of_images(surface, matrices[i : i + 1, :3, :3])
         for name in ("raw", "rounding_error", "input_error", "about"):
             getattr(placed, name)[i] = getattr(found, name)
     return placed

@@ -23,8 +23,9 @@ from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.inertia.mass_properties import affine_image
+from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.body import Body
-from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.measurement.measurement import Measurement
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
@@ -40,7 +41,7 @@ from ...read.objects import read_patches
 from ...read.reading import float64_matrix
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
-from ...write.numbers import StoredProperties
+from ...settings.resolve import object_settings
 from ..tracking import handlers, updates
 from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface
@@ -53,14 +54,14 @@ POLL = 0.1  # s between two checks whether these can begin
 _last_event = 0.0  # time of the last update
 
 
-def map_properties(obj: Object, current: Followed, measured: Measurement, scene: Scene) -> StoredProperties:
+def map_properties(obj: Object, current: Followed, measured: Measurement, scene: Scene) -> PlainBody:
     """Return the numbers of an object with Live on, in its own frame, mapped to its place and stretch."""
-    shown = StoredProperties.of_body(
+    shown = PlainBody.of_body(
         measured.in_object_frame(), measured.density, measured.volume, measured.area, measured.error_bound
     )
     if current.first_order is None and has_transform(obj, current.transform):
         return shown
-    return _mapped(obj, current, measured, shown, shortest_decimal(scene.unit_settings.scale_length))
+    return _mapped(obj, current, measured, shown, scene)
 
 
 def is_of_another_scale(obj: Object, current: Followed) -> bool:
@@ -83,14 +84,12 @@ def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArra
     return now @ np.linalg.inv(before)
 
 
-def _mapped(
-    obj: Object, current: Followed, measured: Measurement, shown: StoredProperties, unit: float
-) -> StoredProperties:
+def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainBody, scene: Scene) -> PlainBody:
     """Return the numbers mapped to the current matrix; volume and center are those of the last light pass, if any."""
     linear = _linear_map(obj, current, measured)
     if linear is None or current.matrix is None:
         return shown
-    now = float64_matrix(obj.matrix_world)
+    now, unit = float64_matrix(obj.matrix_world), shortest_decimal(scene.unit_settings.scale_length)
     to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
@@ -103,13 +102,14 @@ def _mapped(
         center = now[:3, :3] @ center + now[:3, 3]
     if not volume > 0.0:
         return shown
-    is_mass_given = measured.density_from == DENSITY_FROM_MASS
-    mass = measured.mass_properties.mass if is_mass_given else measured.mass_properties.mass / measured.volume * volume
+    mass = measured.mass_properties.mass
+    if object_settings(obj, scene).mass is None:
+        mass *= volume / measured.volume
     axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ np.transpose(shown.axes)
     image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
     location = now[:3, 3] * unit
     area = shown.area * stretch ** (2.0 / 3.0)
-    return StoredProperties.of_body(image.in_frame(to_own.T, location), mass / volume, volume, area, shown.error_bound)
+    return PlainBody.of_body(image.in_frame(to_own.T, location), mass / volume, volume, area, shown.error_bound)
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
@@ -127,7 +127,7 @@ def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:
     current.result = result
     current.matrix, current.transform = float64_matrix(obj.matrix_world), transform_key(obj)
     current.first_order, current.is_pending, current.number = None, False, updates.count()
-    handlers.count_change()
+    handlers.count_change(obj)
     return result
 
 
@@ -140,7 +140,7 @@ def start(obj: Object, depsgraph: Depsgraph) -> LiveResult:
 def stop(obj: Object) -> None:
     """Turn Live off for an object."""
     followed.forget(obj)
-    handlers.count_change()
+    handlers.count_change(obj)
 
 
 def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Measurement, MovingSurface | None]:

@@ -27,6 +27,7 @@ from ...bodies.mesh.hull import object_hull
 from ...read.objects import read_object
 from ...read.reading import float64_matrix
 from ...scene.findings import OPEN_OBJECT
+from ...settings.resolve import object_settings
 from ..tracking import updates
 
 MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured
@@ -107,7 +108,7 @@ class Motion:
         offsets = [shapes[name] - shapes[blocks[name].relative_key.name] for name in keys]
         followed.mixes, followed.keys = fit_mixes(surface, offsets), keys
         followed.triangles, _ = surface.all_triangles()
-        followed.density, followed.given_mass = measurement.density, _given_mass(obj)
+        followed.density, followed.given_mass = measurement.density, object_settings(obj, depsgraph.scene).mass
         return True
 
 
@@ -160,7 +161,7 @@ def _measured(
     if measurement.method.verdict == Verdict.OPEN:
         raise EditRefusedError(OPEN_OBJECT, subject=obj.name)
     moments, factor = measurement.mass_moments
-    followed.given_mass = _given_mass(obj)
+    followed.given_mass = object_settings(obj, depsgraph.scene).mass
     followed.moments = None
     if _can_map(moments, matrix):
         followed.moments = (moments.truncate(1) * factor).transform(np.linalg.inv(_in_si(matrix, unit)))
@@ -168,15 +169,10 @@ def _measured(
 
 
 def _can_map(moments: Moments, matrix: NDArray) -> bool:
-    """Return whether a matrix can map the moments: none if singular, of areas and lengths only a similarity."""
+    """Return whether a matrix can map the moments: it is not singular, and a similarity for areas and lengths."""
     if are_singular(matrix[None, :3, :3])[0]:
         return False
     return moments.measure in (Measure.VOLUME, Measure.MASS) or bool(are_similarities(matrix[None, :3, :3])[0])
-
-
-def _given_mass(obj: Object) -> float | None:
-    settings = obj.body_moments
-    return shortest_decimal(settings.mass) if settings.mass_from == "MASS" else None
 
 
 def _in_si(matrix: NDArray, unit: float) -> NDArray[np.float64]:

@@ -10,14 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import sqrt
+from math import dist, hypot
 
 import bpy
-import numpy as np
 from bpy.types import Context, Object
-from mathutils import Vector
-from numpy.typing import NDArray
 
+from ....core.inertia.plain_body import PlainBody
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity
@@ -112,27 +110,20 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
     handlers.count_change()
 
 
-def _member_bodies(root: Member) -> dict[Object, tuple[float, NDArray[np.float64], float]]:
-    """Return each member's stored mass, its center in the world and its radius of gyration, in SI units."""
-    bodies = {}
-    for member in root.walk():
-        if member.kind == MemberKind.OBJECT and member.is_measured:
-            obj = member.data
-            stored = properties.stored(obj)
-            if stored is None:
-                continue
-            location, rotation, _scale = obj.matrix_world.decompose()
-            unit = bpy.context.scene.unit_settings.scale_length
-            center = np.array(rotation @ Vector(stored.center) + location * unit, np.float64)
-            bodies[obj] = stored.mass, center, sqrt(sum(stored.inertia[:3]) / 2.0 / stored.mass)
-    return bodies
+def _member_bodies(root: Member) -> dict[Object, PlainBody]:
+    """Return each member's stored results in the world."""
+    unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
+    objects = [member.data for member in root.walk() if member.kind == MemberKind.OBJECT and member.is_measured]
+    stored = [(obj, properties.stored(obj)) for obj in objects]
+    return {obj: body.in_world(obj.matrix_world, unit) for obj, body in stored if body is not None}
 
 
-def _is_same(before: tuple[float, NDArray, float], now: tuple[float, NDArray, float]) -> bool:
+def _is_same(before: PlainBody, now: PlainBody) -> bool:
+    size, size_now = hypot(*before.gyration), hypot(*now.gyration)
     return (
-        abs(now[0] - before[0]) <= SAME_RTOL * before[0]
-        and float(np.linalg.norm(now[1] - before[1])) <= SAME_RTOL * max(before[2], float(np.abs(now[1]).max()))
-        and abs(now[2] - before[2]) <= SAME_RTOL * before[2]
+        abs(now.mass - before.mass) <= SAME_RTOL * before.mass
+        and dist(now.center, before.center) <= SAME_RTOL * max(size, *map(abs, now.center))
+        and abs(size_now - size) <= SAME_RTOL * size
     )
 
 

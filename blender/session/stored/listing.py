@@ -9,7 +9,7 @@ from enum import StrEnum
 from bpy.types import Object, Scene, ViewLayer
 
 from ...write.units import Units
-from ..displayed import Displayed, Trust, drawn
+from ..displayed import Displayed, Trust, all_drawn
 from ..tracking import handlers
 from ..tracking.cache import SessionCache, current_value
 
@@ -45,15 +45,17 @@ def listed_masses(scene: Scene, view_layer: ViewLayer) -> dict[int, str]:
     units = Units.from_settings(scene.unit_settings)
 
     def list_masses() -> dict[int, str]:
-        bodies = {obj.session_uid: body for obj in view_layer.objects if (body := drawn(obj, scene)) is not None}
-        return dict(zip(bodies, units.texts("mass", [body.world.mass for body in bodies.values()])))
+        objects = list(view_layer.objects)
+        masses = {obj: body.world.mass for obj, body in zip(objects, all_drawn(objects, scene)) if body is not None}
+        return dict(zip([obj.session_uid for obj in masses], units.texts("mass", list(masses.values()))))
 
     return current_value(_masses, scene, (handlers.generation(), view_layer.name, units), list_masses)
 
 
 def _listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
     objects = list(view_layer.objects)
-    bodies = [drawn(obj, scene) if name in obj.name.lower() else None for obj in objects]
+    all_bodies = zip(objects, all_drawn(objects, scene))
+    bodies = [body if name in obj.name.lower() else None for obj, body in all_bodies]
     order = sorted(range(len(objects)), key=lambda i: _rank(objects[i], bodies[i], sort_by, warnings_first))
     lines = [0] * len(objects)
     for line, i in enumerate(order):

@@ -19,7 +19,7 @@ from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.flat.regions import plane_positions
-from ....core.flat.section import project
+from ....core.flat.section import foot
 from ....core.flat.section_properties import Plane
 from ....core.inertia.findings import MOMENTS_OVERFLOW
 from ....core.inertia.reference import Reference
@@ -57,10 +57,6 @@ class FlatMoments:
 
     moments: Moments
     plane: Plane
-
-    def foot(self, point: NDArray) -> NDArray[np.float64]:
-        """Return the (3,) foot of a point of the world on the plane, in the plane's axes."""
-        return np.append(project(self.plane, np.asarray(point, np.float64)[None])[0], 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,7 +274,7 @@ def _in_plane(computed: ComputedMoments, about: str, frame: str, order: int, ref
         return moments.about_center()
     origin = np.zeros(3) if frame == "WORLD" else computed.location
     assert flat is not None
-    return moments.about_point(flat.foot(origin if reference is None else reference.origin))
+    return moments.about_point(foot(flat.plane, origin if reference is None else reference.origin))
 
 
 def _in_frame(computed: ComputedMoments, of: str, about: str, frame: str, order: int) -> Moments:

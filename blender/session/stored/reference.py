@@ -13,13 +13,13 @@ import bpy
 from bpy.types import Collection, Object, Scene
 
 from .... import core
+from ....core.inertia.plain_body import PlainBody
 from ....core.inertia.reference import ReferredInertia
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.reference import ReferenceChoice
 from ...write import properties
 from ...write.findings import NO_STORED_RESULTS
-from ...write.numbers import StoredProperties
 from ..tracking import staleness
 
 
@@ -33,7 +33,7 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
     if body is None:
         return None
     try:
-        return choice.resolve(owner, scene, body.center).refer(body.mass, body.center, body.inertia, body.bounds)
+        return choice.resolve(owner, scene, body.center).refer(body)
     except MeasureError as error:
         return error.finding
 
@@ -48,7 +48,7 @@ def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | No
     if body is None:
         raise QueryError(NO_STORED_RESULTS, subject=owner.name)
     properties.require_storable(owner)
-    result = choice.resolve(owner, scene, body.center).refer(body.mass, body.center, body.inertia, body.bounds)
+    result = choice.resolve(owner, scene, body.center).refer(body)
     bounds = result.rounding_error, result.input_error
     values = {
         "body_reference": choice.text,
@@ -77,7 +77,7 @@ def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | N
             store(owner, scene, choice)
 
 
-def _stored_body(owner: Object | Collection, scene: Scene) -> StoredProperties | None:
+def _stored_body(owner: Object | Collection, scene: Scene) -> PlainBody | None:
     """Return the stored results in world axes, or None if there are none."""
     stored = properties.stored(owner)
     if stored is None:

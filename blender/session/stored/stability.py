@@ -59,7 +59,7 @@ def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     hull = object_hull(obj, depsgraph)
     _remembered[obj] = _Remembered(hull)
     staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, updates.count()), depsgraph)
-    handlers.count_change()
+    handlers.count_change(obj)
     return hull
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.types import Collection, Depsgraph, Object, Scene
+from bpy.types import ID, Collection, Depsgraph, Object, Scene
 
 from . import cache
 
@@ -40,11 +40,12 @@ class Updates:
 
 
 on_update: list[Callable[[Updates], None]] = []
+on_note: list[Callable[[ID | None], None]] = []  # a counted change of one object, or of any
 before_undo: list[Callable[[], None]] = []
 on_undo: list[Callable[[], None]] = []  # undo and redo: before the update that follows them
 on_load: list[Callable[[], None]] = []  # after all caches were emptied
 on_save: list[Callable[[], None]] = []
-LISTS = on_update, before_undo, on_undo, on_load, on_save
+LISTS = on_update, on_note, before_undo, on_undo, on_load, on_save
 
 _generation = 0
 
@@ -54,13 +55,14 @@ def generation() -> int:
     return _generation
 
 
-def count_change() -> None:
-    """Count a change, also one that Blender does not report, such as a new note about an object."""
+def count_change(data: ID | None = None) -> None:
+    """Count a change that Blender does not report, such as a new note about an object; by default, of any object."""
     global _generation
     _generation += 1
+    _call(on_note, data)
 
 
-def _call(subscribers: Sequence[Callable[..., None]], *args: Updates) -> None:
+def _call(subscribers: Sequence[Callable[..., None]], *args: Updates | ID | None) -> None:
     # Call all of them in order, even if one fails: its error is raised after the others were called.
     with ExitStack() as calls:
         for subscriber in reversed(subscribers):
@@ -95,7 +97,8 @@ def _on_frame(scene: Scene, depsgraph: Depsgraph | None = None) -> None:
 
 
 def _note_update(scene: Scene, depsgraph: Depsgraph | None, frame_changed: bool) -> None:
-    count_change()
+    global _generation
+    _generation += 1
     if depsgraph is not None and depsgraph.mode == "VIEWPORT":
         _call(on_update, _updates(scene, depsgraph, frame_changed))
 
@@ -107,7 +110,8 @@ def _before_undo(*_args) -> None:
 
 @persistent
 def _on_undo(*_args) -> None:
-    count_change()
+    global _generation
+    _generation += 1  # the update that follows names the restored objects
     _call(on_undo)
 
 

@@ -196,7 +196,7 @@ def mark_object(obj: Object) -> None:
     """Mark the stored results as up to date with an original object's current geometry."""
     _resolved[obj.session_uid] = updates.count()
     set_edited(obj, properties.fingerprint(obj), False)
-    handlers.count_change()
+    handlers.count_change(obj)
 
 
 def replace_stamp(obj: Object, before: str) -> None:
@@ -239,7 +239,7 @@ def set_edited(obj: Object, text: str, is_edited: bool) -> None:
     """Note whether the geometry behind the stamp with this text has changed."""
     noted = _edited_stamps(obj)
     if is_edited != (text in noted):
-        handlers.count_change()
+        handlers.count_change(obj)
         _edited[obj] = noted | {text} if is_edited else noted - {text}
 
 
@@ -274,7 +274,7 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
     shape = shape or read.shapes.shape_digest(obj, depsgraph)
-    if shape is not None:  # else the shape of another object with these very numbers still holds
+    if shape is not None:  # else the digest of an equal object with the same stamp still holds
         _shapes[stamp.text] = shape
 
 

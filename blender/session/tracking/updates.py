@@ -36,7 +36,6 @@ NEVER = Update(0, 0, "")
 _edits: dict[int, Update] = {}  # updates of geometry that may be edits
 _returns: dict[int, Update] = {}  # updates of geometry that are no edits
 _moves: dict[int, Update] = {}  # updates of the transform alone
-_touches: dict[int, Update] = {}  # all other updates
 _count = 0  # updates
 _set_since: set[int] = set()  # session uids of objects with settings changed since the last update
 _undo_pending = False  # true if the next update is that of undo or redo
@@ -66,23 +65,18 @@ def shown_by(obj: Object) -> Iterator[ID]:
             yield settings.instance_collection
 
 
-def density_source(obj: Object) -> Object | None:
-    """Return the Volume object that the density comes from, or None; its shape matters, its place is a setting."""
-    settings = obj.body_moments
-    return settings.density_volume if settings.density_from == "VOLUME" else None
-
-
-def last_edit(obj: Object, since: int = 0) -> Update:
+def last_edit(obj: Object) -> Update:
     """Return the last update of an original object, or of its instances, that may be an edit.
 
-    since: number of an update. Return `NEVER` if no edit came after it.
+    The shape of the Volume object that its density comes from matters, too; the place of that object is a setting.
     """
     last = _edits.get(obj.session_uid, NEVER)
     for shown in shown_by(obj):
         last = max(last, *[stamps.get(shown.session_uid, NEVER) for stamps in (_edits, _moves)])
-    if (source := density_source(obj)) is not None:
-        last = max(last, _edits.get(source.session_uid, NEVER))
-    return last if last.number > since else NEVER
+    settings = obj.body_moments
+    if settings.density_from == "VOLUME" and settings.density_volume is not None:
+        last = max(last, _edits.get(settings.density_volume.session_uid, NEVER))
+    return last
 
 
 def last_since(obj: Object, since: int) -> tuple[Update, Update]:
@@ -90,20 +84,13 @@ def last_since(obj: Object, since: int) -> tuple[Update, Update]:
 
     since: number of an update. The edit is `NEVER` if it did not come after this update.
     """
-    edit = last_edit(obj, since)
-    return edit, max(edit, _returns.get(obj.session_uid, NEVER))
+    edit = last_edit(obj)
+    return edit if edit.number > since else NEVER, max(edit, _returns.get(obj.session_uid, NEVER))
 
 
 def last_change_of_geometry(obj: Object) -> int:
     """Return the number of the last update of an object's geometry or its instances, whether an edit or not."""
     return last_since(obj, 0)[1].number
-
-
-def last_change_and_move(obj: Object) -> tuple[int, int]:
-    """Return the numbers of the last update of an object or of its instances, and of its transform alone."""
-    uid = obj.session_uid
-    change = max(last_change_of_geometry(obj), _touches.get(uid, NEVER).number)
-    return change, _moves.get(uid, NEVER).number
 
 
 def depsgraph_of(stamp: Update) -> Depsgraph | None:
@@ -128,7 +115,6 @@ def note_updates(updates: handlers.Updates) -> None:
         edits = _edited_by_undo(updates)
         _edits.update(dict.fromkeys(edits, stamp))
         _returns.update(dict.fromkeys([uid for uid in updates.reshaped if uid not in edits], stamp))
-        _touches.update(dict.fromkeys((*updates.moved, *updates.others), stamp))
         return
     reshaped: Iterable[int] = updates.reshaped
     if changed_settings and not updates.frame_changed:
@@ -139,7 +125,6 @@ def note_updates(updates: handlers.Updates) -> None:
         (_edits, reshaped),
         (_edits, updates.collections),
         (_moves, updates.moved),
-        (_touches, updates.others),
     ):
         stamps.update(dict.fromkeys(uids, stamp))
 
@@ -167,5 +152,5 @@ def forget_file() -> None:
     """Forget all updates."""
     global _undo_pending, _count
     _undo_pending, _count = False, 0
-    for remembered in (_edits, _returns, _moves, _touches, _set_since):
+    for remembered in (_edits, _returns, _moves, _set_since):
         remembered.clear()

@@ -12,11 +12,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ....core.cad.obj_text import check_obj_text
 from ....core.streams.misread import Data, map_file
 from .fbx import check_fbx
 from .gltf import Buffers, check_gltf, unquote
-from .ply import check_ply
-from .stl_obj import check_obj, check_stl
 
 __all__ = ["Buffers", "check_numbers", "unquote"]
 
@@ -29,9 +28,7 @@ def check_numbers(path: str, kind: str) -> None:
 
 
 _CHECKS: dict[str, Callable[[Data, str], None]] = {
-    ".stl": check_stl,
-    ".obj": check_obj,
-    ".ply": check_ply,
+    ".obj": lambda data, _path: check_obj_text(data),
     **dict.fromkeys((".glb", ".gltf"), check_gltf),
     ".fbx": check_fbx,
 }

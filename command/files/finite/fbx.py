@@ -9,7 +9,6 @@ import struct
 import zlib
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,16 +20,8 @@ from .numbers import BLOCK, MALFORMED, bad_in_table, refuse
 
 _FBX_MAGIC = b"Kaydara FBX Binary  \0\x1a\0"
 _FBX_TYPES = {b"d": np.dtype("<f8"), b"f": np.dtype("<f4")}
-
-
-@dataclass(frozen=True)
-class FbxNode:
-    """A node of a binary FBX file: start of its properties, start of its children, and its end."""
-
-    name: bytes
-    properties: int
-    children: int
-    end: int
+# The end of a node's head: its name behind its length, and the type of its first property, an array.
+_FBX_VERTICES = re.compile(rb"\x08Vertices(?=[df])")
 
 
 def check_fbx(data: Data, _path: str) -> None:
@@ -38,18 +29,14 @@ def check_fbx(data: Data, _path: str) -> None:
     if data[:23] != _FBX_MAGIC:
         _check_ascii_fbx(data)
         return
-    with suppress(*MALFORMED):
-        wide = struct.unpack_from("<I", data, 23)[0] >= 7500
-        file = FbxNode(b"", 27, 27, len(data))
-        for objects in _fbx_children(data, file, wide, b"Objects"):
-            for geometry in _fbx_children(data, objects, wide, b"Geometry"):
-                for vertices in _fbx_children(data, geometry, wide, b"Vertices"):
-                    count, first = 0, 0
-                    for begin, numbers in _fbx_array(data, vertices.properties):
-                        more, row = bad_in_table(numbers[:, None])
-                        first = first if count else (begin + row) // 3
-                        count += more
-                    refuse(count, finding(AT_ROW, element="vertex", row=first))
+    for vertices in _FBX_VERTICES.finditer(data):
+        with suppress(*MALFORMED):
+            count, first = 0, 0
+            for begin, numbers in _fbx_array(data, vertices.end()):
+                more, row = bad_in_table(numbers[:, None])
+                first = first if count else (begin + row) // 3
+                count += more
+            refuse(count, finding(AT_ROW, element="vertex", row=first))
 
 
 _FBX_ARRAY = re.compile(rb"Vertices(?<!\wVertices)\s*:(?:\s*\*\d+\s*\{\s*a\s*:)?")
@@ -67,20 +54,6 @@ def _check_ascii_fbx(data: Data) -> None:
             if fault is not None:
                 refuse_line(data, numbers.end(), fault)
             numbers = None if word is None else _FBX_NUMBERS.match(data, word.end())
-
-
-def _fbx_children(data: Data, parent: FbxNode, wide: bool, name: bytes) -> Iterator[FbxNode]:
-    """Yield the child nodes with a name."""
-    head = struct.Struct("<QQQB" if wide else "<IIIB")
-    at = parent.children
-    while at + head.size <= parent.end:
-        end, _, length, name_length = head.unpack_from(data, at)
-        begin = at + head.size + name_length
-        if end <= at:  # nothing follows
-            return
-        if data[at + head.size : begin] == name:
-            yield FbxNode(name, begin, begin + length, end)
-        at = end
 
 
 def _fbx_array(data: Data, at: int) -> Iterator[tuple[int, NDArray]]:

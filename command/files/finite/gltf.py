@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
+from ....core.streams.findings import AT_ROW
 from ....core.streams.misread import MAX_FLOAT32, Data, map_file
 from ....core.verdict.finding import FileError, finding
-from ...findings import AT_GLTF_ROW, MISSING_REFERENCES
+from ...findings import MISSING_REFERENCES
 from .numbers import MALFORMED, bad_in_table, refuse
 
 _GLTF_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
@@ -34,13 +35,13 @@ def check_gltf(data: Data, path: str) -> None:
         nodes = document.get("nodes", [])
         for number, node in enumerate(nodes):
             count = _bad_numbers(one for key in _OF_NODES for one in node.get(key, ()))
-            refuse(count, finding(AT_GLTF_ROW, row=0, part="node", name=node.get("name") or str(number)))
+            refuse(count, finding(AT_ROW, element="node", row=node.get("name") or number))
         for number, mesh in _placing_accessors(document).items():
             accessor = document["accessors"][number]
             count, first = _bad_in_accessor(buffers, accessor)
-            part, name = ("accessor", str(number)) if mesh is None else ("mesh", mesh)
+            where = "accessor {}".format(number) if mesh is None else "mesh “{}”".format(mesh)
             count += _bad_numbers([*accessor.get("min", ()), *accessor.get("max", ())])
-            refuse(count, finding(AT_GLTF_ROW, row=first, part=part, name=name))
+            refuse(count, finding(AT_ROW, element=where + ", row", row=first))
 
 
 def _bad_numbers(numbers: Iterable[float]) -> int:

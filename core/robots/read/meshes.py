@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ...cad.obj_text import check_obj_text
+from ...cad.obj_mesh import read_obj_faces
 from ...mesh.surface import Surface
 from ...numerics.rotations import rotation_matrix
 from ...scans.findings import FILE_TYPE
@@ -67,29 +67,14 @@ def _read_mesh(path: Path) -> tuple[Surface, NDArray[np.float64] | None]:
 
 def read_stl(path: Path) -> Arrays:
     """Return points and triangles of binary or text STL, with equal corners as one point."""
-    corners = [np.zeros((0, 3)), *(piece.points for piece in StlFile(path).pieces())]
-    points, index = np.unique(np.concatenate(corners), axis=0, return_inverse=True)
-    return points, index.reshape(-1, 3)
+    mesh = StlFile(path).mesh()
+    return mesh.points.astype(np.float64), mesh.corners.reshape(-1, 3)
 
 
 def read_obj(path: Path) -> Arrays:
     """Return points and triangles of all objects of an OBJ; larger faces are cut into fans."""
-    data = path.read_bytes()
-    check_obj_text(data)
-    points: list[bytes] = []
-    sizes: list[int] = []
-    corners: list[int] = []
-    for line in data.replace(b"\\\n", b" ").splitlines():
-        words = line.split()
-        if not words:
-            continue
-        if words[0] == b"v":
-            points += words[1:4]
-        elif words[0] == b"f":
-            indices = [int(word.partition(b"/")[0]) for word in words[1:]]
-            sizes.append(len(indices))
-            corners += [index - 1 if index > 0 else len(points) // 3 + index for index in indices]
-    return np.array(points, np.float64).reshape(-1, 3), fan(np.array(sizes, np.int64), np.array(corners, np.int64))
+    points, corners, sides, _ = read_obj_faces(path)
+    return points, fan(sides, corners)
 
 
 def read_glb(path: Path) -> Arrays:

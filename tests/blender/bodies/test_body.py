@@ -35,6 +35,10 @@ def test_moments_of_any_order_extend_measured_ones(name, scale):
         obj.body_moments.kind = "SHELL"
     depsgraph = bpy.context.evaluated_depsgraph_get()
     found = measure_body(obj, depsgraph).body
+    if name == "twice":  # the copy is left out of a solid's area
+        mesh.clear_geometry()
+        mesh.from_pydata(points, [], faces := faces[:-1])
+        depsgraph.update()
     sheet = measure_body(obj, depsgraph, MeasureOptions(kind="shell", thickness=1.0)).body.area
     for order in (2, 3, 4, 6):
         volume, area = found.moments(order, True)

@@ -13,9 +13,10 @@ import bpy
 from body_moments.blender.session.displayed import Trust, displayed, drawn, total
 from body_moments.blender.session.live import following, live
 from body_moments.blender.session.tracking import armatures, updates
-from body_moments.blender.write import numbers
+from body_moments.core.inertia.plain_body import add_bodies
 from mathutils import Euler, Matrix
 
+from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, arrays, measured, mesh_body, only
 from tests.close import close
 
@@ -275,7 +276,7 @@ def assert_bounds_hold(shown, parts):
             center = part.center + sign * bound["center_of_mass"] * arm / np.linalg.norm(arm)
             inertia = np.add(part.inertia, sign * bound["inertia"])
             changed.append(part._replace(mass=mass, center=center, inertia=inertia))
-        whole = numbers.add(changed)
+        whole = add_bodies(changed)
         off = np.subtract(whole.inertia, shown.inertia)
         largest["center_of_mass"] = max(largest["center_of_mass"], dist(whole.center, shown.center))
         largest["inertia"] = max(largest["inertia"], np.abs(off).max())
@@ -344,3 +345,14 @@ def test_scaled_wall_is_stale_until_measured(kind, monkeypatch):
     update()
     assert drawn(obj, bpy.context.scene).trust == measured_so
     assert_current(obj)
+
+
+def test_stretched_grid_keeps_its_given_mass(tmp_path):
+    grid = volume_object(tmp_path / "fog.vdb", vdb_grid(np.ones((4, 4, 4), np.float32)))
+    grid.body_moments.mass_from, grid.body_moments.mass = "MASS", 5.0
+    update()
+    start(grid)
+    grid.scale.x = 2.0
+    update()
+    shown = displayed(grid, bpy.context.scene)
+    assert shown.live is not None and close([shown.world.mass, shown.world.center[0]], [5.0, 3.0], 1e-6)

@@ -11,12 +11,14 @@ from body_moments.core.cad.iges_text import UNIT_NAMES, UNITS
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.patch_moments import area_moments
 from body_moments.core.nurbs.solid import measure_patches
 from body_moments.core.scans.limits import Limits
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import flux_moment, sphere, torus
 from body_moments.tests.core.iges_files import IgesFile, surface_fields, unrolled
+from body_moments.tests.core.nurbs.test_flat_faces import arcs, polygon
 
 BALL = 4.0 / 3.0 * np.pi
 DONUT = 2.0 * np.pi**2 * 0.75 * 0.25**2
@@ -203,10 +205,69 @@ def test_trimming_boundary_is_refused_by_name(tmp_path, curves):
     assert refused(read) == {"surface_trimmed": ["TRIM"]} and close(volume(read).total, DONUT, 1e-14)
 
 
-def test_a_hole_is_refused(tmp_path):
+PLATE = Patch(
+    (clamped_space(2, (), -3.0, 3.0),) * 2, np.array([[(x, y, 0.0) for y in (-3, 3)] for x in (-3, 3)], float)
+)
+
+
+def chain(file, curves):
+    """A composite curve, in space or in the parameters of PLATE, which are x and y."""
+    ids = []
+    for curve in curves:
+        weights = np.ones(len(curve.points)) if curve.weights is None else curve.weights
+        numbers = *curve.space.knots, *weights, *curve.points.ravel(), *curve.space.domain
+        fields = [len(curve.points) - 1, curve.space.order - 1, 1, 0, 0, 0, *map(float, numbers), 0.0, 0.0, 1.0]
+        ids.append(file.add(126, fields, status="00010000"))
+    return file.add(102, [len(ids), *ids], status="00010000")
+
+
+def plate_with(file, loops, outer=1, space=True, flat=True, preferred=3):
+    base = file.surface(PLATE, status="00010000")
+    pointers = []
+    for loop in loops:
+        curves = chain(file, loop) if flat else 0, chain(file, loop) if space else 0
+        pointers.append(file.add(142, [0, base, *curves, preferred], status="00010000"))
+    return file.add(144, [base, outer, len(loops) - outer, *[0] * (1 - outer), *pointers], label="PLATE")
+
+
+def backward(loop):
+    return [curve.reverse() for curve in reversed(loop)]
+
+
+@pytest.mark.parametrize("given", [(True, True), (True, False), (False, True)])
+@pytest.mark.parametrize("way", [list, backward])
+def test_plane_within_curves_is_a_face(tmp_path, given, way):
+    file, hole = IgesFile(1), arcs(0.5, center=(1.0, 1.0))
+    plate_with(file, [way(arcs(2.0)), hole], 1, *given)
+    plate_with(file, [hole], 0, *given)
+    read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
+    found = [area_moments([face], 0)[0].total for face in read.bodies[0].patches]
+    assert read.refused == () and np.allclose(found, [3.75 * np.pi, 36.0 - 0.25 * np.pi], rtol=1e-14)
+    assert refusal(tmp_path / "a.igs").values["causes"][0]["code"] == "surface_trimmed"  # for Blender
+
+
+@pytest.mark.parametrize(
+    "loop", [arcs(1.0)[:3], polygon((0, 0), (2, 2), (2, 0), (0, 2)), [*arcs(1.0)[:3], *arcs(1.0, 0.2)[3:]]]
+)
+def test_curves_that_bound_no_region_are_refused(tmp_path, loop):
     file = IgesFile()
+    plate_with(file, [loop], flat=False)
+    file.surface(unrolled(sphere()))
+    read = read_surfaces(file.write(tmp_path / "a.igs"), for_blender=False)
+    assert refused(read) == {"surface_trimmed": ["PLATE"]} and read.unread == 1
+
+
+def test_a_hole_is_refused(tmp_path):
+    file, ball = IgesFile(), Patch(unrolled(sphere()).spaces, unrolled(sphere()).points)
     trimmed(file, [line(A, B), line(B, C), line(C, D), line(D, A)], holes=(1,))
-    assert refusal(file.write(tmp_path / "a.igs")).values["causes"][0]["code"] == "surface_trimmed"
+    around = [curve if ahead else curve.reverse() for curve, ahead in ball.sides]
+    base = file.surface(ball, status="00010000")
+    outer = file.add(142, [0, base, 0, chain(file, around), 3], status="00010000")
+    file.add(144, [base, 1, 1, outer, 1])
+    causes = refusal(file.write(tmp_path / "a.igs")).values["causes"]
+    assert [(cause["code"], len(cause["values"]["names"])) for cause in causes] == [("surface_trimmed", 2)]
+    file.add(144, [base, 1, 0, outer])
+    assert len(read_surfaces(file.write(tmp_path / "a.igs")).bodies[0].patches) == 1
 
 
 def test_part_of_the_domain_and_unclamped_knots_are_read(tmp_path):

@@ -8,8 +8,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.inertia.mass_properties import MassProperties
+from body_moments.core.inertia.plain_body import PlainBody, tensor_rows
 from body_moments.core.inertia.reference import Reference
-from body_moments.core.inertia.tensors import TENSOR, tensor_rows
 from body_moments.core.moments import Measure, Moments
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.verdict.finding import QueryError
@@ -19,9 +19,10 @@ from tests.close import close
 
 def refer(reference, properties):
     """The inertia about a reference; center and inertia as arrays."""
-    entries = [properties.inertia[i, j] for _, i, j in TENSOR]
-    bounds = properties.rounding_error, properties.input_error
-    referred = reference.refer(properties.mass, properties.center.tolist(), entries, bounds)
+    names = ("volume", "mass"), ("center_of_mass", "center"), ("inertia", "inertia")
+    errors = properties.rounding_error, properties.input_error
+    bound, inputs = ({key: error[name] for key, name in names} for error in errors)
+    referred = reference.refer(PlainBody.of_body(properties, 1.0, 0.0, 0.0, {**bound, "input": inputs}))
     return replace(referred, center=np.array(referred.center)), np.array(tensor_rows(referred.inertia))
 
 

@@ -8,6 +8,7 @@ from body_moments.core import MeasureError, mass_properties
 
 from tests.close import close
 from tests.core.bodies import box, moved, rotation, without
+from tests.core.findings import refused
 
 
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
@@ -29,6 +30,15 @@ def test_open_box_is_capped_and_says_so():
     body = mass_properties(*without(box(), 2, 3), density=1.0)
     assert str(body.method) == "capped" and [str(found.code) for found in body.findings] == ["holes_capped"]
     assert close(body.mass_properties.mass, 1.0, rel=1e-12)
+
+
+def test_float32_far_away_warns_or_is_refused():
+    """Half an ulp is 3e-5 there: the center of a cube of 10 cm is uncertain, and the volume of a plate of 1 mm."""
+    cube, plate = (box((1e3, 1e3, 1e3), (1e3 + thick, 1e3 + 0.1, 1e3 + 0.1)) for thick in (0.1, 1e-3))
+    (found,) = mass_properties(cube[0].astype(np.float32), cube[1], density=1.0).findings
+    assert found.code == "large_bound" and found.values["quantity"] == "center of mass"
+    with refused("no_certain_volume"):
+        mass_properties(plate[0].astype(np.float32), plate[1], density=1.0)
 
 
 @pytest.mark.parametrize("density", [0.0, -1.0, float("nan")])

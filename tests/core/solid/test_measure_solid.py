@@ -129,7 +129,7 @@ def test_a_doubled_triangle_counts_once(turn):
     assert result.health.non_manifold_edges == 3 == len(result.health.defective_elements.non_manifold_edges)
     finding = only(result)
     assert finding == Finding("duplicate_faces_ignored", {"count": 1}) and finding.elements.tolist() == [12]
-    assert close(result.area.total, 6.5, rel=1e-14)  # the area of the unchanged faces
+    assert close(result.area.total, 6.0, rel=1e-14) and close(result.moments(2, 2)[1].total, 6.0, rel=1e-14)
 
 
 @pytest.mark.parametrize("turn", [1, -1])
@@ -147,7 +147,7 @@ def test_a_two_sided_body_is_the_body_and_does_not_cancel_itself(layers, apart):
     points, triangles = CUBE
     doubled = points, np.concatenate([triangles[:, ::way] for way in layers])
     result = verdict(soup(doubled) if apart else doubled)
-    assert close(result.volume.total, 1.0, rel=1e-14)
+    assert close(result.volume.total, 1.0, rel=1e-14) and close(result.area.total, 6.0, rel=1e-14)
     assert result.method == ("exact" if layers[0] > 0 else "reoriented")
     assert result.health.duplicate_faces == 12 * (len(layers) - 1) and codes(result)[0] == "duplicate_faces_ignored"
     assert verdict((points, np.concatenate([triangles[:10], triangles[:10, ::-1]]))).method == "open"
@@ -337,6 +337,31 @@ def test_flat_mesh_encloses_nothing(part, dtype):
     result = verdict(part, dtype)
     assert result.method == "open" and not result.volume.raw.any() and result.health.cap_area_share == 0.0
     assert codes(result)[-1] == "flat_surface" and "flat_components" not in codes(result)
+
+
+@pytest.mark.parametrize("corners", [3, 4, 5, 8])
+def test_two_sided_polygon_turned_in_float32_is_flat(corners):
+    """Front and back are cut along different diagonals; alone, and beside a box as another component."""
+    angle, turns = 2.0 * np.pi * np.arange(corners) / corners, np.arange(1, corners - 1)
+    front = np.stack([0 * turns, turns, turns + 1], axis=1)
+    polygon = (
+        np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1),
+        np.concatenate([front, (front[:, ::-1] - 1) % corners]),
+    )
+    for seed in range(10):
+        turned = moved(polygon, rotation(seed), (1.0, 2.0, -3.0))
+        assert codes(verdict(turned, np.float32))[-1:] == ["flat_surface"]
+        beside = verdict(joined(FAR_CUBE, moved(turned, None, (9.0, 9.0, 9.0))), np.float32)
+        assert only(beside) == Finding("flat_components", {"count": 1, "total": 2})
+
+
+def test_copies_left_out_count_in_no_number():
+    points, faces = CORNERS + np.eye(8)[:, 7:] * (0.1, 0.2, 0.3), SIDES.tolist()
+    once, thrice = (measure_solid(mesh(points, [*faces, *copies])) for copies in ([], [*faces, *faces]))
+    for one, other in ((once.area.total, thrice.area.total), (once.volume.total, thrice.volume.total)):
+        assert close(one, other, rel=1e-15)
+    assert once.health.volume_spread == thrice.health.volume_spread > 0.01
+    assert once.health.non_planar_faces == thrice.health.non_planar_faces and thrice.health.duplicate_faces == 12
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -732,9 +757,10 @@ def test_change_by_welding_is_bounded(seed):
     assert verdict(soup(sphere(2))).volume.input_error[0] == 0.0
 
 
-@pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize("faces", [(4, 5), (4, 5, 6, 7), (4,)])
-@pytest.mark.parametrize("thick", [1e-7, 1e-6, 5e-6])
+@pytest.mark.parametrize(
+    "dtype, thick", [(np.float64, 1e-7), (np.float64, 5e-6), (np.float32, 1e-6), (np.float32, 5e-6)]
+)
 def test_an_open_foil_is_not_welded_into_a_wedge(thick, faces, dtype):
     result = verdict(without(box((0, 0, 0), (1, 1, thick)), *faces), dtype)
     assert close(result.volume.total, thick, rel=1e-6) and result.method in ("capped", "exact")

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.solid.measure import measure_solid
+from body_moments.core.solid.measure import measure_left_over, measure_solid
 from body_moments.core.solid.solid_stack import can_be_stacked, measure_stack, small_moments_to_order
 from body_moments.core.verdict.health import Intersection
 from body_moments.core.verdict.method import Verdict
@@ -126,12 +126,23 @@ def assert_alike(stack, i, surface):
 @pytest.mark.parametrize("seed", range(4))
 def test_stacked_bodies_match_single_measurements(seed):
     rng = np.random.default_rng(seed)
-    surfaces = [surface for surface in (body(rng) for _ in range(250)) if can_be_stacked(surface)]
+    surfaces = [surface for surface in (body(rng) for _ in range(250)) if can_be_stacked([surface])[0]]
     stack = measure_stack(surfaces)
     measured = np.flatnonzero(stack.is_measured)
     assert 20 < np.count_nonzero(stack.caps.is_capped[measured]) < len(measured) - 20
     for i in measured.tolist():
         assert_alike(stack, i, surfaces[i])
+    assert stack.is_integrated[~stack.is_measured].any()
+    for i in np.flatnonzero(~stack.is_measured).tolist():
+        assert_same(measure_left_over(stack, i, surfaces[i]), measure_solid(surfaces[i]))
+
+
+def assert_same(first, second):
+    for name in ("raw", "about", "rounding_error", "input_error"):
+        assert np.array_equal(getattr(first.volume, name), getattr(second.volume, name))
+        assert np.array_equal(getattr(first.area, name), getattr(second.area, name))
+    assert [str(found) for found in first.findings] == [str(found) for found in second.findings]
+    assert repr(first.health) == repr(second.health) and first.method is second.method
 
 
 def open_box(points=CORNERS, faces=SIDES[:5]):
@@ -243,4 +254,4 @@ def test_stack_of_any_size_gives_no_numpy_warning(size):
 
 def test_an_empty_mesh_has_no_place_in_a_stack_and_no_error():
     empty = Surface(np.zeros((0, 3), np.float32), np.zeros((0, 3), int))
-    assert not can_be_stacked(empty) and empty.coordinate_error.tolist() == [0.0] * 3
+    assert can_be_stacked([empty]) == [False] and empty.coordinate_error.tolist() == [0.0] * 3

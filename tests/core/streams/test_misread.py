@@ -112,7 +112,6 @@ def test_stl_without_a_number_is_refused(tmp_path, place):
         ("  vertex 1 0 0\n", "", 6, "endloop", "vertex"),
         ("facet", "# vertex 1 2 3\nfacet", 2, "#", "facet"),
         ("  vertex 1", "  vertx 1", 5, "vertx", "vertex"),
-        ("  vertex 1", "  Vertex 1", 5, "Vertex", "vertex"),
         ("endsolid a b", "endsolid a\nsolid vertex 1 2 3\n" + FACET.format(*FIELDS), 10, "vertex", "facet"),
     ],
 )

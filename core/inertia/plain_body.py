@@ -1,23 +1,29 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inertia tensors of single bodies as six plain numbers: turned, moved and diagonalized while a panel is drawn.
+"""A body as plain numbers, in any frame, alone or as a sum: for panels, which are drawn without numpy.
 
-Without numpy, as panels are. A frame is given by its three axes.
+An inertia tensor is given by six entries, a frame by its three axes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import atan2, cos, hypot, sin
+from math import atan2, cos, hypot, sin, sqrt
 from sys import float_info
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..numerics.vectors import cross, dot
+from ..numerics.vectors import cross, subtract
+
+if TYPE_CHECKING:
+    from .mass_properties import MassProperties
 
 Vector = tuple[float, ...]
 Axes = tuple[Vector, ...]
 
 # The tensor's six entries, in the order in which they are stored on an object.
 TENSOR = (("xx", 0, 0), ("yy", 1, 1), ("zz", 2, 2), ("xy", 0, 1), ("xz", 0, 2), ("yz", 1, 2))
+ENTRIES, ROWS, COLUMNS = zip(*TENSOR)
+BOUND_KEYS = ("volume", "area", "center_of_mass", "inertia")
 IDENTITY: Axes = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 SYMMETRIES = "asymmetric", "prolate", "oblate", "isotropic"
 # For each symmetry, the axes with equal moments.
@@ -26,6 +32,99 @@ EQUAL_MOMENTS_RTOL = 1e-6  # moments closer than this, relatively, are equal
 SWEEPS = 6  # of Jacobi's rotations, which converge quadratically
 EQUAL_TRACE_ATOL = 1e-6  # frames whose traces are closer than this are equally near
 MIN_ACROSS = 1e-6  # a shorter part of a vector has no direction
+
+
+class PlainBody(NamedTuple):
+    """The results of a body as plain numbers, SI, in the object frame, or in the world after `in_world`.
+
+    center: (3,). inertia: (6,) in the order of ENTRIES. moments, axes: the (3,) principal moments, and the axes as
+    three vectors. error_bound: as in `Measurement`.
+    """
+
+    mass: float
+    density: float
+    volume: float
+    area: float
+    center: Vector
+    inertia: Vector
+    moments: Vector
+    axes: tuple[Vector, ...]
+    error_bound: dict[str, Any]
+
+    @classmethod
+    def of_body(
+        cls, body: MassProperties, density: float, volume: float, area: float, error_bound: dict[str, Any]
+    ) -> PlainBody:
+        """Return mass properties as plain numbers, with density, volume, area and error bound."""
+        center, entries, moments = body.center.tolist(), body.inertia[ROWS, COLUMNS].tolist(), body.principal.moments
+        axes = tuple(map(tuple, body.principal.axes.T.tolist()))
+        return cls(
+            body.mass, density, volume, area, tuple(center), tuple(entries), tuple(moments.tolist()), axes, error_bound
+        )
+
+    @property
+    def gyration(self) -> Vector:
+        """(3,) radii of gyration about the principal axes."""
+        return tuple(sqrt(max(moment, 0.0) / self.mass) if self.mass > 0.0 else 0.0 for moment in self.moments)
+
+    def turned(self, axes: Axes) -> PlainBody:
+        """Return the results in a frame with other axes and the same origin."""
+        return self._replace(
+            center=along_axes(self.center, axes),
+            inertia=turn_tensor(self.inertia, axes),
+            axes=tuple(along_axes(axis, axes) for axis in self.axes),
+        )
+
+    def in_world(self, matrix_world: Any, unit: float) -> PlainBody:
+        """Return the results in the world frame; matrix_world: of the object; unit: meters per Blender unit."""
+        location, turn, _ = matrix_world.decompose()
+        body = self.turned(tuple(zip(*rotation_axes(turn))))
+        return body._replace(center=tuple(value + unit * along for value, along in zip(body.center, location)))
+
+    def in_object(self, matrix_world: Any, unit: float) -> PlainBody:
+        """Return the results of the world frame in the object frame, as `in_world` takes them."""
+        location, turn, _ = matrix_world.decompose()
+        from_there = tuple(value - unit * along for value, along in zip(self.center, location))
+        return self._replace(center=from_there).turned(rotation_axes(turn))
+
+
+def add_bodies(parts: Sequence[PlainBody]) -> PlainBody | None:
+    """Return bodies as one, in their common frame, by the parallel-axis theorem; None if they have no mass."""
+    mass, volume, area = (sum([getattr(part, name) for part in parts]) for name in ("mass", "volume", "area"))
+    if not mass > 0.0:  # the stored values were changed
+        return None
+    center = tuple(sum([part.mass * part.center[axis] for part in parts]) / mass for axis in range(3))
+    arms = [subtract(part.center, center) for part in parts]
+    tensors = [move_tensor(part.inertia, part.mass, arm) for part, arm in zip(parts, arms)]
+    tensor = tuple(map(sum, zip(*tensors)))
+    moments, axes, _ = principal_axes(tensor)
+    reach = [hypot(*arm) for arm in arms]
+    bound = _bound_of_sum(parts, reach, [part.error_bound for part in parts])
+    bound["input"] = _bound_of_sum(parts, reach, [part.error_bound["input"] for part in parts])
+    density = mass / volume if volume else 0.0
+    return PlainBody(mass, density, volume, area, center, tensor, moments, axes, bound)
+
+
+def _bound_of_sum(
+    parts: Sequence[PlainBody], arms: Sequence[float], bounds: Sequence[dict[str, float]]
+) -> dict[str, Any]:
+    """Return the bound of a sum of bodies, from the bound of each, and its distance from the center."""
+    # a shell without thickness has its mass by area
+    shares = [
+        bound["volume"] / part.volume if part.volume > 0.0 else bound["area"] / max(part.area, float_info.min)
+        for part, bound in zip(parts, bounds)
+    ]
+    bodies = [
+        (part.mass, share, arm, bound["center_of_mass"]) for part, share, arm, bound in zip(parts, shares, arms, bounds)
+    ]
+    mass = sum([part.mass for part in parts])
+    center = sum([own * ((1.0 + share) * error + share * arm) for own, share, arm, error in bodies]) / mass
+    inertia = sum([bound["inertia"] for bound in bounds])
+    for own, share, arm, error in bodies:
+        reach = arm + error + center
+        inertia += own * ((1.0 + share) * (reach * reach - arm * arm) + share * arm * arm)
+    values = sum([bound["volume"] for bound in bounds]), sum([bound["area"] for bound in bounds]), center, inertia
+    return dict(zip(BOUND_KEYS, values))
 
 
 def rotation_axes(turn: Sequence[float]) -> Axes:
@@ -43,7 +142,8 @@ def rotation_axes(turn: Sequence[float]) -> Axes:
 
 def along_axes(vector: Sequence[float], axes: Axes) -> Vector:
     """Return the components of a vector along axes."""
-    return tuple(dot(axis, vector) for axis in axes)
+    x, y, z = vector
+    return tuple([a * x + b * y + c * z for a, b, c in axes])
 
 
 def tensor_rows(tensor: Sequence[float]) -> Axes:
@@ -55,8 +155,8 @@ def tensor_rows(tensor: Sequence[float]) -> Axes:
 def turn_tensor(tensor: Sequence[float], axes: Axes) -> Vector:
     """Return the entries of a tensor along other axes."""
     rows = tensor_rows(tensor)
-    images = [along_axes(axis, rows) for axis in axes]
-    return tuple(dot(images[i], axes[j]) for _, i, j in TENSOR)
+    turned = [along_axes(along_axes(axis, rows), axes) for axis in axes]
+    return tuple([turned[i][j] for _, i, j in TENSOR])
 
 
 def move_tensor(tensor: Sequence[float], mass: float, arm: Sequence[float]) -> Vector:
@@ -74,7 +174,7 @@ def frame_about(axis: Sequence[float]) -> Axes:
 
 def _across(vector: Sequence[float], axis: Sequence[float]) -> Vector:
     """Return the direction of a vector's part that is perpendicular to an axis; () if there is none."""
-    along = dot(vector, axis)
+    (along,) = along_axes(vector, (axis,))
     part = [entry - along * other for entry, other in zip(vector, axis)]
     length = hypot(*part)
     return tuple(entry / length for entry in part) if length >= MIN_ACROSS else ()

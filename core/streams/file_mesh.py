@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A mesh of a file as arrays, the same for every format."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface, normals
+from ..verdict.finding import FileError
+from .findings import PLY_CONCAVE_POLYGONS
+
+CONCAVE_RTOL = 1e-6  # Relative to a polygon's normal; triangles less against it are rounding.
+
+
+@dataclass(frozen=True, eq=False)
+class FileMesh:
+    """A mesh of a file, not repaired.
+
+    points: (n, 3). corners: (k,) vertices of all faces, one face after another. sides: (m,) the number of corners of
+    each face. edges: (e, 2) edges beside faces. values: (n,) numbers of the vertices, by name.
+    """
+
+    name: str
+    points: NDArray[np.floating]
+    corners: NDArray[np.integer]
+    sides: NDArray[np.integer]
+    edges: NDArray[np.integer] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    values: Mapping[str, NDArray[np.float32]] = field(default_factory=dict)
+
+    def surfaces(self) -> Iterator[Surface]:
+        """Yield the faces with the same number of corners as a surface. FileError if a polygon is concave."""
+        starts = np.cumsum(self.sides) - self.sides
+        for count in np.unique(self.sides).tolist():
+            yield polygon_surface(self.points, self.corners[starts[self.sides == count, None] + np.arange(count)])
+
+
+def name_of_file(path: Path) -> str:
+    """Return the name of a file's one mesh, as Blender gives it: without the last suffix."""
+    return path.stem.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+
+
+class Polygons:
+    """Faces that come in blocks of (n, k) corners."""
+
+    def __init__(self) -> None:
+        self._blocks: list[tuple[NDArray[np.intp], NDArray[np.integer]]] = []
+        self._count = 0
+
+    def add(self, corners: NDArray[np.integer], rows: NDArray[np.intp] | None = None) -> None:
+        """Add faces. rows: (n,) their places among all faces, by default behind the others."""
+        rows = self._count + np.arange(len(corners)) if rows is None else rows
+        self._blocks.append((rows, corners))
+        self._count = max(self._count, int(rows.max(initial=-1)) + 1)
+
+    def join(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        """Return corners and sides of all faces, without corners that follow themselves, and faces of two corners."""
+        sides = np.zeros(self._count, np.int64)
+        for rows, corners in self._blocks:
+            sides[rows] = corners.shape[1]
+        starts = np.cumsum(sides) - sides
+        joined = np.empty(int(sides.sum()), np.int64)
+        for rows, corners in self._blocks:
+            joined[starts[rows, None] + np.arange(corners.shape[1])] = corners
+        return without_repeats(joined, sides[sides > 0])
+
+
+def without_repeats(corners: NDArray[np.int64], sides: NDArray[np.int64]) -> tuple[NDArray, NDArray]:
+    starts = np.cumsum(sides) - sides
+    before = np.arange(len(corners)) - 1
+    before[starts] += sides
+    keep = corners != corners[before]
+    if keep.all():
+        return corners, sides
+    left = np.add.reduceat(keep, starts)
+    keep &= np.repeat(left > 2, sides)
+    return corners[keep], left[left > 2]
+
+
+def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
+    """Return the different points of (n, 3), in the order of their first places, and the (n,) index of each point."""
+    points = points + np.float32(0.0)  # -0.0 equals 0.0
+    words = np.ascontiguousarray(points).view(np.uint32)
+    keys = np.zeros(len(points), np.uint64)
+    for axis in range(3):
+        keys = (keys ^ words[:, axis]) * np.uint64(0x9E3779B97F4A7C15)
+        keys ^= keys >> np.uint64(32)
+    # With the indices in place of their last bits, keys are sorted without a table of indices, in half the time.
+    bits = np.uint64(len(points).bit_length())
+    keys = (keys >> bits << bits) | np.arange(len(points), dtype=np.uint64)
+    keys.sort()
+    order = (keys & ((np.uint64(1) << bits) - np.uint64(1))).astype(np.intp)
+    is_first, index = _number_groups(order, np.diff(keys >> bits) != 0)
+    if not np.array_equal(points[is_first][index], points):  # different points with the same key
+        order = np.lexsort(words.T)
+        is_first, index = _number_groups(order, (words[order[1:]] != words[order[:-1]]).any(axis=1))
+    return points[is_first], index
+
+
+def _number_groups(order: NDArray[np.intp], is_next: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Return the first member of each group, and (n,) numbers of the groups. is_next: (n - 1,) where one begins."""
+    is_first, index = np.zeros(len(order), bool), np.zeros(len(order), np.intp)
+    if len(order):
+        starts = np.append(0, np.flatnonzero(is_next) + 1)
+        firsts = np.minimum.reduceat(order, starts)
+        is_first[firsts] = True
+        index[order] = np.repeat((np.cumsum(is_first) - 1)[firsts], np.diff(starts, append=len(order)))
+    return is_first, index
+
+
+def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:
+    """Return the (n, 3) triangles of strips of vertices, which -1 separates."""
+    corners = np.stack([strip[:-2], strip[1:-1], strip[2:]], axis=1)
+    begins = np.maximum.accumulate(np.where(strip < 0, np.arange(1, len(strip) + 1), 0))[:-2]
+    is_odd = (np.arange(len(corners)) - begins) % 2 == 1
+    corners[is_odd, :2] = corners[is_odd, 1::-1]
+    return corners[(corners >= 0).all(axis=1)]
+
+
+def polygon_surface(points: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
+    """Return a surface of (n, k) faces: triangles, quads, or fans of convex polygons. FileError if one is concave."""
+    sides = faces.shape[1]
+    if sides == 3:
+        return Surface(points, faces)
+    if sides == 4:
+        return Surface(points, quads=faces)
+    fans = np.stack([faces[:, [0, k, k + 1]] for k in range(1, sides - 1)])
+    vectors = normals(points, fans.reshape(-1, 3)).reshape(*fans.shape[:2], 3)
+    whole = vectors.sum(axis=0)
+    along = np.einsum("kmi,mi->km", vectors, whole)
+    concave = int((along < -CONCAVE_RTOL * np.einsum("mi,mi->m", whole, whole)).any(axis=0).sum())
+    if concave:
+        raise FileError(PLY_CONCAVE_POLYGONS, count=concave)
+    return Surface(points, fans.reshape(-1, 3))
