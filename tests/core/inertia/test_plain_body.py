@@ -14,13 +14,7 @@ from body_moments.core.moments.moments import SECOND_MOMENT_INDEX
 from tests.close import close
 from tests.core.inertia.test_reference import box
 
-SPREADS = {
-    "asymmetric": (5, 3, 2),
-    "prolate": (5, 2, 2),
-    "oblate": (5, 5, 2),
-    "isotropic": (3, 3, 3),
-    "flat": (5, 3, 0),
-}
+SPREADS = (5, 3, 2), (5, 2, 2), (5, 5, 2), (3, 3, 3), (5, 3, 0)  # of each symmetry, and of a flat body
 
 
 @pytest.mark.parametrize("scale", [1e-9, 1e9])
