@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.boxes import overlapping_box_pairs
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
 from .curve import Curve
@@ -18,7 +19,6 @@ from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPL
 SAMPLES_PER_SPAN = 16  # For the first comparison.
 FINER_SAMPLES = 64, 256  # Used if the chords of fewer samples cross.
 MAX_CHORDS = 8192  # Limit with finer samples.
-MAX_CHORD_PAIRS = 4_000_000  # Pairs compared at a time.
 
 
 def planar_region(curves: Sequence[Curve], stored: float = 0.0) -> tuple[list[Curve], NDArray[np.float64]]:
@@ -70,7 +70,7 @@ def planar_loops(
         flat = polygons(finer.pop(0))
     oriented = []
     for i, (loop, polygon) in enumerate(zip(loops, flat)):
-        depth = sum(_is_inside(polygon[0], outer) for j, outer in enumerate(flat) if j != i)
+        depth = _depth(flat, i)
         following = np.roll(polygon, -1, axis=0)
         area = float((polygon[:, 0] * following[:, 1] - polygon[:, 1] * following[:, 0]).sum())
         is_right = (area > 0.0) == (depth % 2 == 0)
@@ -78,13 +78,18 @@ def planar_loops(
     return oriented, normal
 
 
-def _is_inside(point: NDArray, loop: NDArray) -> bool:
-    """Return whether a point is in a polygon (n, 2), by the crossings of a ray along +x."""
-    a, b = loop, np.roll(loop, -1, axis=0)
-    upward = (a[:, 1] <= point[1]) != (b[:, 1] <= point[1])
+def _depth(loops: Sequence[NDArray], number: int) -> int:
+    """Return how many of the other polygons (n, 2) the first point of one is in, by the crossings of a ray along +x."""
+    a = np.concatenate(loops)
+    b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
+    x, y = loops[number][0]
+    upward = (a[:, 1] <= y) != (b[:, 1] <= y)
     with np.errstate(divide="ignore", invalid="ignore"):
-        x = a[:, 0] + (point[1] - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
-    return bool(np.count_nonzero(upward & (x > point[0])) % 2)
+        crossing = a[:, 0] + (y - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+    starts = np.cumsum([0, *map(len, loops[:-1])])
+    is_inside = np.add.reduceat(upward & (crossing > x), starts, dtype=np.intp) % 2
+    is_inside[number] = 0
+    return int(is_inside.sum())
 
 
 def self_intersects(loop: NDArray, tolerance: float) -> bool:
@@ -103,21 +108,18 @@ def _without_repeats(loop: NDArray, tolerance: float) -> NDArray[np.float64]:
 
 def chords_cross(loops: Sequence[NDArray], tolerance: float, touch: bool = True) -> bool:
     """Return whether edges of polygons (n, 2) cross by more than a tolerance or, if `touch`, corners coincide."""
-    a = np.concatenate(loops)
-    b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
-    step = max(1, MAX_CHORD_PAIRS // len(a))
-    for start in range(0, len(a), step):
-        p, q = a[start : start + step, None], b[start : start + step, None]
-        if touch and np.count_nonzero(np.abs(p - a).max(axis=2) <= tolerance) > len(p):
-            return True
-        sides = [_side(p, q, a), _side(p, q, b), _side(a, b, p), _side(a, b, q)]
-        length = [np.linalg.norm(q - p, axis=2), np.linalg.norm(b - a, axis=1)]
-        limits = [tolerance * length[0]] * 2 + [tolerance * length[1]] * 2
-        far = [np.abs(side) > limit for side, limit in zip(sides, limits)]
-        apart = ((sides[0] > 0.0) != (sides[1] > 0.0)) & ((sides[2] > 0.0) != (sides[3] > 0.0))
-        if (apart & far[0] & far[1] & far[2] & far[3]).any():
-            return True
-    return False
+    begin = np.concatenate(loops)
+    end = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
+    low, high = (np.pad(corner, ((0, 0), (0, 1))) for corner in (np.minimum(begin, end), np.maximum(begin, end)))
+    i, j, _ = overlapping_box_pairs(low, high, -2.0 * tolerance, len(begin) ** 2)
+    p, q, a, b = begin[i], end[i], begin[j], end[j]
+    if touch and (np.abs(p - a).max(axis=1) <= tolerance).any():
+        return True
+    sides = [_side(p, q, a), _side(p, q, b), _side(a, b, p), _side(a, b, q)]
+    length = [np.linalg.norm(q - p, axis=1), np.linalg.norm(b - a, axis=1)]
+    far = [np.abs(side) > tolerance * length[k // 2] for k, side in enumerate(sides)]
+    apart = ((sides[0] > 0.0) != (sides[1] > 0.0)) & ((sides[2] > 0.0) != (sides[3] > 0.0))
+    return bool((apart & far[0] & far[1] & far[2] & far[3]).any())
 
 
 def _side(a: NDArray, b: NDArray, point: NDArray) -> NDArray[np.float64]:
