@@ -8,9 +8,6 @@ NO_ACTIVE_ASSEMBLY = error(
     "no_active_assembly", "There is no assembly. Click a collection in the Outliner, or select an empty with children."
 )
 
-ROBOT_SHEARED = warning(
-    "robot_sheared", "Bodies must not be sheared. Apply the scale of the parents of {links} (Object > Apply > Scale)."
-)
 ROBOT_NAMES_ALIKE = error("robot_names_alike", "Blender gives {names} one name in USD. Rename one of them.")
 ROBOT_GEOMETRY_NOT_WRITTEN = error("robot_geometry_not_written", "Blender's exporter failed: {error}.")
 PRIMITIVE_HAS_PARENT = error("primitive_has_parent", "It has a parent, or is linked. Clear the parent to simulate it.")

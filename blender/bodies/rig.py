@@ -32,6 +32,7 @@ from ..read.objects import locate, read_object
 from ..read.reading import Part, to_si
 from ..read.rig import hanging_objects, rest_pose, rig_hash, rig_objects, skinned_objects
 from ..settings.density import is_density_unset, unset_density
+from ..settings.options import AS_SET, MeasureOptions
 from .findings import (
     BONE_MISSING,
     BONE_PART_IMPOSSIBLE,
@@ -95,18 +96,22 @@ class Rig:
     objects: tuple[Object, ...]
 
 
-def measure_rig(context: Context, armature: Object) -> Rig:
-    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass."""
+def measure_rig(context: Context, armature: Object, options: MeasureOptions = AS_SET) -> Rig:
+    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass.
+
+    options: overrides of the objects' settings; a given density or mass also overrides the bones' own.
+    """
     with rest_pose(context, armature) as depsgraph:
-        return _Measuring(armature, depsgraph).rig()
+        return _Measuring(armature, depsgraph, options).rig()
 
 
 class _Measuring:
     """One measurement of a rig, with its armature at rest."""
 
-    def __init__(self, armature: Object, depsgraph: Depsgraph):
-        self.armature, self.depsgraph = armature, depsgraph
-        self.unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+    def __init__(self, armature: Object, depsgraph: Depsgraph, options: MeasureOptions):
+        self.armature, self.depsgraph, self.options = armature, depsgraph, options
+        self.is_given = options.density is not None or options.mass is not None
+        self.unit = options.meters_per_unit(depsgraph.scene)
         self.bones = RestBones.read(armature)
         self.sums: dict[str, _Sum] = {}
         self.findings: list[Finding] = []
@@ -158,7 +163,7 @@ class _Measuring:
         if bone not in self.bones.frames:
             self.findings.append(finding(BONE_MISSING, bone=bone).of_sources([obj.name]))
             return
-        measured = measure_body(obj, self.depsgraph)
+        measured = measure_body(obj, self.depsgraph, self.options)
         measurement = measured.measurement
         moments, factor = measurement.mass_moments
         found = self._sum_of(bone, obj)
@@ -168,13 +173,13 @@ class _Measuring:
         found.verdicts.append(measurement.method.verdict)
         for surface in measured.body.surfaces(measurement.kind == "shell"):
             found.surfaces.append((surface, np.eye(4)))
-        if unset_density(obj, measurement, self.depsgraph.scene) is not None:
+        if not self.is_given and unset_density(obj, measurement, self.depsgraph.scene) is not None:
             self.unset.append(obj.name)
 
     # ------------------------------------------------------------ Skinned objects
 
     def _skin(self, obj: Object) -> None:
-        request = Request.resolve(obj, self.depsgraph)
+        request = Request.resolve(obj, self.depsgraph, self.options)
         options, reading = request.settings, read_object(obj, self.depsgraph)
         shell = options.kind == "shell"
         if shell and options.wall != "thin":
@@ -185,7 +190,7 @@ class _Measuring:
             raise ReadError(NO_VOLUME)  # `rig` reports the names of refused objects, without the reason
         density = options.density or 0.0 if options.mass is None else options.mass / volume
         if options.mass is None and request.density is not None:
-            measurement = measure_body(obj, self.depsgraph).measurement
+            measurement = measure_body(obj, self.depsgraph, self.options).measurement
             density = measurement.mass_properties.mass / measurement.volume
             self.findings.append(finding(RIG_MEAN_DENSITY).of_sources([obj.name]))
         if not density > 0.0:
@@ -201,7 +206,7 @@ class _Measuring:
             found.surfaces.append((surface, matrix))
         own = obj.body_moments
         by_value = own.mass_from == "DENSITY" and own.density_from == "VALUE"
-        if by_value and is_density_unset(own, self.depsgraph.scene):
+        if by_value and not self.is_given and is_density_unset(own, self.depsgraph.scene):
             self.unset.append(obj.name)
 
     def _pieces(self, obj: Object, part: Part, shell: bool) -> Iterator[tuple]:
@@ -263,10 +268,11 @@ class _Measuring:
 
     def _part(self, name: str, found: _Sum) -> BonePart:
         settings = self.armature.pose.bones[name].body_moments
-        own = shortest_decimal(settings.density) if settings.mass_from == "DENSITY" else None
+        mass_from = "MESH" if self.is_given else settings.mass_from
+        own = shortest_decimal(settings.density) if mass_from == "DENSITY" else None
         masses = [moments * (density if own is None else own) for moments, density in found.carriers]
         mass = sum_moments([*masses, *found.hanging])
-        if settings.mass_from == "MASS" and mass.total > 0.0:
+        if mass_from == "MASS" and mass.total > 0.0:
             mass = mass * (shortest_decimal(settings.mass) / mass.total)
         rotation, head = self.bones.frames[name]
         measurement = refusal = None
@@ -283,7 +289,7 @@ class _Measuring:
                 fingerprint=fingerprint(mass.raw.tobytes(), "", digest(name.encode())),
                 findings=(),
                 method=Method(least_trusted(found.verdicts)),
-                density_from=DENSITIES_FROM[settings.mass_from],
+                density_from=DENSITIES_FROM[mass_from],
             )
         except MeasureError as error:
             refusal = finding(BONE_PART_IMPOSSIBLE, cause=error.finding.as_record())

@@ -1,11 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A measured object as a link of a robot: its place, and its parents."""
+"""A measured object as a link of a robot: its place, its parents, and the joints that hold it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from math import inf
+from math import inf, isfinite
+from types import MappingProxyType
+from typing import Any
 
 import bpy
 import numpy as np
@@ -13,9 +15,10 @@ import numpy as np
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.numerics.rotations import polar_rotation
-from ...core.robots.links import Candidate, make_candidate
-from ...core.robots.model import FreeAxis, Pose
-from ...core.verdict.finding import MeasureError
+from ...core.robots.findings import JOINT_VALUE_UNUSABLE
+from ...core.robots.links import Candidate, Connection, make_candidate
+from ...core.robots.model import VALUES, FreeAxis, Link, Mimic, Pose
+from ...core.verdict.finding import Finding, MeasureError, finding
 from .objects import read_object
 from .reading import float64_matrix
 
@@ -30,7 +33,107 @@ def object_candidate(
     while above is not None:
         parents += [labels[above]] if above in labels else []
         above = above.parent
-    return make_candidate(label, measurement, parents, obj.matrix_world.to_scale())
+    return make_candidate(label, measurement, parents, obj.matrix_world.to_scale(), is_fixed=is_passive(obj))
+
+
+def is_passive(obj: bpy.types.Object) -> bool:
+    """Return whether an object is a passive rigid body, which nothing moves."""
+    return obj.rigid_body is not None and obj.rigid_body.type == "PASSIVE"
+
+
+# For each kind of constraint, its free axes: the kind, the index of an axis of the constraint, the sign of the limits.
+# Blender counts angles of the first object relative to the second, but a piston's and all lengths of the second
+# relative to the first. A generic constraint moves along its axes, then turns about z, y and x.
+_ROTATIONS = (("rotate", 2, -1.0), ("rotate", 1, -1.0), ("rotate", 0, -1.0))
+_GENERIC = (*(("translate", axis, 1.0) for axis in range(3)), *_ROTATIONS)
+CONSTRAINTS: dict[str, tuple[tuple[str, int, float], ...]] = {
+    "FIXED": (),
+    "POINT": _ROTATIONS,
+    "HINGE": (("rotate", 2, -1.0),),
+    "SLIDER": (("translate", 0, 1.0),),
+    "PISTON": (("translate", 0, 1.0), ("rotate", 0, 1.0)),
+    "GENERIC": _GENERIC,
+    "GENERIC_SPRING": _GENERIC,
+}
+
+
+def constraint_connections(
+    scene: bpy.types.Scene, labels: Mapping[bpy.types.Object, str], unit: float
+) -> tuple[list[Connection], list[Candidate], list[Finding]]:
+    """Return the constraints of labeled objects as joints, frames for other passive objects in them, and findings."""
+    connections: list[Connection] = []
+    bases: dict[str, Candidate] = {}
+    findings: list[Finding] = []
+    for holder in scene.objects:
+        constraint = holder.rigid_body_constraint
+        if constraint is None or not constraint.enabled or constraint.type not in CONSTRAINTS:
+            continue
+        sides = [constraint.object1, constraint.object2]
+        names = ["" if side is None else labels.get(side, "") for side in sides]
+        if not any(names):
+            continue
+        for index, side in enumerate(sides):
+            if side is not None and not names[index] and is_passive(side):
+                names[index] = name = side.name_full
+                bases[name] = Candidate(name, Link(name, pose=_pose(side, unit), is_fixed=True))
+        values, mimic, unusable = joint_values(holder)
+        findings += unusable
+        free = _freedom(constraint, values, unit)
+        connections.append(Connection(holder.name_full, *names, _pose(holder, unit), free, mimic))
+    connections.sort(key=lambda one: one.name)
+    return connections, [bases[name] for name in sorted(bases)], findings
+
+
+def _pose(obj: bpy.types.Object, unit: float) -> Pose:
+    """Return an object's location and rotation, m."""
+    matrix = float64_matrix(obj.matrix_world)
+    turn = polar_rotation(matrix[None])[0][0]
+    return Pose(matrix[:3, 3] * unit, turn * np.sign(np.linalg.det(turn)))
+
+
+def _freedom(
+    constraint: bpy.types.RigidBodyConstraint, values: Mapping[str, float], unit: float
+) -> tuple[FreeAxis, ...]:
+    """Return the free axes of a constraint, with the values of its springs unless `values` states them."""
+    free = []
+    for kind, index, sign in CONSTRAINTS[constraint.type]:
+        turns, axis, lower, upper = kind == "rotate", "xyz"[index], -inf, inf
+        name, length = ("ang_" if turns else "lin_") + axis, 1.0 if turns else unit
+        if constraint.type != "POINT" and getattr(constraint, "use_limit_" + name):
+            lower, upper = (getattr(constraint, "limit_{}_{}".format(name, end)) for end in ("lower", "upper"))
+            if lower == upper:
+                continue
+            # Bullet takes a lower limit above the upper one as none.
+            ends = sorted((sign * lower * length, sign * upper * length))
+            lower, upper = ends if lower < upper else (-inf, inf)
+        spring = {}
+        name, torque = ("ang_" if turns else "") + axis, unit**2 if turns else 1.0
+        # Springs of the other type have a damping without a unit.
+        is_spring = constraint.type == "GENERIC_SPRING" and constraint.spring_type == "SPRING2"
+        if is_spring and getattr(constraint, "use_spring_" + name):
+            spring["stiffness"] = getattr(constraint, "spring_stiffness_" + name) * torque
+            spring["damping"] = getattr(constraint, "spring_damping_" + name) * torque
+        free.append(FreeAxis(kind, np.eye(3)[index], lower, upper, {**spring, **values}))
+    return tuple(free)
+
+
+def joint_values(
+    owner: bpy.types.Object | bpy.types.PoseBone,
+) -> tuple[dict[str, float], Mimic | None, list[Finding]]:
+    """Return the values of a joint that are custom properties, its mimic, and findings about unusable properties."""
+    values: dict[str, float] = {}
+    findings: list[Finding] = []
+    for name in (*VALUES, "mimic_multiplier", "mimic_offset"):
+        value: Any = owner.get("joint_" + name)
+        is_number = isinstance(value, (int, float)) and isfinite(value)
+        # A motor without effort or velocity would not move.
+        if is_number and (name.startswith("mimic") or value > 0 or value == 0 and name not in ("effort", "velocity")):
+            values[name] = float(value)
+        elif value is not None:
+            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=owner.name, key="joint_" + name, value=str(value)))
+    factors = values.pop("mimic_multiplier", 1.0), values.pop("mimic_offset", 0.0)
+    leader = owner.get("joint_mimic")
+    return values, None if leader is None else Mimic(str(leader), *factors), findings
 
 
 def link_surface(
@@ -56,11 +159,14 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
     return [obj.name_full for obj, skew in zip(located, sheared) if skew]
 
 
-def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
-    """Return a bone's axes about which it may turn in its parent, with limits, in the order z, y, x.
+def bone_freedom(
+    bone: bpy.types.PoseBone, values: Mapping[str, float] = MappingProxyType({}), unit: float = 1.0
+) -> tuple[FreeAxis, ...]:
+    """Return a bone's axes along which it may move in its parent, then those about which it may turn, with limits.
 
-    The limits are those of a Limit Rotation constraint in local space, else those for inverse kinematics. Axes are left
-    out if they are locked, or if their limits leave no room.
+    Angles have the limits of a Limit Rotation constraint in local space, else those for inverse kinematics. A bone
+    moves only along axes that a Limit Location constraint limits. Axes are left out if they are locked, or if their
+    limits leave no room. values: of each axis. unit: m.
     """
     limits: dict[str, tuple[float | None, float | None]] = {}
     for axis in "xyz":
@@ -71,7 +177,7 @@ def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
             for axis in "xyz":
                 if getattr(constraint, "use_limit_" + axis):
                     limits[axis] = getattr(constraint, "min_" + axis), getattr(constraint, "max_" + axis)
-    free = []
+    free = _bone_slides(bone, values, unit)
     for index in (2, 1, 0):
         axis = "xyz"[index]
         lower, upper = limits.get(axis, (None, None))
@@ -79,8 +185,27 @@ def bone_freedom(bone: bpy.types.PoseBone) -> tuple[FreeAxis, ...]:
         if no_room or bone.lock_rotation[index] or getattr(bone, "lock_ik_" + axis):
             continue
         limited = -inf if lower is None else lower, inf if upper is None else upper
-        free.append(FreeAxis("rotate", np.eye(3)[index], *limited))
+        free.append(FreeAxis("rotate", np.eye(3)[index], *limited, values))
     return tuple(free)
+
+
+def _bone_slides(bone: bpy.types.PoseBone, values: Mapping[str, float], unit: float) -> list[FreeAxis]:
+    """Return a bone's axes along which it may move in its parent; a bone that is connected to it moves along none."""
+    free: dict[int, FreeAxis] = {}
+    rest = float64_matrix(bone.id_data.matrix_world)[:3, :3] @ float64_matrix(bone.bone.matrix_local)[:3, :3]
+    for constraint in () if bone.parent is not None and bone.bone.use_connect else bone.constraints:
+        if constraint.type != "LIMIT_LOCATION" or constraint.owner_space != "LOCAL" or not constraint.enabled:
+            continue
+        for index, axis in enumerate("xyz"):
+            used = [getattr(constraint, "use_{}_{}".format(end, axis)) for end in ("min", "max")]
+            length = unit * float(np.linalg.norm(rest[:, index]))
+            lower = getattr(constraint, "min_" + axis) * length if used[0] else -inf
+            upper = getattr(constraint, "max_" + axis) * length if used[1] else inf
+            if any(used):
+                free.pop(index, None)
+                if lower < upper and not bone.lock_location[index]:
+                    free[index] = FreeAxis("translate", np.eye(3)[index], lower, upper, values)
+    return [free[index] for index in sorted(free)]
 
 
 def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[str]:

@@ -19,6 +19,7 @@ from ..bodies.assembly.assembly import measure_assembly
 from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
+from ..write.properties import BALANCE_GROUP
 from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_NAME
 from .live.motion import Motion
 from .stored import balance_groups, stability
@@ -115,7 +116,7 @@ class BalanceGroup:
             empty = bpy.data.objects.new("Balance", None)
             empty.empty_display_type, empty.show_in_front = "SPHERE", True
             empty.empty_display_size = 0.05 * float(np.ptp(path.centers, axis=0).max())
-            empty[balance_groups.GROUP] = balance_groups.group_text(self.objects)
+            empty[BALANCE_GROUP] = balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)
         balance_groups.store(empty, path, self.supports)
         context.view_layer.update()

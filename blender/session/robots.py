@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import bpy
@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.robots.findings import ROBOT_WITHOUT_LINKS
-from ...core.robots.links import assemble_robot, make_candidate
+from ...core.robots.links import Candidate, Connection, assemble_robot, make_candidate
 from ...core.robots.model import Robot
 from ...core.verdict.finding import EditRefusedError, Finding, MeasureError, finding
 from ..bodies.assembly.assembly import measure_assembly
 from ..bodies.rig import measure_rig
 from ..bodies.stacks.many import measured_in_turn
-from ..read.robots import bone_freedom, bone_parents, link_surface, object_candidate
+from ..read import robots as reading
+from ..read.robots import link_surface, object_candidate
 from ..read.visibility import measurable
 from ..settings.options import AS_SET, MeasureOptions
 from ..write import reports
@@ -67,6 +68,15 @@ def candidates(context: Context, collection: str, selected: bool) -> list[Object
     return [obj for obj in context.view_layer.objects if not obj.hide_render]
 
 
+def jointed_robot(
+    context: Context, name: str, made: Sequence[Candidate], labels: Mapping[Object, str], unit: float
+) -> tuple[Robot, list[Finding]]:
+    """Return a robot of candidates with the joints of the scene's rigid-body constraints, and findings."""
+    connections, bases, findings = reading.constraint_connections(context.scene, labels, unit)
+    robot, more = assemble_robot(name, [*made, *bases], connections)
+    return robot, [*findings, *more]
+
+
 def object_links(
     context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
@@ -85,9 +95,9 @@ def object_links(
         raise EditRefusedError(failures[0] if failures else finding(ROBOT_WITHOUT_LINKS))
     labels = {obj: obj.name_full for obj in measured}
     made = [object_candidate(labels[obj], obj, measurement, labels) for obj, measurement in measured.items()]
-    robot, findings = assemble_robot(name, made)
-    members = {label: [obj] for obj, label in labels.items()}
     unit = AS_SET.meters_per_unit(context.scene)
+    robot, findings = jointed_robot(context, name, made, labels, unit)
+    members = {label: [obj] for obj, label in labels.items()}
     return SceneLinks(robot, [*findings, *left_out(failures, len(chosen))], unit, members)
 
 
@@ -99,7 +109,7 @@ def collection_links(
     Links are assemblies. objects: the objects whose meshes the links may show.
     """
     depsgraph = context.evaluated_depsgraph_get()
-    made, failures, members = [], [], {}
+    made, failures, members, labels = [], [], {}, {}
     collections = list(root.children) or [root]
     for collection in collections:
         label = collection.name_full
@@ -109,21 +119,23 @@ def collection_links(
             failures.append(reports.failure(label, error.finding))
             continue
         held = {*collection.all_objects}
+        labels.update(dict.fromkeys(held, label))
         members[label] = [obj for obj in objects if obj in held and measurable(obj)]
-        made.append(make_candidate(label, measurement))
+        made.append(make_candidate(label, measurement, is_fixed=any(map(reading.is_passive, held))))
     if not made:
         raise EditRefusedError(failures[0])
-    robot, findings = assemble_robot(name, made)
     unit = options.meters_per_unit(context.scene)
+    robot, findings = jointed_robot(context, name, made, labels, unit)
     return SceneLinks(robot, [*findings, *left_out(failures, len(collections))], unit, members)
 
 
-def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks:
+def bone_links(context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET) -> SceneLinks:
     """Return a robot with a link, in rest frame, for each bone that has a part, and joints with the bones' limits."""
-    made, findings, pieces = [], [], {}
+    made, connections, findings, pieces = [], [], [], {}
+    unit = options.meters_per_unit(context.scene)
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]
     for armature in armatures:
-        rig = measure_rig(context, armature)
+        rig = measure_rig(context, armature, options)
         findings += rig.measurement.findings
         several = len(armatures) > 1
         labels = {
@@ -135,13 +147,18 @@ def bone_links(context: Context, name: str, objects: list[Object]) -> SceneLinks
             if part.measurement is None:
                 continue
             bone, label = armature.pose.bones[part.name], labels[part.name]
-            parents = bone_parents(bone, labels)
-            made.append(make_candidate(label, part.measurement, parents, free=bone_freedom(bone)))
+            parents = reading.bone_parents(bone, labels)
+            values, mimic, unusable = reading.joint_values(bone)
+            findings += unusable
+            free = reading.bone_freedom(bone, values, unit)
+            made.append(make_candidate(label, part.measurement))
+            if parents:
+                connections.append(Connection("{}_joint".format(label), parents[0], label, None, free, mimic))
             pieces[label] = part.surfaces
     if not made:
         raise EditRefusedError(ROBOT_WITHOUT_BONES)
-    robot, left = assemble_robot(name, made)
-    return SceneLinks(robot, [*findings, *left], AS_SET.meters_per_unit(context.scene), pieces=pieces)
+    robot, left = assemble_robot(name, made, connections)
+    return SceneLinks(robot, [*findings, *left], unit, pieces=pieces)
 
 
 def left_out(failures: list[Finding], total: int) -> list[Finding]:

@@ -181,7 +181,7 @@ def _correct(prims: Mapping[str, _Prim], missing: tuple[Finding, ...]) -> Opened
     return Opened(missing, (), findings, hidden)
 
 
-def _shear(obj: Object, place: NDArray[np.float64]) -> NDArray[np.float64] | None:
+def _shear(obj: Object, place: NDArray[np.float64]) -> NDArray | None:
     """Return the (4, 4) map that the matrix of an object lacks, or None if it is flat and has no volume."""
     try:
         return np.linalg.solve(np.array(obj.matrix_world, np.float64), place)

@@ -17,15 +17,15 @@ from typing import Any
 import bpy
 
 from ...blender.read.robots import object_candidate
-from ...blender.session.robots import SceneLinks, bone_links, collection_links
+from ...blender.session.robots import SceneLinks, bone_links, collection_links, jointed_robot
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.plain_text import print_message
 from ...core.robots.formats import FORMATS
-from ...core.robots.links import assemble_robot, robot_name
+from ...core.robots.links import robot_name
 from ...core.robots.model import Robot
-from ...core.robots.write.shapes import with_primitives
+from ...core.robots.write.shapes import with_primitives, without_collision
 from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ...core.verdict.sentences import sentence, severity
@@ -54,11 +54,13 @@ def complete(
         made = _by_object(document, measured, measure_options)
     else:
         made = _of_scene(document, measured, options.links, measure_options)
+    made = replace(made, robot=made.robot.with_fixed_roots()) if options.fixed_base else made
     robot, told, failed = with_primitives(made.robot, "none"), [], []
     if not (options.no_meshes or options.inertial_only or is_stream(options.output)):
         surface_of, read = partial(made.surface, bpy.context), Path(document["file"]) if document["file"] else None
         try:
-            robot, told = with_geometry(made.robot, options.format, surface_of, options.output, read, options.force)
+            seen = without_collision(made.robot) if options.collision == "none" else made.robot
+            robot, told = with_geometry(seen, options.format, surface_of, options.output, read, options.force)
         except OSError as error:
             failed = [finding(FILE_NOT_WRITTEN, file=error.filename or "meshes", error=system_reason(error))]
     text, findings = robot_text(robot, options.format, [*made.findings, *told], inertial_only=options.inertial_only)
@@ -75,8 +77,9 @@ def _by_object(
     """Return the measured objects as links."""
     labels = {obj: label for label, obj, _ in measured if obj is not None}
     made = [object_candidate(label, obj, one, labels) for label, obj, one in measured]
-    robot, findings = assemble_robot(robot_name(document["file"]), sorted(made, key=lambda one: one.name))
+    made.sort(key=lambda one: one.name)
     unit = measure_options.meters_per_unit(bpy.context.scene)
+    robot, findings = jointed_robot(bpy.context, robot_name(document["file"]), made, labels, unit)
     return SceneLinks(robot, findings, unit, {label: [obj] for obj, label in labels.items()})
 
 
@@ -85,10 +88,12 @@ def _of_scene(
 ) -> SceneLinks:
     """Return the scene's collections or bones as links; if they are refused, no links and the finding."""
     name, context = robot_name(document["file"]), bpy.context
+    given = replace(measure_options, order=None)
     try:
         if links == "bone":
-            return bone_links(context, name, [obj for obj in context.view_layer.objects if not obj.hide_render])
+            objects = [obj for obj in context.view_layer.objects if not obj.hide_render]
+            return bone_links(context, name, objects, given)
         objects = [obj for _, obj, _ in measured if obj is not None]
-        return collection_links(context, name, context.scene.collection, objects, replace(measure_options, order=None))
+        return collection_links(context, name, context.scene.collection, objects, given)
     except MeasureError as error:
         return SceneLinks(Robot(name, ()), [error.finding], measure_options.meters_per_unit(context.scene))

@@ -232,6 +232,17 @@ def _add_results(parser: argparse.ArgumentParser) -> None:
         help=", ".join(ROBOT_FORMATS) + ": leave geometry out (with --output: meshes in a folder beside it, of usd and "
         "gltf in the file itself)",
     )
+    add(
+        "--collision",
+        choices=("visual", "none"),
+        default="visual",
+        help=", ".join(ROBOT_FORMATS) + ": links collide as they look, or not at all (visual)",
+    )
+    add(
+        "--fixed-base",
+        action="store_true",
+        help=", ".join(ROBOT_FORMATS) + ": fix links without a parent to the world (passive rigid bodies alone)",
+    )
     add("--output", type=Path, metavar="PATH", help="(standard output)")
     add(
         "--force",

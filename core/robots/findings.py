@@ -6,8 +6,8 @@ from ..verdict.finding import error, note, warning
 
 ROBOT_LINKS_LEFT_OUT = warning(
     "robot_links_left_out",
-    "{count} object without mass is no link: {links}.",
-    "{count} objects without mass are no links: {links}.",
+    "{count} object without mass is no link: {links}. Give it a density or a mass.",
+    "{count} objects without mass are no links: {links}. Give them densities or masses.",
 )
 ROBOT_WITHOUT_LINKS = error("robot_without_links", "There is no link. Measure objects with mass.")
 ROBOT_BASE_ADDED = note(
@@ -24,13 +24,36 @@ URDF_EFFORT_UNKNOWN = note(
     "Set effort and velocity of the joint to its motor's. They are placeholders: {joints}.",
     "Set effort and velocity of {count} joints to those of their motors. They are placeholders: {joints}.",
 )
-SDF_LIMITS_LOST = warning(
-    "sdf_limits_lost",
-    "SDF knows no limits of a joint about several axes. It moves freely: {joints}.",
-    "SDF knows no limits of joints about several axes. {count} move freely: {joints}.",
+JOINTS_CLOSE_LOOP = warning(
+    "joints_close_loop",
+    "A robot is a tree. {joints} would close a loop and is left out. Add it to the file as a constraint.",
+    "A robot is a tree. {count} joints would close loops and are left out: {joints}. Add them to the file as "
+    "constraints.",
+)
+JOINTS_WITHOUT_LINKS = warning(
+    "joints_without_links",
+    "{joints} holds an object that is no link, and is left out. Set both objects of the constraint, and export them.",
+    "{count} joints hold an object that is no link, and are left out: {joints}. Set both objects of the constraints, "
+    "and export them.",
+)
+JOINTS_ALL_FIXED = note(
+    "joints_all_fixed",
+    "All joints are fixed: nothing moves. Add a rigid-body constraint between two objects, such as a hinge, or "
+    "export bones as links.",
+)
+JOINT_VALUES_LOST = warning(
+    "joint_values_lost",
+    "{format} has no place for these values of a joint: {values}. They are lost for {joints}.",
+)
+JOINT_VALUE_UNUSABLE = warning(
+    "joint_value_unusable",
+    "{joint}: {key} is {value}, and is ignored. Set a positive number; joint_mimic takes the name of another joint "
+    "about one axis, for a joint about one axis.",
 )
 ROBOT_SCALED = warning(
-    "robot_scaled", "Readers differ about bodies that are scaled. Apply the scale of {links} (Object > Apply > Scale)."
+    "robot_scaled",
+    "Readers differ about bodies that are scaled or sheared. Apply the scale of {links} and of their parents (Object > "
+    "Apply > Scale).",
 )
 GLTF_NODE_MISSING = warning(
     "gltf_node_missing",

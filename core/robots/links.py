@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import PurePath
 from typing import NamedTuple
 
@@ -13,20 +14,36 @@ import numpy as np
 from ..measurement.measurement import Measurement
 from ..numerics.rotations import quaternion, rotation_matrix
 from ..verdict.finding import Finding, finding
-from .findings import ROBOT_LINKS_LEFT_OUT, ROBOT_WITHOUT_LINKS
-from .model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape
+from .findings import (
+    JOINT_VALUE_UNUSABLE,
+    JOINTS_CLOSE_LOOP,
+    JOINTS_WITHOUT_LINKS,
+    ROBOT_LINKS_LEFT_OUT,
+    ROBOT_WITHOUT_LINKS,
+)
+from .model import FreeAxis, Inertial, Joint, Link, Mimic, Pose, Robot, Shape
 
 
 class Candidate(NamedTuple):
-    """A measured body. link: None if the body has no mass.
-
-    parents: names of other candidates, the nearest first. free: its degrees of freedom relative to its parent.
-    """
+    """A measured body. link: None if the body has no mass. parents: names of other candidates, the nearest first."""
 
     name: str
     link: Link | None
     parents: Sequence[str] = ()
+
+
+class Connection(NamedTuple):
+    """A joint between two candidates; "" is anything else. pose: its frame in the world, m; by default the second's.
+
+    free: freedom of `second` relative to `first`, the axis next to `first` first.
+    """
+
+    name: str
+    first: str
+    second: str
+    pose: Pose | None = None
     free: tuple[FreeAxis, ...] = ()
+    mimic: Mimic | None = None
 
 
 def robot_name(file: str | None) -> str:
@@ -39,7 +56,7 @@ def make_candidate(
     measurement: Measurement,
     parents: Sequence[str] = (),
     scale: Sequence[float] = (1.0, 1.0, 1.0),
-    free: tuple[FreeAxis, ...] = (),
+    is_fixed: bool = False,
 ) -> Candidate:
     """Return a candidate with the measured body as a link in its own frame. scale: (3,) of the object's geometry."""
     body = measurement.in_object_frame()
@@ -49,19 +66,125 @@ def make_candidate(
     inertial = Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
     pose = Pose(measurement.location, rotation_matrix(quaternion(measurement.rotation)))
     shapes = () if measurement.kind == "wire" else (Shape("mesh", sheet=measurement.kind == "shell"),)
-    return Candidate(name, Link(name, inertial, pose, shapes, np.array(scale)), parents, free)
+    return Candidate(name, Link(name, inertial, pose, shapes, np.array(scale), is_fixed), parents)
 
 
-def assemble_robot(name: str, candidates: Sequence[Candidate]) -> tuple[Robot, list[Finding]]:
-    """Return a robot of the candidates with mass, joined to their nearest parents, and findings."""
+def assemble_robot(
+    name: str, candidates: Sequence[Candidate], connections: Iterable[Connection] = ()
+) -> tuple[Robot, list[Finding]]:
+    """Return a robot of the candidates with mass, and findings.
+
+    A connection takes the place of the fixed joint to a parent, or holds links that have no parent.
+    """
     links = {one.name: one.link for one in candidates if one.link is not None}
-    joints = []
-    for one in candidates:
-        parent = next((above for above in one.parents if above in links and above != one.name), None)
-        if parent is not None and one.name in links:
-            joints.append(Joint("{}_joint".format(one.name), parent, one.name, one.free))
+    nearest = {one.name: next((name for name in one.parents if name in links and name != one.name), None)
+               for one in candidates if one.link is not None}  # fmt: skip
+    parents = {child: parent for child, parent in nearest.items() if parent is not None}
+    loose = [one.name for one in connections if (one.first in links) != (one.second in links)]
+    edges, loops = _spanning_edges(links, parents, [one for one in connections if {one.first, one.second} <= {*links}])
+    joints, findings = _check_mimics(_directed_joints(links, edges))
     left_out = [one.name for one in candidates if one.link is None]
-    findings = [finding(ROBOT_LINKS_LEFT_OUT, count=len(left_out), links=left_out)] if left_out else []
+    if loose:
+        findings.append(finding(JOINTS_WITHOUT_LINKS, count=len(loose), joints=loose))
+    if loops:
+        findings.append(finding(JOINTS_CLOSE_LOOP, count=len(loops), joints=loops))
+    if left_out:
+        findings.append(finding(ROBOT_LINKS_LEFT_OUT, count=len(left_out), links=left_out))
     if not links:
         findings.append(finding(ROBOT_WITHOUT_LINKS))
     return Robot(name, tuple(links.values()), tuple(joints)), findings
+
+
+def _spanning_edges(
+    links: Mapping[str, Link], parents: Mapping[str, str], connections: Sequence[Connection]
+) -> tuple[list[Connection], list[str]]:
+    """Return edges that make trees of the links, parents first, and the names of connections that would close a loop.
+
+    All fixed links count as one, the world, which has no name.
+    """
+    group: dict[str, str] = {}
+
+    def join(first: str, second: str) -> bool:
+        tops = []
+        for name in (first, second):
+            while name in group:
+                name = group[name]
+            tops.append(name)
+        if tops[0] != tops[1]:
+            group[max(tops)] = min(tops)
+        return tops[0] != tops[1]
+
+    between = {frozenset((one.first, one.second)): one for one in reversed(connections)}
+    edges, names = [], {one.name for one in connections}
+    for child, parent in parents.items():
+        edge = between.get(frozenset((parent, child)))
+        if edge is None or links[child].is_fixed and links[parent].is_fixed:
+            name = "{}_joint".format(child)
+            edge = Connection(name + "_" * (name in names), parent, child)
+        # The side of the parent comes first.
+        edges.append(edge if edge.first == parent else _exchange(edge, links))
+        join(parent, child)
+    for link in links.values():
+        if link.is_fixed:
+            join("", link.name)
+    used = {edge.name for edge in edges} & names
+    rest = [one for one in connections if one.name not in used]
+    joined = [join(one.first, one.second) for one in rest]
+    edges += [one for one, is_tree in zip(rest, joined) if is_tree]
+    return edges, [one.name for one, is_tree in zip(rest, joined) if not is_tree]
+
+
+def _exchange(edge: Connection, links: Mapping[str, Link]) -> Connection:
+    """Return the connection of the same positions as seen from its other side."""
+    free = tuple(axis.reverse() for axis in reversed(edge.free))
+    return edge._replace(first=edge.second, second=edge.first, pose=edge.pose or links[edge.second].pose, free=free)
+
+
+def _directed_joints(links: Mapping[str, Link], edges: Sequence[Connection]) -> list[Joint]:
+    """Return the edges as joints, from fixed links to others, else from the top of first sides."""
+    above: dict[str, str] = {}
+    around: dict[str, list[Connection]] = {name: [] for name in links}
+    for edge in edges:
+        above.setdefault(edge.second, edge.first)
+        around[edge.first].append(edge)
+        around[edge.second].append(edge)
+
+    def path_up(name: str) -> list[str]:
+        path = [name]
+        while path[-1] in above:
+            path.append(above[path[-1]])
+        return path
+
+    fixed = sorted((link.name for link in links.values() if link.is_fixed), key=lambda name: len(path_up(name)))
+    joints: dict[str, Joint] = {}
+    visited: set[str] = set()
+    for root in [*fixed, *(path_up(name)[-1] for name in links)]:
+        waiting = [root] if root not in visited else []
+        while waiting:
+            parent = waiting.pop()
+            visited.add(parent)
+            for edge in around[parent]:
+                edge = edge if edge.first == parent else _exchange(edge, links)
+                child, pose = edge.second, Pose()
+                if child in visited:
+                    continue
+                waiting.append(child)
+                if edge.pose is not None:
+                    pose = links[child].pose.inverse() @ edge.pose
+                joints[child] = Joint(edge.name, parent, child, edge.free, pose, edge.mimic)
+    return [joints[name] for name in links if name in joints]
+
+
+def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
+    """Return the joints, with mimics that name other joints of one axis, and findings about mimics that do not."""
+    checked, findings = [*joints], []
+    single = {joint.child: joint.name for joint in checked if len(joint.free) == 1}
+    single |= {name: name for name in single.values()}
+    for index, joint in enumerate(checked):
+        mimic = joint.mimic and joint.mimic._replace(joint=single.get(joint.mimic.joint, ""))
+        if mimic and (mimic.joint in ("", joint.name) or joint.name not in single):
+            named = joint.mimic.joint
+            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=joint.name, key="joint_mimic", value=named))
+            mimic = None
+        checked[index] = replace(joint, mimic=mimic)
+    return checked, findings

@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,8 @@ from ..inertia.mass_properties import combine
 from ..mesh.surface import Surface
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 
+# Known values of an axis: N·m·s/rad or N·s/m, N·m or N, N·m/rad or N/m, N·m or N, rad/s or m/s.
+VALUES = ("damping", "friction", "stiffness", "effort", "velocity")
 AGREEING_RTOL = 8.0 * float(np.finfo(np.float64).eps)  # Relative to the largest entry.
 
 
@@ -88,6 +91,7 @@ class Shape:
     cylinder, the radius of a sphere, the factors along the axes of a mesh.
     file: a mesh's file, with slashes, relative to the file that names it. sheet: True if the mesh bounds no volume.
     surface: the geometry of a mesh that is to be written, in meters along the axes of the shape.
+    collides: False for a shape that is only seen.
     """
 
     kind: str
@@ -96,34 +100,53 @@ class Shape:
     file: str = ""
     sheet: bool = False
     surface: Surface | None = None
+    collides: bool = True
 
 
 @dataclass(frozen=True, eq=False)
 class FreeAxis:
-    """One degree of freedom of a joint: "rotate" or "translate", along a (3,) unit axis in the child's frame.
+    """One degree of freedom of a joint: "rotate" or "translate", along a (3,) unit axis in the joint's frame.
 
-    lower, upper: limits in radians or meters, infinite if unlimited.
+    lower, upper: limits in radians or meters, infinite if unlimited. values: those of VALUES that are known, by name.
     """
 
     kind: str
     axis: NDArray[np.float64]
     lower: float = -inf
     upper: float = inf
+    values: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def is_limited(self) -> bool:
         """True if either limit is finite."""
         return self.lower > -inf or self.upper < inf
 
+    def reverse(self) -> FreeAxis:
+        """Return the freedom with the same positions for parent and child exchanged."""
+        return replace(self, axis=-self.axis)
+
+
+class Mimic(NamedTuple):
+    """The position of a joint follows another joint's: multiplier · position + offset, in radians or meters."""
+
+    joint: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """The joint between a link and its parent, in the child's frame. free: the axis next to the parent first."""
+    """The joint between a link and its parent.
+
+    free: the axis next to the parent first. pose: the joint's frame in the child's frame.
+    """
 
     name: str
     parent: str
     child: str
     free: tuple[FreeAxis, ...] = ()
+    pose: Pose = field(default_factory=Pose)
+    mimic: Mimic | None = None
 
     @property
     def is_ball(self) -> bool:
@@ -138,6 +161,7 @@ class Link:
 
     inertial: None for a frame without mass. pose: in the world.
     scale: (3,) scale of the source's own geometry along the link's axes, if it is not written anew.
+    is_fixed: True if it cannot move in the world. A robot needs that of roots alone.
     """
 
     name: str
@@ -145,6 +169,7 @@ class Link:
     pose: Pose = field(default_factory=Pose)
     shapes: tuple[Shape, ...] = ()
     scale: NDArray[np.float64] = field(default_factory=lambda: np.ones(3))
+    is_fixed: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,6 +235,25 @@ class Robot:
         """Return the pose of a link in its parent's frame; of a root, in the world's."""
         joint = self.joint_of(link.name)
         return link.pose if joint is None else self.link(joint.parent).pose.inverse() @ link.pose
+
+    def with_fixed_roots(self) -> Robot:
+        """Return the robot with all its roots fixed to the world."""
+        roots = {link.name for link in self.roots}
+        return replace(self, links=tuple(replace(one, is_fixed=one.name in roots) for one in self.links))
+
+    def at_joints(self) -> Robot:
+        """Return the robot with each link's origin at its joint, its axes unturned, for formats that demand it."""
+        places = {joint.child: joint.pose.position for joint in self.joints if joint.pose.position.any()}
+        links = []
+        for link in self.links:
+            if link.name in places:
+                place, back = Pose(places[link.name]), Pose(-places[link.name])
+                shapes = tuple(replace(shape, pose=back @ shape.pose) for shape in link.shapes)
+                inertial = link.inertial and link.inertial.place(back)
+                link = replace(link, inertial=inertial, pose=link.pose @ place, shapes=shapes)
+            links.append(link)
+        joints = tuple(replace(joint, pose=Pose(rotation=joint.pose.rotation)) for joint in self.joints)
+        return replace(self, links=tuple(links), joints=joints)
 
     def rigid_parts(self, link: Link) -> list[Link]:
         """Return a link and all links below it that are connected by fixed joints only, parents first."""

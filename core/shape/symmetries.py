@@ -11,7 +11,7 @@ C∞v a body of revolution, K a ball.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +28,8 @@ EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are eq
 EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations is the operation nearest to it
 REFINEMENTS = 3  # of an operation by the surface
 MAX_REFINEMENT = 1e-2  # angle by which noise may have turned an operation
+LIMIT_RANGE = 8.0  # misfits so many times smaller or larger than the tolerance are decided
+NO_INDICES = np.empty(0, np.intp)
 MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
@@ -147,36 +149,13 @@ def symmetry(
     return Symmetry(distinct_arrays(operations, EQUAL_OPERATION_ATOL), axes, order)
 
 
-def confirm(
-    candidate: Symmetry,
-    center: NDArray,
-    points: NDArray,
-    distance: Distance,
-    tolerance: float,
-    nearest: Callable[[NDArray], NDArray] | None = None,
-) -> Symmetry:
-    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface.
-
-    nearest: returns the points of the surface nearest to given ones; with it, operations that noise has turned a little
-    are turned back first.
-    """
+def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
+    """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface."""
     points = points - center
     some = points[:: 1 + len(points) // FIRST_SAMPLES]
 
-    def holds(operation: NDArray, shift: NDArray | float = 0.0) -> bool:
-        return all((distance(part @ operation.T + center + shift) <= tolerance).all() for part in (some, points))
-
-    def holds_nearby(operation: NDArray) -> bool:
-        turned, shift = operation, np.zeros(3)
-        for _ in range(REFINEMENTS if nearest else 0):
-            if holds(turned, shift) or not np.isfinite(distance(some @ turned.T + center + shift)).all():
-                break
-            images = points @ turned.T + shift
-            turn, step = _motion_between(images, nearest(images + center) - center)
-            angle = float(np.linalg.norm(turn))
-            rotation = _axis_rotation(turn / (angle or 1.0), angle)
-            turned, shift = rotation @ turned, rotation @ shift + step
-        return np.abs(turned - operation).max() < MAX_REFINEMENT and holds(turned, shift)
+    def holds(operation: NDArray) -> bool:
+        return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
 
     if len(candidate.revolution_axes) == 3:
         turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
@@ -188,11 +167,94 @@ def confirm(
     if len(candidate.revolution_axes):
         axis = candidate.revolution_axes[0]
         if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
-            return Symmetry(
-                _held_group(operations, holds_nearby), candidate.revolution_axes, candidate.order, tolerance
-            )
+            confirmed = [operation for operation in operations if holds(operation)]
+            return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
         operations = _around_axis(points, axis, holds)
-    return Symmetry(_held_group(operations, holds_nearby), np.empty((0, 3)), candidate.order, tolerance)
+    confirmed = np.array([operation for operation in operations if holds(operation)])
+    return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
+
+
+def decide(
+    candidates: Sequence[Symmetry],
+    center: NDArray,
+    points: NDArray,
+    distance: Distance,
+    nearest: Callable[[NDArray], NDArray],
+    tolerance: float,
+) -> list[Symmetry]:
+    """Return the largest finite symmetry among the candidates' that the geometry has; two if it leaves a choice.
+
+    Noise may have turned and shifted the operations a little: the points of the surface `nearest` to the images turn
+    them back. Misfits of one order of magnitude belong together: both limits, below and above the tolerance, are in the
+    widest gap between misfits.
+    """
+    points, known, compared = points - center, np.empty((0, 3, 3)), []
+    for operations in (candidate.operations for candidate in candidates):
+        if len(operations) > len(_nearest_operations(operations, known)):
+            known = np.concatenate([known, operations])
+            misfits = [_misfit(each, center, points, distance, nearest, tolerance) for each in operations]
+            compared.append((operations, np.array(misfits)))
+    misfits = np.concatenate([np.empty(0), *(each for _, each in compared)])
+    limits = [
+        _limit_between(misfits, tolerance * low, tolerance * low * LIMIT_RANGE) for low in (1.0 / LIMIT_RANGE, 1.0)
+    ]
+    groups = [[_closed(operations, each <= limit) for limit in limits] for operations, each in compared]
+    sure, possible = max(groups, key=lambda pair: [len(group) for group in pair], default=[np.eye(3)[None]] * 2)
+    found = [sure, possible][: 1 + (len(sure) < len(possible))]
+    return [Symmetry(group, np.empty((0, 3)), 0, tolerance) for group in found]
+
+
+def _misfit(
+    operation: NDArray,
+    center: NDArray,
+    points: NDArray,
+    distance: Distance,
+    nearest: Callable[[NDArray], NDArray],
+    tolerance: float,
+) -> float:
+    """Return the largest distance of images of points, relative to the center, from the surface; or infinity.
+
+    The operation is turned and shifted a little until the images are clearly near, or come no nearer.
+    """
+    some, turned, shift, least = points[:: 1 + len(points) // FIRST_SAMPLES], operation, np.zeros(3), np.inf
+    for _ in range(1 + REFINEMENTS):
+        if not np.isfinite(distance(some @ turned.T + center + shift)).all():
+            break
+        images = points @ turned.T + shift
+        misfit = float(distance(images + center).max())
+        if misfit <= tolerance / LIMIT_RANGE or misfit > 0.9 * least:
+            return min(misfit, least)
+        least = misfit
+        turn, step = _motion_between(images, nearest(images + center) - center)
+        angle = float(np.linalg.norm(turn))
+        rotation = _axis_rotation(turn / (angle or 1.0), angle)
+        turned, shift = rotation @ turned, rotation @ shift + step
+        if np.abs(turned - operation).max() > MAX_REFINEMENT:
+            break
+    return least
+
+
+def _limit_between(misfits: NDArray, low: float, high: float) -> float:
+    """Return a limit for misfits from low to high, in the widest gap between those that lie there."""
+    ends = np.array([low, *np.sort(misfits[(misfits > low) & (misfits < high)]), high])
+    widest = int((ends[1:] / ends[:-1]).argmax())
+    return float(np.sqrt(ends[widest] * ends[widest + 1]))
+
+
+def _nearest_operations(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
+    """Return the indices of operations that are equal, but for noise, to some of the products; of each one at most."""
+    alike = np.einsum("kij,nij->kn", products, operations)
+    return alike.argmax(axis=1)[alike.max(axis=1) > 3.0 - EQUAL_PRODUCT_ATOL] if len(operations) else NO_INDICES
+
+
+def _closed(operations: NDArray, held: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Return the operations that hold, a mask of a group, and all their products."""
+    held, count = held | (operations.trace(axis1=1, axis2=2) > 3.0 - EQUAL_OPERATION_ATOL), 0
+    while count < held.sum():
+        count = int(held.sum())
+        products = operations[held][:, None] @ operations[held]
+        held[_nearest_operations(products.reshape(-1, 3, 3), operations)] = True
+    return operations[held]
 
 
 def _motion_between(points: NDArray, nearest: NDArray) -> tuple[NDArray, NDArray]:
@@ -202,28 +264,6 @@ def _motion_between(points: NDArray, nearest: NDArray) -> tuple[NDArray, NDArray
     away = gaps / np.where(lengths > 0.0, lengths, 1.0)[:, None]
     motion = np.linalg.lstsq(np.hstack([np.cross(points / reach, away), away]), -lengths, rcond=1e-6)[0]
     return motion[:3] / reach, motion[3:]
-
-
-def _held_group(operations: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
-    """Return the subgroup of the operations, a group, that hold: products of operations that do are not tested."""
-
-    def find(products: NDArray) -> NDArray[np.intp]:
-        alike = np.einsum("kij,nij->kn", products.reshape(-1, 3, 3), operations)
-        return alike.argmax(axis=1)[alike.max(axis=1) > 3.0 - EQUAL_PRODUCT_ATOL]
-
-    held = operations.trace(axis1=1, axis2=2) > 3.0 - EQUAL_OPERATION_ATOL
-    unknown = ~held
-    while unknown.any():
-        first = int(unknown.argmax())
-        if holds(operations[first]):
-            held[first], count = True, 0
-            while count < held.sum():
-                count = held.sum()
-                held[find(operations[held][:, None] @ operations[held])] = True
-            unknown &= ~held
-        else:  # nor does its coset
-            unknown[find(operations[first] @ operations[held])] = unknown[first] = False
-    return operations[held]
 
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:

@@ -30,20 +30,19 @@ def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
     whole = np.fromstring(text.translate(_BLANKS, b"."), np.int64, sep=" ")
     powers = np.zeros(len(starts), np.int64)
     dots = np.flatnonzero(letters == _DOT)
-    owners = np.searchsorted(starts, dots, "right") - 1
+    first = owners = np.flatnonzero(~is_exponent)
+    if len(dots) != len(first) or (dots < starts[first]).any() or (dots >= ends[first]).any():
+        owners = np.searchsorted(starts, dots, "right") - 1  # Some numbers have no dot.
     powers[owners] = dots - ends[owners] + 1
-    first = np.flatnonzero(~is_exponent)
-    if len(first) < len(starts):
-        last = np.flatnonzero(is_exponent)
-        powers[last - 1] += whole[last]
-        longest = (ends - starts)[first].max(initial=0)
-        whole, powers = whole[first], powers[first]
-    else:
-        longest = (ends - starts).max(initial=0)
-    is_exact = longest <= MAX_LETTERS and np.abs(whole).max(initial=0) <= MAX_EXACT
-    if is_exact and np.abs(powers).max(initial=0) <= MAX_POWER:
-        scales = _POWERS[np.abs(powers)]
-        return np.where(powers < 0, whole / scales, whole * scales), starts[first]
-    is_part[starts[is_exponent] - 1] = True
-    plain = np.where(is_part, letters, np.uint8(_SPACE)).tobytes()
-    return np.fromstring(plain, np.float64, sep=" "), starts[first]
+    last = np.flatnonzero(is_exponent)
+    powers[last - 1] += whole[last]
+    is_hard = (ends - starts > MAX_LETTERS) | (np.abs(whole) > MAX_EXACT) | (np.abs(powers) > MAX_POWER)
+    scales = _POWERS[np.minimum(np.abs(powers), MAX_POWER)]
+    values = np.where(powers < 0, whole / scales, whole * scales)
+    is_hard[last] = is_hard[last - 1]
+    if is_hard.any():
+        is_part[is_part] = np.repeat(is_hard, ends - starts)
+        is_part[starts[last] - 1] = is_hard[last]
+        hard = np.where(is_part, letters, np.uint8(_SPACE)).tobytes()
+        values[is_hard & ~is_exponent] = np.fromstring(hard, np.float64, sep=" ")
+    return values[first], starts[first]

@@ -90,20 +90,27 @@ def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArr
     for axis in range(3):
         keys = (keys ^ words[:, axis]) * np.uint64(0x9E3779B97F4A7C15)
         keys ^= keys >> np.uint64(32)
-    order = np.argsort(keys)
-    changes = np.ones(len(points), bool)
-    changes[1:] = keys[order[1:]] != keys[order[:-1]]
-    same = order[1:][~changes[1:]], order[:-1][~changes[1:]]
-    if (words[same[0]] != words[same[1]]).any():  # different points with one key
+    # With the indices in place of their last bits, keys are sorted without a table of indices, in half the time.
+    bits = np.uint64(len(points).bit_length())
+    keys = (keys >> bits << bits) | np.arange(len(points), dtype=np.uint64)
+    keys.sort()
+    order = (keys & ((np.uint64(1) << bits) - np.uint64(1))).astype(np.intp)
+    is_first, index = _number_groups(order, np.diff(keys >> bits) != 0)
+    if not np.array_equal(points[is_first][index], points):  # different points with the same key
         order = np.lexsort(words.T)
-        changes[1:] = (words[order[1:]] != words[order[:-1]]).any(axis=1)
-    firsts = np.minimum.reduceat(order, np.flatnonzero(changes)) if len(order) else order
-    is_first = np.zeros(len(points), bool)
-    is_first[firsts] = True
-    numbers = np.cumsum(is_first) - 1
-    index = np.empty(len(points), np.intp)
-    index[order] = numbers[firsts][np.cumsum(changes) - 1]
+        is_first, index = _number_groups(order, (words[order[1:]] != words[order[:-1]]).any(axis=1))
     return points[is_first], index
+
+
+def _number_groups(order: NDArray[np.intp], is_next: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Return the first member of each group, and (n,) numbers of the groups. is_next: (n - 1,) where one begins."""
+    is_first, index = np.zeros(len(order), bool), np.zeros(len(order), np.intp)
+    if len(order):
+        starts = np.append(0, np.flatnonzero(is_next) + 1)
+        firsts = np.minimum.reduceat(order, starts)
+        is_first[firsts] = True
+        index[order] = np.repeat((np.cumsum(is_first) - 1)[firsts], np.diff(starts, append=len(order)))
+    return is_first, index
 
 
 def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:

@@ -87,7 +87,8 @@ class PlyFile:
         points = self._empty_points()
         names = {one.name for one in self._vertices.properties if not one.counter} - {"x", "y", "z"}
         values = {name: np.empty(len(points), np.float32) for name in names}
-        faces, edges = Polygons(), [np.zeros((0, 2), np.int64)]
+        faces = Polygons()
+        edges: list[NDArray[np.integer]] = [np.zeros((0, 2), np.int64)]
         for element, rows, columns in self._blocks():
             if element is self._vertices:
                 self._fill_points(points, rows, columns)
@@ -111,9 +112,9 @@ class PlyFile:
         given = corners
         with np.errstate(invalid="ignore"):  # a text may have NaN
             corners = np.ascontiguousarray(corners, np.int32 if corners.dtype == np.int32 else np.int64)
-        first, last = int(corners.min()), int(corners.max()) + 1
+        first, last = (int(corners.min()), int(corners.max()) + 1) if corners.size else (0, 1)
         whole = given.dtype.kind != "f" or np.array_equal(corners, given)
-        if not whole or not 0 <= first < last <= count:
+        if corners.size and not (whole and 0 <= first < last <= count):
             raise damaged(self._path, DAMAGE_INDEX, vertices=count)
         return corners, first, last
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 import warnings
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from typing import BinaryIO
 
 import numpy as np
@@ -17,6 +18,7 @@ from .ply_header import Element, Property
 
 BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
 FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.
+WINDOW = 1 << 14  # bytes or numbers among which lengths are looked for
 SINGLE_ROWS = 1 << 14  # rows of unequal lengths that are sorted by them
 MAX_LIST = 1 << 26  # numbers of a face: a larger count is damage, and would be read into memory
 NUMBERS = np.dtype(np.float64)  # type of the numbers of a text
@@ -62,32 +64,48 @@ class RowReader:
             done += count
 
     def _scan(self, properties: Sequence[Property], rows: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (rows + 1,) offsets of the next rows in the buffer, and the (rows, lists) lengths of their lists."""
+        """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of their lists.
+
+        n: `rows`, or fewer that fill a block.
+        """
         gap, lists = 0, []
         for one in properties:
             if one.counter:
                 lists.append((gap, one.counter, self._size(one.counter), self._size(one.type)))
             gap = 0 if one.counter else gap + self._size(one.type)
-        at, starts, lengths = 0, [0], []
-        views: dict[str, NDArray] = {}  # numbers of a type at every offset of the buffer
-        for _ in range(rows):
-            for before, kind, size, step in lists:
-                at += before
-                if at + size > len(self._buffer):
-                    self._fill(at + size)
-                    views = {}
-                if kind not in views:
-                    count, stride = len(self._buffer) + 1 - size, self._buffer.strides
-                    views[kind] = np.ndarray(count, self._type(kind), self._buffer, strides=stride)
-                length = views[kind][at]
-                if not 0 <= length <= MAX_LIST or length % 1:
+        starts: list[int] = [0]
+        lengths: list[int] = []
+        window = WINDOW
+        while len(starts) <= rows and starts[-1] <= BYTES_PER_BLOCK:
+            base, before = starts[-1], len(starts)
+            self._read_ahead(base + window)
+            # As lists, for it is a loop over rows: where one begins, the one before it tells.
+            plan = [(skip, self._numbers_at(kind, base, window), size, step) for skip, kind, size, step in lists]
+            with suppress(IndexError):  # The row goes on behind the window.
+                while len(starts) <= rows:
+                    at = starts[-1] - base
+                    for skip, counts, size, step in plan:
+                        at += skip
+                        lengths.append(counts[at])
+                        at += size + step * lengths[-1]
+                    starts.append(base + at + gap)
+            del lengths[len(lists) * (len(starts) - 1) :]
+            new = lengths[len(lists) * (before - 1) :]
+            if new and not 0 <= min(new) <= max(new) <= MAX_LIST:
+                raise RowsError
+            if len(starts) == before:
+                if base + window > len(self._buffer):
                     raise RowsError
-                lengths.append(int(length))
-                at += size + step * lengths[-1]
-            at += gap
-            starts.append(at)
-        self._fill(at)
-        return np.array(starts), np.array(lengths, np.intp).reshape(rows, len(lists))
+                window *= 4
+        self._fill(starts[-1])
+        return np.array(starts), np.array(lengths, np.intp).reshape(len(starts) - 1, len(lists))
+
+    def _numbers_at(self, kind: str, start: int, count: int) -> list[int]:
+        """Return the whole numbers of a type at up to `count` offsets of the buffer."""
+        rest = len(self._buffer) + 1 - self._size(kind)
+        view = np.ndarray(max(rest, 0), self._type(kind), self._buffer, strides=self._buffer.strides)
+        with np.errstate(invalid="ignore"):
+            return view[start : start + count].astype(np.int64).tolist()
 
     def _group_rows(
         self, properties: Sequence[Property], starts: NDArray, lengths: NDArray, first: int
@@ -97,8 +115,10 @@ class RowReader:
         changes = np.flatnonzero((lengths[order[1:]] != lengths[order[:-1]]).any(axis=1)) + 1
         for rows in np.split(order, changes):
             row = self._row_type(properties, lengths[rows[0]])
-            places = starts[rows][:, None] + np.arange(row.itemsize // self._buffer.itemsize)
-            table = np.frombuffer(self._buffer[places].tobytes(), row)
+            size = row.itemsize // self._buffer.itemsize
+            first_row = self._buffer[starts[rows[0]] :][:size]
+            parts = self._buffer[starts[rows][:, None] + np.arange(size)] if len(rows) > 1 else first_row
+            table = np.frombuffer(parts.tobytes(), row)
             yield first + rows, [table[name] for name in _names(properties)]
 
     def _row_type(self, properties: Sequence[Property], lengths: Sequence[int] | NDArray[np.intp]) -> np.dtype:

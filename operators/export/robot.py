@@ -5,6 +5,7 @@
 The exporters of collections keep their path and options in the .blend; Blender runs them again by Export All.
 """
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,14 +24,14 @@ from ...core.robots.formats import FORMATS, RobotFormat
 from ...core.verdict.finding import EditRefusedError, FileError, Finding, finding, system_reason
 from ...core.verdict.sentences import sentence
 from .. import selection
-from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE, ROBOT_SHEARED
+from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
 from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
 
 if TYPE_CHECKING:
     from ...blender.session.robots import SceneLinks
 
 LINKS = (
-    ("OBJECT", "Objects", "Each object is a link; its parent holds it by a fixed joint"),
+    ("OBJECT", "Objects", "Each object is a link; rigid-body constraints are joints, and parents hold by fixed joints"),
     ("COLLECTION", "Collections", "Each collection with all that it holds is a link, along the world's axes"),
     ("BONE", "Bones", "Each bone of a character is a link in its rest frame, with joints of the bones' limits"),
 )
@@ -55,6 +56,14 @@ class RobotExport(selection.InObjectMode, ExportHelper):
     collection: StringProperty(name="Source Collection", options={"HIDDEN"})
     links: EnumProperty(name="Links", description="What is one rigid body", items=LINKS, default="OBJECT")
     geometry: EnumProperty(name="Geometry", description="What links look like and collide as", items=GEOMETRY)
+    use_collision: BoolProperty(
+        name="Collision", description="Links collide as they look; else their geometry is only seen", default=True
+    )
+    fixed_base: BoolProperty(
+        name="Fixed Base",
+        description="Fix links without a parent to the world; else passive rigid bodies alone",
+        default=False,
+    )
     inertial_only: BoolProperty(
         name="Inertials Only", description="Write mass, center and inertia of each link and nothing else", default=False
     )
@@ -64,6 +73,7 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         path = Path(bpy.path.abspath(self.filepath))
         objects = session.robots.candidates(context, self.collection, self.use_selection)
         made = self._links(context, objects, path.stem)
+        made = replace(made, robot=made.robot.with_fixed_roots()) if self.fixed_base else made
         findings = self._export(context, made, path)
         done = "{count} link exported to {file}.", "{count} links exported to {file}."
         selection.report(self, reports.phrase(*done, count=len(made.robot.links), file=path.name), *findings)
@@ -82,7 +92,9 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         robot, bare = made.robot, []
         if self.geometry != "MESH":
             robot = write.shapes.with_primitives(robot, self.geometry.lower())
-        elif not self.inertial_only:
+        if not self.use_collision:
+            robot = write.shapes.without_collision(robot)
+        if self.geometry == "MESH" and not self.inertial_only:
             try:
                 robot, bare = write.texts.with_geometry(robot, self.FORMAT, partial(made.surface, context), path)
             except OSError as error:
@@ -107,18 +119,23 @@ class RobotExport(selection.InObjectMode, ExportHelper):
         layout.prop(self, "inertial_only")
         column = layout.column()
         column.enabled = not self.inertial_only
+        column.prop(self, "fixed_base")
         column.prop(self, "geometry")
+        column.prop(self, "use_collision")
 
 
 class GeometryExport(RobotExport):
     """Base of exporters that leave the geometry of objects to Blender's own exporter; all else is a file of our own."""
 
     def _export(self, context: Context, made: "SceneLinks", path: Path) -> list[Finding]:
-        if self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only:
+        is_own = self.links != "OBJECT" or self.geometry != "MESH" or self.inertial_only
+        # Nested prims and nodes cannot move in each other.
+        if is_own or any(joint.free for joint in made.robot.joints):
             return super()._export(context, made, path)
+        made.findings.extend(write.texts.check(made.robot, self.FORMAT))
         sheared = read.robots.sheared_objects([obj for held in made.members.values() for obj in held])
         if sheared:
-            made.findings.append(finding(ROBOT_SHEARED, count=len(sheared), links=sheared))
+            made.findings.append(finding(ROBOT_SCALED, count=len(sheared), links=sheared))
         return self._export_over(made, path)
 
     def _export_over(self, made: "SceneLinks", path: Path) -> list[Finding]:
@@ -145,7 +162,6 @@ class UsdExport(GeometryExport):
         alike = [label for label, prim in paths.items() if list(paths.values()).count(prim) > 1]
         if alike:
             raise EditRefusedError(ROBOT_NAMES_ALIKE, names=alike)
-        findings += usd.check(robot)
         geometry = path.with_name(path.stem + "_geometry.usdc")
         options = {"selected_objects_only": self.use_selection, "root_prim_path": "/" + read.robots.USD_ROOT}
         self._run_exporter("wm.usd_export", geometry, options)

@@ -12,6 +12,7 @@ from bpy.types import Context, Menu, Object, Panel, SpaceView3D, UILayout
 
 from ...blender.session.live.following import is_live
 from ...blender.session.tracking.armatures import stands_for_meshes
+from ...blender.write.properties import BALANCE_GROUP
 from .. import overlay
 
 # settings → labels that fit into half of the popover
@@ -38,7 +39,9 @@ def draw() -> None:
     settings = scene.body_moments.overlay
     if not settings.show:
         return
-    _has_drawn = _has_drawn or settings.show_path or bool(drawn_objects(context, settings.show_all))
+    if not _has_drawn:
+        has_paths = settings.show_path and any(BALANCE_GROUP in obj for obj in scene.objects)
+        _has_drawn = has_paths or bool(drawn_objects(context, settings.show_all))
     if _has_drawn:
         overlay.batches.draw_region(context)
 

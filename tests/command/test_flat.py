@@ -11,9 +11,7 @@ import pytest
 pytest.importorskip("bpy")
 import bpy
 from body_moments.command.files.own_results import is_result
-from body_moments.core.measurement.page import to_html
 from body_moments.core.shape.library import read_library
-from body_moments.operators import batch
 
 from tests.blender.batch_files import add_box, document
 from tests.blender.flat_objects import sheet, text
@@ -144,21 +142,6 @@ def test_outlines_that_cross_are_the_reason():
     sheet([(0, 0), (1, 1), (1, 0), (0, 1)])
     found = document("--flat")
     assert found["flat"] == [] and "cross" in found["errors"][0]["reason"]
-
-
-def test_summary_and_report_hold_flat_shapes(tmp_path, capfd):
-    sheet(RECTANGLE, "Sheet <b>")
-    add_box()
-    found = document("--flat", "--pose", "--density", "1000")
-    (entry,) = found["flat"]
-    assert entry["pose"] is None and [one["code"] for one in entry["findings"]] == ["options_unused"]
-    path = tmp_path / "found.json"
-    path.write_text(json.dumps(found), encoding="utf-8")
-    assert batch.main(["summary", str(path)], channel=1) == 0
-    counted = capfd.readouterr().out
-    assert "2 objects: " in counted and "1 flat" in counted and "options_unused" in counted
-    page = "".join(to_html([found]))
-    assert page.count("Sheet &lt;b&gt;") == 2 and "--pose" in page
 
 
 def test_operator_writes_transform_and_picture_of_a_flat_shape(tmp_path):

@@ -226,14 +226,6 @@ def test_a_driver_or_a_script_that_did_not_run_is_a_finding(tmp_path):
     assert measured(simple, "--density", "1")["findings"] == []
 
 
-def test_a_name_that_is_not_there_or_has_no_geometry_is_an_error():
-    files.add_box("a")
-    bpy.ops.object.camera_add()
-    line = run("--object", "a", "--object", "z", "--object", "Camera")
-    (found,) = line.documents
-    assert names(found) == ["a"] and set(errors(found)) == {"z", "Camera"} and line.errors == 2
-
-
 @pytest.mark.parametrize("how", ["hide_viewport", "collection"])
 def test_unevaluated_object_is_an_error_with_a_reason(how):
     files.add_box("shown")
@@ -281,15 +273,6 @@ def test_a_linked_object_of_the_same_name_has_a_name_of_its_own(tmp_path):
     assert names(document("--object", found[1])) == found[1:]
 
 
-def test_density_and_mass_override_the_objects_settings():
-    box = files.add_box()
-    box.body_moments.density = 2000.0
-    assert measured()["mass"] == pytest.approx(12000.0)
-    assert measured("--density", "1.5")["mass"] == pytest.approx(9.0)
-    given = measured("--mass", "3")
-    assert given["mass"] == pytest.approx(3.0) and given["density"] == pytest.approx(0.5)
-
-
 def test_settings_stored_in_a_blend_file_are_used(tmp_path):
     box = files.add_box()
     box.body_moments.mass_from, box.body_moments.mass = "MASS", 7.0
@@ -312,21 +295,6 @@ def test_shell_thickness_is_in_meters_in_any_scene_unit():
     assert entry["volume"] == pytest.approx(0.0022, rel=1e-6)
     assert entry["mass"] == pytest.approx(2.2, rel=1e-6)
     assert entry["health"]["closed"] is True
-
-
-def test_overlapping_shells_warn_and_union_counts_once():
-    first, second = (
-        files.add_box("a", (0, 0, 0), (2, 2, 2)),
-        files.add_box("b", (1, 0, 0), (2, 2, 2)),
-    )
-    for obj in (first, second):
-        obj.select_set(True)
-    bpy.context.view_layer.objects.active = first
-    bpy.ops.object.join()
-    signed, union = measured(), measured("--overlap", "union")
-    assert signed["volume"] == pytest.approx(16.0) and signed["warnings"]
-    assert signed["health"]["overlapping_components"] == 2
-    assert union["volume"] == pytest.approx(12.0, rel=1e-6) and union["method"] == "union"
 
 
 def test_the_frame_is_the_worlds_or_the_objects_own():
@@ -367,16 +335,6 @@ def test_moments_are_about_the_frames_origin():
     assert own["0,2,0"] == pytest.approx(6.0 * 4.0 / 12.0)
 
 
-def test_surface_moments_weigh_the_area():
-    files.add_box(center=(0, 0, 0), size=(2, 2, 2))
-    moments = measured("--order", "2", "--surface-moments")["moments"]
-    # Four faces with x from -1 to 1, two at x = ±1.
-    surface = {"0,0,0": 24.0, "2,0,0": 4 * (2 * 2 / 3) + 2 * 4.0, "1,0,0": 0.0, "1,1,0": 0.0}
-    assert {key: moments["surface"][key] for key in surface} == pytest.approx(surface, abs=1e-12)
-    assert moments["volume"]["0,0,0"] == pytest.approx(8.0)
-    assert measured("--surface-moments", "--kind", "shell")["moments"]["surface"]["0,0,0"] == pytest.approx(24.0)
-
-
 def test_the_rows_of_a_table_hold_the_moments(tmp_path, standard_output):
     files.add_box()
     path = tmp_path / "moments.csv"
@@ -384,23 +342,6 @@ def test_the_rows_of_a_table_hold_the_moments(tmp_path, standard_output):
     (row,) = csv.DictReader(path.read_text().splitlines())
     assert float(row["volume_moment_0_4_0"]) == pytest.approx(box_moment((0, 4, 0)), rel=1e-12)
     assert sum(name.startswith("volume_moment_") for name in row) == 35
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        [],
-        ["weigh"],
-        ["measure", "--output"],
-        ["measure", "--output", "no/such/folder/out.json"],
-        ["measure", "--output", "."],
-    ],
-    ids=" ".join,
-)
-def test_wrong_usage_ends_with_2_and_a_sentence(words, capfd, standard_output):
-    assert batch.main(words) == 2
-    printed = capfd.readouterr()
-    assert printed.out == "" and "error: " in printed.err
 
 
 def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_output):
@@ -412,22 +353,3 @@ def test_no_result_is_written_over_the_wave_vectors(tmp_path, capfd, standard_ou
         assert batch.main(["measure", "--q", str(waves), *map(str, words)]) == 2
     assert waves.read_bytes() == kept and not out.exists()
     assert "is used twice" in capfd.readouterr().err
-
-
-def test_a_fault_of_our_own_stops_nothing_else(monkeypatch, capsys):
-    from body_moments.command.measure import measuring
-
-    files.add_box("a")
-    files.add_box("b")
-    real = measuring.measure_object
-
-    def failing(obj, *rest):
-        if obj.name == "a":
-            raise KeyError("surprise")
-        return real(obj, *rest)
-
-    files.measure_with(monkeypatch, failing)
-    line = run()
-    assert line.internal_errors == 1 and names(line.documents[0]) == ["b"]
-    assert "surprise" in errors(line.documents[0])["a"]
-    assert "Traceback" in capsys.readouterr().err

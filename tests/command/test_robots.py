@@ -168,12 +168,12 @@ def test_meshes_are_written_along_link_axes(tmp_path):
     record = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}["Fore arm"]
     named = [mesh.get("filename") for mesh in ElementTree.parse(path).getroot().iter("mesh")]
     assert {tmp_path / name for name in named} == {*(tmp_path / "meshes" / "robot").iterdir()}
-    for name in ("usd", "gltf"):  # These formats embed meshes.
+    for name, times in (("usd", 2), ("gltf", 1)):  # These formats embed meshes; in USD one is seen and one collides.
         path = tmp_path / name / ("robot." + name)
         path.parent.mkdir()
         text("measure", "--format", name, "--output", str(path))
         assert [*path.parent.iterdir()] == [path]
-        assert len(re.findall(r'def Mesh|"primitives"', path.read_text(encoding="utf-8"))) == 3
+        assert len(re.findall(r'def Mesh|"primitives"', path.read_text(encoding="utf-8"))) == 3 * times
     again = document(str(tmp_path / "meshes" / "robot" / "fore_arm.stl"), "--unit-scale", "1")["objects"][0]
     assert close(again["volume"], record["volume"], 1e-6)
     assert np.abs(np.subtract(again["center_of_mass"], record["center_of_mass"])).max() < 1e-6 * 0.005
@@ -308,7 +308,23 @@ def test_collections_and_bones_are_links_too(tmp_path):
     root = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", "--output", path))
     assert {*character.names} <= {link.get("name") for link in root.iter("link")}
     assert len([*(tmp_path / "meshes" / "rig").iterdir()]) == len(character.names)
-    assert refused("measure", "--format", "urdf", "--links", "bone", "--density", "1")
+    for words, factor in ((("--density", "2000"), 2.0), (("--material", "Steel, Carbon"), 7.82)):
+        given = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", *words))
+        for mass, other in zip(root.iter("mass"), given.iter("mass"), strict=True):
+            assert close(float(other.get("value")), factor * float(mass.get("value")), 1e-12)
+    given = ElementTree.fromstring(text("measure", "--format", "urdf", "--links", "bone", "--mass", "5"))
+    assert close(sum(float(mass.get("value")) for mass in given.iter("mass")), 5.0, 1e-12)
+
+
+def test_fixed_base_and_colliders_follow_their_options(tmp_path):
+    arm()
+    for words, count in (((), 2), (("--fixed-base",), 0)):
+        root = ElementTree.fromstring(text("measure", "--format", "mjcf", *words))
+        assert len([*root.iter("freejoint")]) == count
+    path = str(tmp_path / "robot.urdf")
+    for words, count in (((), 3), (("--collision", "none", "--force"), 0)):
+        root = ElementTree.fromstring(text("measure", "--format", "urdf", "--output", path, *words))
+        assert (len([*root.iter("visual")]), len([*root.iter("collision")])) == (3, count)
 
 
 def test_a_robot_without_links_is_an_error():

@@ -289,17 +289,6 @@ def error_of(found):
     return error["reason"]
 
 
-def test_a_file_that_may_not_be_written_stays(tmp_path, monkeypatch):
-    path = tmp_path / "part.blend"
-    files.box_file(path)
-    before, real = path.read_bytes(), os.access
-    monkeypatch.setattr(os, "access", lambda one, mode: str(one) != str(path) and real(one, mode))
-    assert error_of(document(path, "--write")) == files.sentence(
-        "file_not_written", file="part.blend", error="it is gone, or read-only"
-    )
-    assert path.read_bytes() == before and [*tmp_path.iterdir()] == [path]
-
-
 def test_failed_copy_is_an_error_and_the_file_stays(tmp_path, monkeypatch):
     path = tmp_path / "part.blend"
     files.empty_scene()

@@ -64,8 +64,8 @@ def shaped(rng, kind):
 KINDS = ("plate", "rod", "square", "ball", "box", "sheared")
 
 
-def bodies(count, seed=17, chain=False):
-    """A robot of that many separate bodies, or of one chain of them with all kinds of joints."""
+def bodies(count, seed=17, chain=False, away=False):
+    """A robot of that many separate bodies, or of one chain with all kinds of joints, at the children or `away`."""
     rng = np.random.default_rng(seed)
     links, joints = [], []
     for index in range(count):
@@ -73,7 +73,9 @@ def bodies(count, seed=17, chain=False):
         pose = Pose(rng.normal(size=3) * 3.0, rotation(rng))
         links.append(Link(name, inertial(*shaped(rng, KINDS[index % len(KINDS)])), pose))
         if chain and index:
-            joints.append(Joint("joint {}".format(index), "body {}".format(index - 1), name, free_axes(rng, index)))
+            place = Pose(rng.normal(size=3), rotation(rng)) if away else Pose()
+            parent = "body {}".format(index - 1)
+            joints.append(Joint("joint {}".format(index), parent, name, free_axes(rng, index), place))
     return Robot("test", tuple(links), tuple(joints))
 
 

@@ -34,8 +34,9 @@ GEOMETRY = {
     }
 }
 PLACED = {"attributes": {"name": "!"}, "children": {"pose": ("?", POSE), "geometry": ("1", GEOMETRY)}}
-LIMIT = {"children": {"lower": ("1", DOUBLE), "upper": ("1", DOUBLE)}}
-AXIS = {"children": {"xyz": ("1", VECTOR), "limit": ("1", LIMIT)}}
+LIMIT = {"children": {name: ("?", DOUBLE) for name in ("lower", "upper", "effort", "velocity")}}
+DYNAMICS = {"children": {name: ("?", DOUBLE) for name in ("damping", "friction", "spring_stiffness")}}
+AXIS = {"children": {"xyz": ("1", VECTOR), "limit": ("1", LIMIT), "dynamics": ("?", DYNAMICS)}}
 JOINT = {
     "attributes": {"name": "!", "type": "!"},
     "children": {
@@ -80,7 +81,7 @@ def validate(root):
                 assert len({*names}) == len(names)
         for joint in model.findall("joint"):
             assert joint.get("type") in JOINT_TYPES
-            assert {joint.findtext("parent"), joint.findtext("child")} <= links
+            assert {joint.findtext("parent"), joint.findtext("child")} <= {*links, "world"}
             assert joint.findtext("parent") != joint.findtext("child")
             assert len(joint.findall("axis")) + len(joint.findall("axis2")) == AXES[joint.get("type")]
 

@@ -225,8 +225,11 @@ def test_usd_in_single_precision_breaks_no_triangle_inequality(many):
         assert near([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], true.inertia)
 
 
-def test_usd_links_stand_in_place_and_joints_hold_them(chain):
+@pytest.mark.parametrize("away", [False, True])
+def test_usd_links_stand_in_place_and_joints_hold_them(away):
+    chain = bodies(24, chain=True, away=away)
     stage, _ = stage_of(usd.write(chain))
+    assert stage.GetDefaultPrim().HasAPI(UsdPhysics.ArticulationRootAPI)
     cache = UsdGeom.XformCache()
     places = {}
     for link in chain.links:
@@ -245,8 +248,10 @@ def test_usd_links_stand_in_place_and_joints_hold_them(chain):
             frame = matrix[:3, :3] @ rotation_matrix([quaternion.real, *quaternion.imaginary])
             ends.append((matrix[:3, :3] @ np.array(point.Get()) + matrix[:3, 3], frame))
         assert near(ends[0][0], ends[1][0], 1e-5, 10.0) and near(ends[0][1], ends[1][1], 1e-5)
+        true = chain.link(joint.child).pose @ joint.pose
+        assert near(ends[1][0], true.position, 1e-5, 10.0)
         if len(joint.free) == 1:
-            axis = places["/Robot/" + usd.identifier(joint.child)][:3, :3] @ joint.free[0].axis
+            axis = true.rotation @ joint.free[0].axis
             assert near(ends[1][1][:, 0], axis, 1e-6)
             low = prim.GetPrim().GetAttribute("physics:lowerLimit").Get()
             lower = joint.free[0].lower
@@ -255,7 +260,7 @@ def test_usd_links_stand_in_place_and_joints_hold_them(chain):
 
 
 def test_forbidden_names_are_changed_and_stay_unique():
-    names = ["world", "a::b", "a__b", "<&\"'>", "Würfel", "Würfel ", "1", "_1", "\x00\n", ""]
+    names = ["world", "a::b", "a__b", "<&\"'>", "Würfel", "Würfel ", "1", "_1", "\x00\n", "", " ", "  ", " a", "_a"]
     inertial = bodies(1).links[0].inertial
     robot = Robot("odd --> name", tuple(Link(name, inertial) for name in names), (Joint("world", names[0], names[1]),))
     model = mujoco.MjModel.from_xml_string(robot_text(robot, "mjcf")[0])
@@ -271,7 +276,10 @@ def test_shapes_are_read_as_they_were_meant(chain):
     robot = Robot("dressed", (Link("body", chain.links[0].inertial, Pose(), shapes(pose)),))
     model = mujoco.MjModel.from_xml_string(mjcf.write(robot))
     sizes = [model.geom_size[index].tolist() for index in range(model.ngeom)]
-    assert sizes == [[0.5, 1.0, 1.5], [0.5, 0, 0], [0.25, 0.5, 0], [0.25, 1.0, 0], [1.0, 2.0, 3.0]]
+    assert sizes[::2] == sizes[1::2]  # One is seen, one collides.
+    assert sizes[::2] == [[0.5, 1.0, 1.5], [0.5, 0, 0], [0.25, 0.5, 0], [0.25, 1.0, 0], [1.0, 2.0, 3.0]]
+    assert model.geom_contype.tolist() == model.geom_conaffinity.tolist() == [0, 1] * 5
+    assert model.geom_group.tolist() == [2, 3] * 5
     assert near(model.body("body").mass, chain.links[0].inertial.mass)  # not from the shapes
     (link,) = URDF.from_xml_string(urdf.write(robot).encode()).links
     kinds = [type(shape.geometry).__name__ for shape in link.collisions]

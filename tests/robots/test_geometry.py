@@ -82,7 +82,8 @@ def test_mujoco_loads_meshes_and_keeps_measured_inertia():
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     corners = model.mesh_vert[: model.mesh_vertnum[0]]
-    (geom,) = [index for index in range(model.ngeom) if model.geom_dataid[index] == 0]
+    geom, _ = [index for index in range(model.ngeom) if model.geom_dataid[index] == 0]  # the flat one has no collider
+    assert model.ngeom == 3
     shown = corners @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
     reach = np.abs(points).max()
     assert all(np.abs(shown - point).max(axis=1).min() < 1e-6 * reach for point in points)
@@ -147,7 +148,7 @@ def test_primitives_have_the_inertia_of_mujoco(kind):
         text = mjcf.write(alone)
         start = text.index("<inertial")
         text = text[:start] + text[text.index("/>", start) + 2 :]
-        text = text.replace("<geom ", '<geom mass="{!r}" '.format(link.inertial.mass))
+        text = text.replace('group="3" mass="0"', 'group="3" mass="{!r}"'.format(link.inertial.mass))
         model = mujoco.MjModel.from_xml_string(text)
         found, true = model.body("b"), link.inertial
         moments = np.sort(found.inertia)
@@ -226,8 +227,9 @@ def placed(document):
     return places
 
 
-def test_gltf_robot_is_valid_and_stands_in_place():
-    chain = bodies(24, chain=True)
+@pytest.mark.parametrize("away", [False, True])
+def test_gltf_robot_is_valid_and_stands_in_place(away):
+    chain = bodies(24, chain=True, away=away)
     dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
     robot = Robot("arm", (*chain.links, dressed), chain.joints)
     text, findings = robot_text(robot, "gltf")
@@ -266,10 +268,11 @@ def check_joint(document, places, by_name, joint):
     held = {(kind, axis) for limit in limits for kind in limit if kind[-4:] == "Axes" for axis in limit[kind]
             if limit["min"] == limit["max"] == 0.0}  # fmt: skip
     assert len(held) == 6 - len(joint.free)
-    child = places[by_name[joint.child]][1]
+    position, child = places[by_name[joint.child]]
+    assert np.abs(there - (position + child @ (Y_UP @ joint.pose.position))).max() < 1e-12
     for free in joint.free:
         kind = "linearAxes" if free.kind == "translate" else "angularAxes"
-        along = turn.T @ child @ (Y_UP @ free.axis)
+        along = turn.T @ child @ (Y_UP @ joint.pose.rotation @ free.axis)
         axis = int(np.argmax(np.abs(along)))
         assert abs(abs(along[axis]) - 1.0) < 1e-12 and (kind, axis) not in held
         told = [limit for limit in limits if limit.get(kind) == [axis]]
@@ -301,8 +304,9 @@ def test_meshes_are_embedded_in_single_file_formats():
     layer = Sdf.Layer.CreateAnonymous(".usda")
     assert layer.ImportFromString(robot_text(robot, "usd")[0])
     stage = Usd.Stage.Open(layer)
-    (mesh,) = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
-    assert mesh.GetPrim().HasAPI(UsdPhysics.MeshCollisionAPI)
+    seen, mesh = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    assert mesh.GetPrim().HasAPI(UsdPhysics.MeshCollisionAPI) and mesh.GetPurposeAttr().Get() == "guide"
+    assert not seen.GetPrim().HasAPI(UsdPhysics.CollisionAPI) and seen.GetPurposeAttr().Get() == "default"
     matrix = np.array(UsdGeom.XformCache().GetLocalToWorldTransform(mesh.GetPrim())).T
     shown = np.array(mesh.GetPointsAttr().Get(), float) @ matrix[:3, :3].T + matrix[:3, 3]
     faces = np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""First steps of a person: open the tab, press Measure, look, change their mind, and read it in German.
+"""First steps of a person: open the tab, press Measure, look, change their mind.
 
 The tests run in the order of the file and go on from one another, as the person does.
 """
@@ -11,18 +11,6 @@ CUBE = "bpy.data.objects['Cube']"
 PLACE = f"list({CUBE}.location)"
 PACKAGE = "bl_ext.user_default.body_moments"
 STALE = f"sys.modules['{PACKAGE}.blender.session.tracking.staleness'].stale_reason({CUBE}, bpy.context.scene)"
-LOOK_UP = f"__import__('sys').modules['{PACKAGE}.blender.write.translations'].localized"
-OPEN_BOX = """
-for obj in list(bpy.data.objects):
-    bpy.data.objects.remove(obj)
-mesh = bpy.data.meshes.new("Mass")
-bpy.ops.mesh.primitive_cube_add()
-cube = bpy.context.object
-faces = [tuple(face.vertices) for face in cube.data.polygons]
-mesh.from_pydata([tuple(vertex.co) for vertex in cube.data.vertices], [], faces[1:])
-cube.data = mesh
-cube.name = "Mass"
-"""
 
 
 def test_the_sidebar_has_the_tab(window):
@@ -87,25 +75,6 @@ def test_origin_moves_to_the_center_of_mass_and_body_stays(window):
     window.point_at_view()
     window.key("ctrl+z")
     window.wait(f"{PLACE} == [2.0, 2.0, 3.0]")
-
-
-def test_panel_is_german_and_stored_text_english(window):
-    window.ask(
-        "view = bpy.context.preferences.view\nview.language = 'de_DE'\n"
-        "view.use_translate_interface = view.use_translate_reports = view.use_translate_tooltips = True"
-    )
-    window.ask(OPEN_BOX)
-    window.open_tab("Moments")
-    window.press("object.body_moments_measure")
-    window.wait("'body_mass' in bpy.context.object")
-    window.point_at_view()
-    window.redraw()
-    window.picture("german")
-    assert window.get(f"{LOOK_UP}('Capped')") == "Mit Deckeln"
-    assert window.get("bpy.app.translations.pgettext_iface('Select Defects', 'Operator')") == "Fehlerstellen auswählen"
-    assert window.get("bpy.context.object['body_method']") == "capped"
-    assert window.get("bpy.context.object['body_warnings']").startswith("Holes capped: 1")
-    assert "Traceback" not in window.output()
 
 
 def test_nothing_went_wrong_while_the_panel_was_drawn(window):

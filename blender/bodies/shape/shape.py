@@ -8,7 +8,7 @@ All three need moments of higher order than a measurement has, of the same body:
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from itertools import chain
 from math import frexp
@@ -32,7 +32,7 @@ from ....core.moments.moments import Moments
 from ....core.polyhedron import polyhedron_moments
 from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
-from ....core.shape.symmetries import UNDECIDED, Symmetry, confirm, symmetry
+from ....core.shape.symmetries import LIMIT_RANGE, UNDECIDED, Symmetry, confirm, decide, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
@@ -52,11 +52,13 @@ from ..measure_object import THREADS, Measured, measure_body
 EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface whose distances from another surface are found
 POINTS_PER_BATCH = 64  # points whose distances are found at once
+EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
 NOISE_FACTORS = 1.0, 0.5, 2.0  # a unique frame does not depend on the level of the noise
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-3  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
 CANDIDATE_NOISE = 1e-2, 1e-3, 1e-4, NOISE_LEVEL  # of moments whose symmetries the surface may have
+MAX_NOISE = 1e-6  # relative to the size: coordinates with more noise may hide corners from the moments
 MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
@@ -68,6 +70,7 @@ class Shape:
     measurement: Measurement
     body: Body
     threads: int
+    _known_harmonics: list[AxialHarmonics] = field(default_factory=list)
 
     @property
     def rotation(self) -> NDArray[np.float64]:
@@ -134,18 +137,16 @@ class Shape:
         revolution is tested by harmonics to order 30; if the body is not round, they fix its turn about this axis.
         """
         body, constant = self.measurement.mass_properties, self.body.mass is None
-        axes, unique, is_polygonal = body.principal.axes, body.principal.is_unique, self._is_polygonal
+        axes, unique = body.principal.axes, body.principal.is_unique
         moments = self.moments if constant else self.measurement.mass_moments[0]
         alike, *others = [equivalent_frames(moments, factor * NOISE_LEVEL) for factor in NOISE_FACTORS]
         pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
         if constant:
-            axial = None
-            if len(alike.revolution_axes) == 1 and is_polygonal:
-                harmonics = axial_harmonics(self.pieces(), self.center, axis_last(alike), area=self._sheets)
-                alike, axial = turn_by_harmonics(alike, harmonics), harmonics.in_frame
+            if len(alike.revolution_axes) == 1 and self._is_polygonal:
+                alike = turn_by_harmonics(alike, self._harmonics(axis_last(alike)))
                 if not alike.revolution_axes:
                     axes, unique, others = nearest_frame(alike, axes), len(alike.frames) == 1, []
-            pose = self._point_group(axial)
+            pose = self._point_group()
         angle = alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
         position = body.rounding_error["center"] + body.input_error["center"]
         unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND
@@ -160,12 +161,13 @@ class Shape:
             **pose,
         }
 
-    def _point_group(self, axial: Callable[[NDArray], AxialHarmonics] | None) -> dict[str, Any]:
+    def _point_group(self) -> dict[str, Any]:
         """Return the body's point group and the order of the moments that it was found by.
 
         The surface decides between the groups that the moments allow. Small moments do not fix axes well: more noise
         leaves the group of a nearly equal body with clear axes, of which the surface keeps a part.
         """
+        axial = self._harmonics if self._is_polygonal else None
         found = symmetry(self.moments, axial=axial)
         group = UNDECIDED.get(found.group, found.group)
         if self._is_polygonal:
@@ -175,27 +177,30 @@ class Shape:
                 group = self._confirmed_group(candidates)
         return {"symmetry": group, "symmetry_order": found.order}
 
+    def _harmonics(self, frame: NDArray) -> AxialHarmonics:
+        """Return the harmonics about the third axis of a frame; those about the last axis are remembered."""
+        if not self._known_harmonics or abs(self._known_harmonics[0].frame[:, 2] @ frame[:, 2]) < 1.0 - EQUAL_AXES_ATOL:
+            self._known_harmonics[:] = [axial_harmonics(self.pieces(), self.center, frame, area=self._sheets)]
+        return self._known_harmonics[0].in_frame(frame)
+
     def _confirmed_group(self, candidates: list[Symmetry]) -> str:
-        """Return the largest group of the candidates' operations that the surface has, or two that it may have."""
-        skin, groups = SurfaceDistance(self), []
+        """Return the largest group of the candidates' operations that the surface has, or groups that it may have."""
+        skin, first = SurfaceDistance(self), candidates[0]
         for _ in skin.build():
             pass
-
-        def confirm_within(candidate: Symmetry, near: float) -> Symmetry:
-            distance = partial(skin.distance, within=near)
-            return confirm(candidate, self.center, skin.points, distance, near, skin.nearest)
-
-        first = candidates[0]
-        if len(first.revolution_axes) and len(confirm_within(first, MAX_FACETS * self.size).revolution_axes):
-            return first.group
-        moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
-        finite = [each for each in candidates if len(each.revolution_axes) < 2]
-        for within in (1.0, 4.0):
-            near = within * (NOISE_LEVEL * self.size + 4.0 * moved)
-            kept = [confirm_within(each, near) for each in finite]
-            groups.append(max(kept, key=lambda each: len(each.operations)).group if kept else "C1")
+        rough = MAX_FACETS * self.size
         if len(first.revolution_axes):
-            groups.append(first.group)
+            found = confirm(first, self.center, skin.points, partial(skin.distance, within=rough), rough)
+            if len(found.revolution_axes):
+                return first.group
+        moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
+        near = NOISE_LEVEL * self.size + 4.0 * moved
+        distance = partial(skin.distance, within=near / LIMIT_RANGE)
+        finite = [each for each in candidates if not len(each.revolution_axes)]
+        groups = [each.group for each in decide(finite, self.center, skin.points, distance, skin.nearest, near)]
+        # Noise may hide what a body has beside a body of revolution.
+        uncertain = candidates if moved > MAX_NOISE * self.size else [first]
+        groups += [each.group for each in uncertain if len(each.revolution_axes)]
         return " or ".join(dict.fromkeys(groups))
 
     @property

@@ -17,10 +17,10 @@ from bpy.types import FCurve, Object
 from numpy.typing import NDArray
 
 from ....core.statics.support import Support
+from ...write.properties import BALANCE_GROUP
 from ..tracking import handlers
 from ..tracking.cache import SessionCache
 
-GROUP = "body_balance_group"  # ID property of such an empty: the names of its objects, one a line
 INSIDE = "body_balance_inside"  # 1 if the center is over the support polygon, else 0
 CONSTANT, LINEAR = 0, 1  # values of an F-curve's interpolation
 
@@ -44,14 +44,14 @@ _supports: SessionCache[Mapping[int, Support]] = SessionCache()
 def groups(scene: bpy.types.Scene) -> Iterator[Object]:
     """Yield the empties of a scene that show balance groups."""
     for obj in scene.objects:
-        if obj.type == "EMPTY" and GROUP in obj:
+        if obj.type == "EMPTY" and BALANCE_GROUP in obj:
             yield obj
 
 
 def find(scene: bpy.types.Scene, objects: Iterable[Object]) -> Object | None:
     """Return the empty that shows these objects, None if there is none."""
     text = group_text(objects)
-    return next((empty for empty in groups(scene) if empty[GROUP] == text), None)
+    return next((empty for empty in groups(scene) if empty[BALANCE_GROUP] == text), None)
 
 
 def group_text(objects: Iterable[Object]) -> str:

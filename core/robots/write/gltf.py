@@ -44,10 +44,12 @@ def motion(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
     return values
 
 
-def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0) -> dict[str, Any]:
+def body_extensions(inertial: Inertial, scale: ArrayLike = 1.0, is_fixed: bool = False) -> dict[str, Any]:
     """Return both extensions of a node that is a rigid body; parameters as of `motion`."""
     values = motion(inertial, scale)
-    return {KHR: {"motion": values}, OMI: {"motion": {"type": "dynamic", **values}}}
+    kinematic = {"isKinematic": True} if is_fixed else {}
+    kind = {"type": "kinematic" if is_fixed else "dynamic"}
+    return {KHR: {"motion": {**kinematic, **values}}, OMI: {"motion": {**kind, **values}}}
 
 
 def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: float) -> list[Finding]:
@@ -70,7 +72,9 @@ def add_rigid_bodies(document: dict[str, Any], robot: Robot, meters_per_unit: fl
             continue
         if np.abs(link.scale - 1.0).max() > UNIFORM_RTOL:
             scaled.append(link.name)
-        found[0].setdefault("extensions", {}).update(body_extensions(inertial, meters_per_unit * link.scale))
+        found[0].setdefault("extensions", {}).update(
+            body_extensions(inertial, meters_per_unit * link.scale, link.is_fixed)
+        )
         written += 1
     if written:
         document["extensionsUsed"] = sorted({*document.get("extensionsUsed", []), KHR, OMI})

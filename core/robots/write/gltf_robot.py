@@ -3,7 +3,7 @@
 """A robot as a glTF file of its own, as text: a node for each link, with joints of KHR_physics_rigid_bodies.
 
 Every link is a body, in meters and with y up. A joint has a node below the parent link's node and a connected node
-below the child's, both at the child's frame and turned so that the axes of freedom are axes of these nodes; fixed
+below the child's, both at the joint's frame and turned so that the axes of freedom are axes of these nodes; fixed
 directions have the limits zero. Meshes are embedded: glTF knows no files of other formats.
 """
 
@@ -21,8 +21,9 @@ from numpy.typing import NDArray
 from ...mesh.surface import Surface
 from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding
-from ..model import Joint, Link, Pose, Robot, Shape
+from ..model import FreeAxis, Joint, Link, Pose, Robot, Shape
 from .gltf import KHR, OMI, Y_UP, body_extensions
+from .joints import NAMES, lost_values
 from .marker import MARKER
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import unique_names
@@ -32,7 +33,7 @@ SHAPES = "KHR_implicit_shapes"
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
-    return ellipsoids_as_boxes(robot)
+    return ellipsoids_as_boxes(robot) + lost_values(robot, "glTF")
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -60,7 +61,9 @@ class _Document:
         index = self._node(self.names[link.name], Pose() if inertial_only else link.pose)
         self.of_link[link.name] = index
         if link.inertial is not None:
-            self.nodes[index]["extensions"] = body_extensions(link.inertial)
+            self.nodes[index]["extensions"] = body_extensions(
+                link.inertial, is_fixed=not inertial_only and link.is_fixed
+            )
         for shape in () if inertial_only else link.shapes:
             self._add_shape(index, link, shape)
 
@@ -90,7 +93,8 @@ class _Document:
             index = self._node("{} {}".format(link.name, shape.kind), shape.pose, parent)
             geometry = {"shape": len(self.shapes)}
             self.shapes.append(_implicit(box_of_ellipsoid(shape)))
-        self.nodes[index]["extensions"] = {KHR: {"collider": {"geometry": geometry}}}
+        if shape.collides:
+            self.nodes[index]["extensions"] = {KHR: {"collider": {"geometry": geometry}}}
 
     def _mesh(self, surface: Surface) -> int:
         triangles = surface.all_triangles()[0]
@@ -114,12 +118,14 @@ class _Document:
     def add_joint(self, joint: Joint) -> None:
         child, parent = self.robot.link(joint.child), self.robot.link(joint.parent)
         turn = along_x(Y_UP @ joint.free[0].axis) if len(joint.free) == 1 else np.eye(3)
-        place = parent.pose.inverse() @ child.pose
+        place = parent.pose.inverse() @ child.pose @ joint.pose
         own = self._node(joint.name, place, self.of_link[parent.name], turn)
-        other = self._node(joint.name + " end", Pose(), self.of_link[child.name], turn)
+        other = self._node(joint.name + " end", joint.pose, self.of_link[child.name], turn)
         reference = {"connectedNode": other, "joint": len(self.joints)}
         self.nodes[own]["extensions"] = {KHR: {"joint": reference}}
-        self.joints.append({"name": joint.name, "limits": _limits(joint, turn)})
+        drives = _drives(joint, turn)
+        more = {"drives": drives} if drives else {}
+        self.joints.append({"name": joint.name, "limits": _limits(joint, turn), **more})
 
     def text(self, remarks: Sequence[str]) -> str:
         children = {child for node in self.nodes for child in node.get("children", ())}
@@ -164,8 +170,7 @@ def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
     held = {"linearAxes": {0, 1, 2}, "angularAxes": {0, 1, 2}}
     limits: list[dict[str, Any]] = []
     for free in joint.free:
-        direction = turn.T @ Y_UP @ free.axis
-        axis = int(np.argmax(np.abs(direction)))
+        direction, axis = _direction(free, turn)
         kind = "linearAxes" if free.kind == "translate" else "angularAxes"
         held[kind].discard(axis)
         low, high = (free.lower, free.upper) if direction[axis] > 0.0 else (-free.upper, -free.lower)
@@ -173,3 +178,20 @@ def _limits(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
         if ends:
             limits.append({kind: [axis], **ends})
     return [*({kind: sorted(axes), "min": 0.0, "max": 0.0} for kind, axes in held.items() if axes), *limits]
+
+
+def _drives(joint: Joint, turn: NDArray) -> list[dict[str, Any]]:
+    """Return the drives of a joint's axes with known values, at rest."""
+    drives: list[dict[str, Any]] = []
+    for free in joint.free:
+        values = {name: free.values[key] for key, name in NAMES["glTF"].items() if key in free.values}
+        if values:
+            kind = "angular" if free.kind == "rotate" else "linear"
+            drives.append({"type": kind, "mode": "force", "axis": _direction(free, turn)[1], **values})
+    return drives
+
+
+def _direction(free: FreeAxis, turn: NDArray) -> tuple[NDArray[np.float64], int]:
+    """Return the direction of a free axis along the joint's node, and the index of the node's axis next to it."""
+    direction = turn.T @ Y_UP @ free.axis
+    return direction, int(np.argmax(np.abs(direction)))

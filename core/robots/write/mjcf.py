@@ -16,7 +16,8 @@ from ...verdict.finding import Finding, finding
 from ..findings import MJCF_INERTIA_TOO_SMALL, MJCF_MESH_TOO_LARGE
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
-from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_text
+from .joints import NAMES, lost_values
+from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_name, xml_text
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses moving bodies of less mass or inertia, kg and kg·m².
 MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
@@ -37,7 +38,9 @@ def check(robot: Robot) -> list[Finding]:
     large = [name for name, one in surfaces if one is not None and len(one.all_triangles()[0]) > MOST_TRIANGLES]
     if large:
         findings.append(finding(MJCF_MESH_TOO_LARGE, count=len(large), links=large, limit=MOST_TRIANGLES))
-    return findings
+    return findings + lost_values(
+        robot, "MJCF", lambda joint, stated: stated & ({"effort"} if joint.is_ball else set())
+    )
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -60,13 +63,19 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if link.inertial is not None:
             _add_inertial(body, link.inertial)
         for shape in () if inertial_only else link.shapes:
-            _add_geom(body, shape, meshes)
+            _add_geoms(body, shape, meshes)
+    followers = [] if inertial_only else [joint for joint in robot.joints if joint.mimic is not None]
+    equality = SubElement(root, "equality") if followers else root
+    for joint in followers:
+        leader, multiplier, offset = joint.mimic
+        both = {"joint1": joint_names[joint.name], "joint2": joint_names[leader]}
+        SubElement(equality, "joint", both, polycoef=numbers((offset, multiplier, 0.0, 0.0, 0.0)))
     return document(root, "mjcf", remarks)
 
 
 def _name(text: str) -> str:
-    text = xml_text(text)
-    return text + "_" if text in ("world", "") else text  # The root that contains all bodies has this name.
+    text = xml_name(text)
+    return text + "_" if text == "world" else text  # The root that contains all bodies has this name.
 
 
 def _add_meshes(root: Element, robot: Robot) -> dict[tuple, str]:
@@ -96,20 +105,27 @@ def _add_place(element: Element, pose: Pose) -> None:
 
 
 def _add_joints(body: Element, robot: Robot, link: Link, joint: Joint | None, names: dict[str, str]) -> None:
-    """Add a joint for each degree of freedom of a link. A root with mass moves freely."""
+    """Add a joint for each degree of freedom of a link. A root with mass moves freely if it is not fixed."""
     if joint is None:
-        if any(part.inertial is not None for part in robot.rigid_parts(link)):
+        if not link.is_fixed and any(part.inertial is not None for part in robot.rigid_parts(link)):
             SubElement(body, "freejoint")
         return
-    if joint.is_ball:
-        SubElement(body, "joint", name=names[joint.name], type="ball")
-        return
-    for count, free in enumerate(joint.free, start=1):
-        name = names[joint.name] if len(joint.free) == 1 else "{}_{}".format(names[joint.name], count)
-        kind = "hinge" if free.kind == "rotate" else "slide"
-        element = SubElement(body, "joint", name=name, type=kind, axis=numbers(free.axis))
+    for count, free in enumerate(joint.free[:1] if joint.is_ball else joint.free, start=1):
+        is_single = joint.is_ball or len(joint.free) == 1
+        name = names[joint.name] if is_single else "{}_{}".format(names[joint.name], count)
+        kind = "ball" if joint.is_ball else "hinge" if free.kind == "rotate" else "slide"
+        element = SubElement(body, "joint", name=name, type=kind)
+        if joint.pose.position.any():
+            element.set("pos", numbers(joint.pose.position))
+        if not joint.is_ball:
+            element.set("axis", numbers(joint.pose.rotation @ free.axis))
+            if "effort" in free.values:
+                element.set("actuatorfrcrange", numbers((-free.values["effort"], free.values["effort"])))
         if free.is_limited:
-            element.set("range", "{} {}".format(number(max(free.lower, -1e10)), number(min(free.upper, 1e10))))
+            element.set("range", numbers((max(free.lower, -1e10), min(free.upper, 1e10))))
+        for key, value in free.values.items():
+            if NAMES["MJCF"].get(key):
+                element.set(NAMES["MJCF"][key], number(value))
 
 
 def _add_inertial(body: Element, inertial: Inertial) -> None:
@@ -123,15 +139,19 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
     return inertial_element(_add_inertial, inertial.principal())
 
 
-def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
-    geom = SubElement(body, "geom", type=shape.kind)
+def _add_geoms(body: Element, shape: Shape, meshes: dict[tuple, str]) -> None:
+    """Add a geometry that is seen, and one that collides. A flat mesh has no convex hull to collide with."""
+    _add_geom(body, shape, meshes, {"group": "2", "contype": "0", "conaffinity": "0", "mass": "0"})
+    if shape.collides and not shape.sheet:
+        _add_geom(body, shape, meshes, {"group": "3", "mass": "0"})
+
+
+def _add_geom(body: Element, shape: Shape, meshes: dict[tuple, str], role: dict[str, str]) -> None:
+    geom = SubElement(body, "geom", role, type=shape.kind)
     if not is_identity(shape.pose):
         _add_place(geom, shape.pose)
     if shape.kind == "mesh":
         geom.set("mesh", meshes[_mesh_key(shape)])
-        if shape.sheet:  # A flat mesh has no convex hull to collide with.
-            geom.set("contype", "0")
-            geom.set("conaffinity", "0")
     elif shape.kind in ("capsule", "cylinder"):
         geom.set("size", numbers((shape.size[0], shape.size[1] / 2.0)))
     elif shape.kind == "box":

@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.rotations import quaternion
-from ...verdict.finding import Finding, finding
-from ..findings import SDF_LIMITS_LOST
+from ...verdict.finding import Finding
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
-from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_text
+from .joints import NAMES, lost_values
+from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_name
 
 VERSION = "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
@@ -27,8 +27,15 @@ _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
-    lost = [joint.name for joint in robot.joints if _joint_type(joint) == "ball" and not joint.is_ball]
-    return [finding(SDF_LIMITS_LOST, count=len(lost), joints=lost)] if lost else []
+    return lost_values(robot, "SDF", _lost)
+
+
+def _lost(joint: Joint, stated: set[str]) -> set[str]:
+    """Return the names of all values of a ball joint, with "limits"; "axes" if a joint has more than are written."""
+    kind = _joint_type(joint)
+    if kind == "ball":
+        return stated if joint.is_ball else {*stated, "limits"}
+    return {"axes"} if len(joint.free) > (2 if kind == "universal" else 1) else set()
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -47,16 +54,23 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             _add_shapes(element, link)
     for joint in () if inertial_only else robot.joints:
         element = SubElement(model, "joint", name=joint_names[joint.name], type=_joint_type(joint))
+        _add_pose(element, joint.pose)
         add_text(element, "parent", names[joint.parent])
         add_text(element, "child", names[joint.child])
         _add_axes(element, joint)
+    bases = [] if inertial_only else [link.name for link in robot.roots if link.is_fixed]
+    taken = [*names.values(), *joint_names.values()]
+    for base, name in unique_names(bases, lambda name: names[name] + "_joint", taken).items():
+        element = SubElement(model, "joint", name=name, type="fixed")
+        add_text(element, "parent", "world")
+        add_text(element, "child", names[base])
     return document(root, "sdf", remarks)
 
 
 def _name(text: str) -> str:
     """Return a valid name: without `::`, which separates models and links, and not reserved by the format."""
-    text = xml_text(text).replace("::", "_")
-    return text + "_" if _RESERVED.fullmatch(text) or not text else text
+    text = xml_name(text).replace("::", "_")
+    return text + "_" if _RESERVED.fullmatch(text) else text
 
 
 def _add_pose(parent: Element, pose: Pose) -> None:
@@ -95,6 +109,8 @@ def _add_plain_inertial(parent: Element, inertial: Inertial) -> None:
 def _add_shapes(parent: Element, link: Link) -> None:
     for tag in ("visual", "collision"):
         for count, shape in enumerate(link.shapes, start=1):
+            if tag == "collision" and not shape.collides:
+                continue
             element = SubElement(parent, tag, name=tag if len(link.shapes) == 1 else "{}_{}".format(tag, count))
             _add_pose(element, shape.pose)
             _add_geometry(SubElement(element, "geometry"), shape)
@@ -119,17 +135,24 @@ def _joint_type(joint: Joint) -> str:
     kinds = [free.kind for free in joint.free]
     if not kinds:
         return "fixed"
-    if len(kinds) == 1:
-        return "prismatic" if kinds == ["translate"] else "revolute"
+    if len(kinds) == 1 or "translate" in kinds:
+        return "prismatic" if kinds[0] == "translate" else "revolute"
     return "universal" if kinds == ["rotate", "rotate"] else "ball"
 
 
 def _add_axes(element: Element, joint: Joint) -> None:
     if _joint_type(joint) == "ball":
         return
-    for tag, free in zip(("axis", "axis2"), joint.free):
+    for tag, free in zip(("axis", "axis2") if _joint_type(joint) == "universal" else ("axis",), joint.free):
         axis = SubElement(element, tag)
         add_text(axis, "xyz", numbers(free.axis))
         limit = SubElement(axis, "limit")
         for name, value in (("lower", free.lower), ("upper", free.upper)):
             add_text(limit, name, number(value))
+        groups = {"effort": limit, "velocity": limit}
+        for name, value in free.values.items():
+            if name not in groups:
+                groups[name] = (
+                    axis.find("dynamics") if axis.find("dynamics") is not None else SubElement(axis, "dynamics")
+                )
+            add_text(groups[name], NAMES["SDF"][name], number(value))

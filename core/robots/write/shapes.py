@@ -42,6 +42,14 @@ def with_meshes(robot: Robot, surface_of: Callable[[str], Surface | None]) -> tu
     return replace(robot, links=tuple(links)), findings
 
 
+def without_collision(robot: Robot) -> Robot:
+    """Return a robot whose shapes are only seen."""
+    links = [
+        replace(link, shapes=tuple(replace(shape, collides=False) for shape in link.shapes)) for link in robot.links
+    ]
+    return replace(robot, links=tuple(links))
+
+
 def with_primitives(robot: Robot, kind: str) -> Robot:
     """Return a robot with a "box", "ellipsoid", "capsule" or no shape ("none") as each link's geometry."""
     links = [

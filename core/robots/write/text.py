@@ -35,6 +35,14 @@ def xml_text(text: str) -> str:
     return _SPACES.sub("_", _NOT_XML.sub("_", text))
 
 
+def xml_name(text: str) -> str:
+    """Return a name for XML: readers trim spaces at its ends, and refuse an empty one."""
+    text = xml_text(text)
+    inner = text.strip()
+    start = len(text) - len(text.lstrip()) if inner else 0
+    return "_" * start + inner + "_" * (len(text) - start - len(inner)) if text else "_"
+
+
 def unique_names(names: Iterable[str], rename: Callable[[str], str], taken: Iterable[str] = ()) -> dict[str, str]:
     """Return a dict from each name to its `rename`d name, with a number if that name is used or `taken`."""
     used, result = set(taken), {}

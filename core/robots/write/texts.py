@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from ...mesh.surface import Surface
-from ...verdict.finding import Finding
+from ...verdict.finding import Finding, finding
 from ...verdict.sentences import sentence
-from ..findings import MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL
+from ..findings import JOINTS_ALL_FIXED, MJCF_INERTIA_TOO_SMALL, USD_INERTIA_TOO_SMALL
 from ..formats import FORMATS
 from ..model import Robot
 from .shapes import with_meshes
@@ -36,7 +36,15 @@ def robot_text(
     robot: Robot, format_name: str, findings: Iterable[Finding] = (), *, inertial_only: bool = False
 ) -> tuple[str, list[Finding]]:
     """Return a robot in a format, with all findings as remarks, and these findings. inertial_only: only inertials."""
+    findings = [*findings, *check(robot, format_name, inertial_only=inertial_only)]
     writer = FORMATS[format_name].writer_module
-    said = [one for one in writer.check(robot) if one.code in OF_INERTIALS or not inertial_only]
-    findings = [*findings, *said]
     return writer.write(robot, list(map(sentence, findings)), inertial_only=inertial_only), findings
+
+
+def check(robot: Robot, format_name: str, *, inertial_only: bool = False) -> list[Finding]:
+    """Return findings about a robot in a format."""
+    findings = FORMATS[format_name].writer_module.check(robot)
+    if inertial_only:
+        return [one for one in findings if one.code in OF_INERTIALS]
+    is_stiff = robot.joints and not any(joint.free for joint in robot.joints)
+    return [*([finding(JOINTS_ALL_FIXED)] if is_stiff else []), *findings]

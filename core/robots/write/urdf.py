@@ -3,7 +3,7 @@
 """URDF, with the inertial frame and the tensor along the link's axes (rpy 0).
 
 Some readers ignore the inertial frame's rotation (ros2/rviz#1170) or diagonalize wrongly. The products ixy, ixz and
-iyz are entries of the tensor, such as -∫xy dm.
+iyz are entries of the tensor, such as -∫xy dm. A link's origin is at its joint.
 """
 
 from __future__ import annotations
@@ -16,12 +16,14 @@ import numpy as np
 
 from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
-from ..model import FreeAxis, Inertial, Pose, Robot, Shape
+from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
+from .joints import lost_values
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
-from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_text
+from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_name
 
-BASE = "base_link"
+BASE, WORLD = "base_link", "world"
+LEAST = 1e-14  # kg and kg·m² that MuJoCo gives massless frames, as it refuses less than 1e-15.
 # A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an effect.
 EFFORT, VELOCITY = 1e6, 1e3
 
@@ -29,24 +31,36 @@ EFFORT, VELOCITY = 1e6, 1e3
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
     findings = []
-    if len(robot.roots) > 1:
-        findings.append(finding(ROBOT_BASE_ADDED, count=len(robot.roots), name=BASE))
+    loose = [link for link in robot.roots if not link.is_fixed]
+    if loose and len(robot.roots) > 1:
+        name = BASE if len(loose) == len(robot.roots) else WORLD
+        findings.append(finding(ROBOT_BASE_ADDED, count=len(loose), name=name))
     findings += ellipsoids_as_boxes(robot)
-    limited = [joint.name for joint in robot.joints if any(free.is_limited for free in joint.free)]
-    if limited:
-        findings.append(finding(URDF_EFFORT_UNKNOWN, count=len(limited), joints=limited))
-    return findings
+    unknown = [
+        joint.name
+        for joint in robot.joints
+        if any(_needs_limit(free) and not {"effort", "velocity"} <= free.values.keys() for free in joint.free)
+    ]
+    if unknown:
+        findings.append(finding(URDF_EFFORT_UNKNOWN, count=len(unknown), joints=unknown))
+    return findings + lost_values(robot, "URDF")
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their inertials."""
-    names = unique_names([link.name for link in robot.links], xml_text)
-    joint_names = unique_names([joint.name for joint in robot.joints], xml_text)
-    root = Element("robot", name=xml_text(robot.name))
+    names = unique_names([link.name for link in robot.links], _name)
+    joint_names = unique_names([joint.name for joint in robot.joints], xml_name)
+    root = Element("robot", name=xml_name(robot.name))
     taken = {*names.values()}
     base = None
-    if len(robot.roots) > 1 and not inertial_only:
-        base = _free_name(BASE, taken)
+    if not inertial_only:
+        robot = robot.at_joints()
+        _add_compiler(root, robot)
+        if any(link.is_fixed for link in robot.roots):
+            base = WORLD
+        elif len(robot.roots) > 1:
+            base = _free_name(BASE, taken)
+    if base is not None:
         SubElement(root, "link", name=base)
     for link in robot.ordered():
         element = SubElement(root, "link", name=names[link.name])
@@ -59,13 +73,31 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     for link in robot.ordered():
         joint = robot.joint_of(link.name)
         if joint is not None:
-            parent, name, free = names[joint.parent], joint_names[joint.name], joint.free
+            parent, name = names[joint.parent], joint_names[joint.name]
         elif base is not None:
-            parent, name, free = base, _free_name(names[link.name] + "_joint", {*joint_names.values()}), ()
+            parent, name = base, _free_name(names[link.name] + "_joint", {*joint_names.values()})
         else:
             continue
-        _add_joint(root, taken, name, parent, names[link.name], robot.pose_in_parent(link), free)
+        last = _add_joint(root, taken, name, parent, names[link.name], robot.pose_in_parent(link), joint)
+        if joint is not None and joint.mimic is not None:
+            leader, multiplier, offset = joint.mimic
+            values = {"multiplier": number(multiplier), "offset": number(offset)}
+            SubElement(last, "mimic", joint=joint_names[leader], **values)
     return document(root, "urdf", remarks)
+
+
+def _name(text: str) -> str:
+    """Return a valid name; MuJoCo and Gazebo take a root named `world` as the world itself."""
+    text = xml_name(text)
+    return text + "_" if text == WORLD else text
+
+
+def _add_compiler(root: Element, robot: Robot) -> None:
+    """Let MuJoCo keep fixed links, the folders of meshes, and frames without mass; other readers skip the element."""
+    values = {"fusestatic": "false", "strippath": "false"}
+    if any(len(joint.free) > 1 for joint in robot.joints):
+        values |= {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
+    SubElement(SubElement(root, "mujoco"), "compiler", values)
 
 
 def _free_name(name: str, taken: set[str]) -> str:
@@ -94,9 +126,8 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
 
 
 def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
-    pieces = [piece for shape in shapes for piece in _pieces(shape)]
     for tag in ("visual", "collision"):
-        for piece in pieces:
+        for piece in (piece for shape in shapes if tag == "visual" or shape.collides for piece in _pieces(shape)):
             element = SubElement(parent, tag)
             _add_origin(element, piece.pose)
             geometry = SubElement(element, "geometry")
@@ -122,9 +153,13 @@ def _pieces(shape: Shape) -> list[Shape]:
 
 
 def _add_joint(
-    root: Element, taken: set[str], name: str, parent: str, child: str, pose: Pose, free: Sequence[FreeAxis]
-) -> None:
-    """Add a joint for each degree of freedom, with massless links between them; a fixed joint if there is none."""
+    root: Element, taken: set[str], name: str, parent: str, child: str, pose: Pose, joint: Joint | None
+) -> Element:
+    """Add a joint for each degree of freedom, with massless links between them; a fixed joint if there is none.
+
+    Return the last element.
+    """
+    free, element = () if joint is None else joint.free, root
     for number_, axis in enumerate(free or (None,)):
         last = number_ + 1 >= len(free)
         frame = child if last else _free_name("{}_axis_{}".format(child, number_ + 1), taken)
@@ -136,10 +171,19 @@ def _add_joint(
         SubElement(element, "parent", link=parent)
         SubElement(element, "child", link=frame)
         if axis is not None:
-            SubElement(element, "axis", xyz=numbers(axis.axis))
-            if axis.is_limited or axis.kind == "translate":
+            assert joint is not None
+            SubElement(element, "axis", xyz=numbers(joint.pose.rotation @ axis.axis))
+            if _needs_limit(axis):
                 _add_limit(element, axis)
+            dynamics = {key: number(axis.values[key]) for key in ("damping", "friction") if key in axis.values}
+            if dynamics:
+                SubElement(element, "dynamics", dynamics)
         parent = frame
+    return element
+
+
+def _needs_limit(free: FreeAxis) -> bool:
+    return free.is_limited or free.kind == "translate" or bool({"effort", "velocity"} & free.values.keys())
 
 
 def _joint_type(free: FreeAxis | None) -> str:
@@ -152,7 +196,10 @@ def _joint_type(free: FreeAxis | None) -> str:
 
 def _add_limit(joint: Element, free: FreeAxis) -> None:
     """Add the limits of a joint; an open one becomes a far one, because URDF requires both."""
-    far = 2.0 * pi if free.kind == "rotate" else 1e3
-    lower, upper = max(free.lower, -far), min(free.upper, far)
-    limit = {"lower": number(lower), "upper": number(upper), "effort": number(EFFORT), "velocity": number(VELOCITY)}
+    limit = {}
+    if free.is_limited or free.kind == "translate":
+        far = 2.0 * pi if free.kind == "rotate" else 1e3
+        limit = {"lower": number(max(free.lower, -far)), "upper": number(min(free.upper, far))}
+    limit["effort"] = number(free.values.get("effort", EFFORT))
+    limit["velocity"] = number(free.values.get("velocity", VELOCITY))
     SubElement(joint, "limit", limit)

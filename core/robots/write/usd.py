@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from math import degrees, inf
+from math import degrees, inf, radians
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,12 +20,14 @@ from ...mesh.surface import Surface
 from ...numerics.rotations import along_x, quaternion
 from ...verdict.finding import Finding, finding
 from ..findings import USD_INERTIA_TOO_SMALL
-from ..model import Inertial, Joint, Pose, Robot, Shape
+from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import Description, StatedInertial, StatedLink
+from .joints import NAMES, lost_values
 from .marker import MARKER
 from .text import number, unique_names
 
 ROOT = "Robot"
+ARTICULATION = "PhysicsArticulationRootAPI"
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
 LEAST = float(np.finfo(np.float32).tiny)  # The least number that float32 holds with all its digits.
 _MASS_ATTRIBUTE = re.compile(
@@ -41,7 +43,9 @@ def check(robot: Robot) -> list[Finding]:
     small = [
         link.name for link in robot.links if link.inertial is not None and not link.inertial.moments[0] * 0.5 > LEAST
     ]
-    return [finding(USD_INERTIA_TOO_SMALL, count=len(small), links=small)] if small else []
+    findings = [finding(USD_INERTIA_TOO_SMALL, count=len(small), links=small)] if small else []
+    # Spherical joints have no drives.
+    return findings + lost_values(robot, "USD", lambda joint, stated: stated if joint.is_ball else set())
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -55,11 +59,18 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if not inertial_only:
             inner += _transform(link.pose)
             for count, shape in enumerate(link.shapes, start=1):
-                inner += _shape(shape, "shape_{}".format(count))
+                inner += _shape(shape, "visual_{}".format(count), False)
+                inner += _shape(shape, "collision_{}".format(count), True) if shape.collides else []
         lines += _prim("def Xform", names[link.name], inner, () if inertial is None else APIS)
     for joint in () if inertial_only else robot.joints:
         lines += _joint(robot, joint, joints[joint.name], names)
-    return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *_prim("def Xform", ROOT, lines), ""])
+    heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]  # Prims without mass stand.
+    bases = {} if inertial_only else {link.name: link for link in heavy}
+    taken = [*names.values(), *joints.values()]
+    for base, name in unique_names(bases, lambda name: names[name] + "_base", taken).items():
+        lines += _prim("def PhysicsFixedJoint", name, _ends(None, names[base], bases[base].pose))
+    apis = (ARTICULATION,) if not inertial_only and (robot.joints or bases) else ()
+    return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *_prim("def Xform", ROOT, lines, apis), ""])
 
 
 def write_over(
@@ -85,8 +96,15 @@ def write_over(
             for name in path:
                 branch = branch.setdefault(name, {})
     top = next(iter(tree), ROOT)
+    joints = []
+    for link in robot.roots:
+        if link.is_fixed and tuple(paths[link.name]) in bodies:
+            pose = Pose(link.pose.position / meters_per_unit, link.pose.rotation)
+            name = "_".join([*paths[link.name], "base"])
+            joints += _prim("def PhysicsFixedJoint", name, _ends(None, "/".join(paths[link.name]), pose, top=""))
     lines = header(robot.name, remarks, meters_per_unit, top, [geometry])
-    return "\n".join([*lines, *_overs(tree, (), bodies), ""])
+    overs = _overs(tree, (), bodies)
+    return "\n".join([*lines, *overs[:-1], *(_INDENT + line for line in joints), *overs[-1:], ""])
 
 
 def _overs(tree: Mapping[str, dict], above: tuple[str, ...], bodies: Mapping[tuple, list[str]]) -> list[str]:
@@ -196,10 +214,10 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
     return [*lines, "uniform token[] xformOpOrder = [{}]".format(names)]
 
 
-def _shape(shape: Shape, name: str) -> list[str]:
-    """Return the lines of a collision shape, none for a mesh without a surface."""
+def _shape(shape: Shape, name: str, collides: bool) -> list[str]:
+    """Return the lines of a shape that is seen, or of one that collides; none for a mesh without a surface."""
     if shape.kind == "mesh":
-        return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name)
+        return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name, collides)
     kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
     scale = None
     if shape.kind == "box":
@@ -211,12 +229,15 @@ def _shape(shape: Shape, name: str) -> list[str]:
     else:
         attributes = ["double radius = {}".format(number(shape.size[0])), 'uniform token axis = "Z"']
         attributes.append("double height = {}".format(number(shape.size[1])))
-    inner = [*attributes, *_transform(shape.pose, scale)]
-    return _prim("def " + kinds[shape.kind], name, inner, ("PhysicsCollisionAPI",))
+    inner = [*attributes, *(_GUIDE if collides else ()), *_transform(shape.pose, scale)]
+    return _prim("def " + kinds[shape.kind], name, inner, ("PhysicsCollisionAPI",) if collides else ())
 
 
-def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
-    """Return the lines of a mesh that collides as its convex hull, embedded: USD knows no files of other formats."""
+_GUIDE = ['uniform token purpose = "guide"']  # Renderers skip colliders.
+
+
+def _mesh(surface: Surface, pose: Pose, name: str, collides: bool) -> list[str]:
+    """Return the lines of a mesh, embedded: USD knows no files of other formats. It collides as its convex hull."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)
@@ -225,39 +246,56 @@ def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
         "int[] faceVertexCounts = [{}]".format(", ".join(["3"] * len(triangles))),
         "int[] faceVertexIndices = [{}]".format(", ".join(map(str, corners.ravel().tolist()))),
         'uniform token subdivisionScheme = "none"',
-        'uniform token physics:approximation = "convexHull"',
         *_transform(pose),
     ]
+    if not collides:
+        return _prim("def Mesh", name, attributes)
+    attributes += [*_GUIDE, 'uniform token physics:approximation = "convexHull"']
     return _prim("def Mesh", name, attributes, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:
-    """Return the lines of a joint in the child's frame, general with limits if it has several degrees of freedom."""
+    """Return the lines of a joint, general with limits if it has several degrees of freedom."""
     child, parent = robot.link(joint.child), robot.link(joint.parent)
-    place = parent.pose.inverse() @ child.pose
+    place = parent.pose.inverse() @ child.pose @ joint.pose
     turn = np.eye(3)
     if not joint.free:
         kind, apis, more = "PhysicsFixedJoint", (), []
     elif len(joint.free) == 1:
         free = joint.free[0]
         kind = "PhysicsRevoluteJoint" if free.kind == "rotate" else "PhysicsPrismaticJoint"
-        apis, turn = (), along_x(free.axis)
+        turn, (apis, drive) = along_x(free.axis), _drive(free, "angular" if free.kind == "rotate" else "linear")
         limits = [_in_degrees(free.kind, limit) for limit in (free.lower, free.upper)]
         more = ['uniform token physics:axis = "X"']
         more += ["float physics:{}Limit = {}".format(end, single(v)) for end, v in zip(("lower", "upper"), limits)]
+        more += drive
     elif joint.is_ball:
         kind, apis, more = "PhysicsSphericalJoint", (), []
     else:
         kind, (apis, more) = "PhysicsJoint", _limits(joint)
-    lines = [
-        "rel physics:body0 = </{}/{}>".format(ROOT, names[parent.name]),
-        "rel physics:body1 = </{}/{}>".format(ROOT, names[child.name]),
-        "point3f physics:localPos0 = {}".format(singles(place.position)),
-        "quatf physics:localRot0 = {}".format(singles(quaternion(place.rotation @ turn))),
-        "point3f physics:localPos1 = (0, 0, 0)",
-        "quatf physics:localRot1 = {}".format(singles(quaternion(turn))),
-    ]
+    here = Pose(joint.pose.position, joint.pose.rotation @ turn)
+    lines = _ends(names[parent.name], names[child.name], Pose(place.position, place.rotation @ turn), here)
     return _prim("def " + kind, name, [*lines, *more], apis)
+
+
+def _ends(parent: str | None, child: str, place: Pose, own: Pose | None = None, top: str = "/" + ROOT) -> list[str]:
+    """Return the lines of a joint's bodies and its frames in them. parent: None for the world."""
+    lines = []
+    for index, (body, pose) in enumerate(((parent, place), (child, own or Pose()))):
+        lines += [] if body is None else ["rel physics:body{} = <{}/{}>".format(index, top, body)]
+        lines.append("point3f physics:localPos{} = {}".format(index, singles(pose.position)))
+        lines.append("quatf physics:localRot{} = {}".format(index, singles(quaternion(pose.rotation))))
+    return lines
+
+
+def _drive(free: FreeAxis, name: str) -> tuple[list[str], list[str]]:
+    """Return API names and lines for the drive of one direction, per degree if it turns; empty if nothing is known."""
+    lines = []
+    for key, attribute in NAMES["USD"].items():
+        if key in free.values:
+            value = free.values[key] * (radians(1.0) if free.kind == "rotate" and key != "effort" else 1.0)
+            lines.append("float drive:{}:physics:{} = {}".format(name, attribute, single(value)))
+    return ["PhysicsDriveAPI:" + name] if lines else [], lines
 
 
 def _in_degrees(kind: str, value: float) -> float:
@@ -265,15 +303,18 @@ def _in_degrees(kind: str, value: float) -> float:
 
 
 def _limits(joint: Joint) -> tuple[tuple[str, ...], list[str]]:
-    """Return API names and lines for limits of the six directions; a locked one has its lower limit above the upper."""
+    """Return API names and lines for limits and drives of six directions; a locked one's lower limit is the higher."""
     limits = {"{}{}".format(kind, axis): (1.0, -1.0) for kind in ("trans", "rot") for axis in "XYZ"}
+    apis, lines = [], []
     for free in joint.free:
         kind = "rot" if free.kind == "rotate" else "trans"
         axis = "XYZ"[int(np.argmax(np.abs(free.axis)))]
         flipped = free.axis["XYZ".index(axis)] < 0.0
         ends = (-free.upper, -free.lower) if flipped else (free.lower, free.upper)
         limits[kind + axis] = (_in_degrees(free.kind, ends[0]), _in_degrees(free.kind, ends[1]))
-    apis, lines = [], []
+        drive = _drive(free, kind + axis)
+        apis += drive[0]
+        lines += drive[1]
     for name, (low, high) in limits.items():
         if low == -inf and high == inf:
             continue

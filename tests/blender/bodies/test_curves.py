@@ -135,13 +135,6 @@ def test_the_region_of_an_object_far_away_is_the_same(far):
     assert measured(obj).area == pytest.approx(near, rel=1e-9)
 
 
-def test_moments_of_higher_order_of_a_region_are_exact_too():
-    obj = circle()
-    obj.body_moments.kind = "SHELL"
-    found = measure_object(obj, bpy.context.evaluated_depsgraph_get(), MeasureOptions(order=6))
-    assert found.area_moments.about_point(np.zeros(3))[6, 0, 0] == pytest.approx(5.0 * np.pi / 64.0, rel=1e-7)
-
-
 @pytest.mark.filterwarnings("error")
 def test_overflowing_region_moments_are_refused():
     obj = circle()

@@ -556,15 +556,6 @@ def test_an_attribute_is_read_as_modifiers_leave_it():
 # What is told and kept
 
 
-def test_a_density_or_mass_from_outside_overrides_all_of_it():
-    obj = dumbbell()
-    found = measure(obj, density=10.0)
-    assert found.mass_properties.mass == pytest.approx(20.0) and found.density_from.code == "density_from_value"
-    assert not found.materials
-    found = measure(obj, mass=4.0)
-    assert found.density == pytest.approx(2.0) and found.density_from.code == "density_from_mass"
-
-
 def test_the_table_gives_a_blender_material_its_density():
     made = material("Cork")
     assert bpy.ops.material.body_moments_set_density(material="Steel, Carbon", target="Cork") == {"FINISHED"}

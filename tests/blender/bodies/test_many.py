@@ -10,11 +10,9 @@ from body_moments.blender.bodies.measure_object import measure_body
 from body_moments.blender.bodies.stacks import stack
 from body_moments.blender.bodies.stacks.many import measure_many
 from body_moments.blender.bodies.stacks.stack import Stacked
-from body_moments.blender.session import displayed
 from body_moments.blender.settings.options import AS_SET, MeasureOptions
 from body_moments.blender.write import properties
 
-from tests.blender.objects import only
 from tests.corpus import scenes
 from tests.corpus import shapes as s
 
@@ -257,39 +255,3 @@ def stored_on(obj):
         for key in properties.DESCRIPTIONS
         if key in obj
     }
-
-
-def same_to_rounding(one, other):
-    """A change of axes is a product of matrices, which some versions of numpy round otherwise in a stack."""
-    if isinstance(one, str):
-        return one == other
-    one, other = np.atleast_1d(one), np.atleast_1d(other)
-    return np.abs(one - other).max() <= 1e-14 * max(np.abs(one).max(), np.abs(other).max())
-
-
-def test_selection_stores_same_results_as_single_objects():
-    objects = shards(2)
-    only(*objects)
-    bpy.ops.object.body_moments_measure()
-    together = {obj.name: stored_on(obj) for obj in objects}
-    descriptions = {
-        key: objects[0].id_properties_ui(key).as_dict()["description"] for key in ("body_mass", "body_inertia")
-    }
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    for obj in objects:
-        bpy.ops.object.body_moments_clear() if obj == objects[0] else None
-        expected = alone(obj, depsgraph)
-        if isinstance(expected, Exception):
-            assert together[obj.name] == {} and displayed.failure(obj) == expected.finding
-            continue
-        properties.store(obj, expected.measurement)
-        own = stored_on(obj)
-        assert list(own) == list(together[obj.name])
-        for key in own:
-            if key == "body_principal_axes":
-                assert np.abs(np.subtract(own[key], together[obj.name][key])).max() < 1e-12
-            elif key in {"body_inertia_diagonal", "body_inertia_products"}:
-                assert together[obj.name][key] == together[obj.name]["body_inertia"][3 * key.endswith("products") :][:3]
-            elif key not in {"body_findings", "body_warnings"}:  # Measure notes that nobody has set the density
-                assert same_to_rounding(own[key], together[obj.name][key]), (obj.name, key)
-    assert descriptions == {key: objects[0].id_properties_ui(key).as_dict()["description"] for key in descriptions}

@@ -13,6 +13,8 @@ from tests.blender.findings import refused
 from tests.blender.grids import vdb_grid, volume_object
 from tests.blender.objects import add, mesh_body, strip_mesh
 from tests.close import close
+from tests.core.bodies import rotation
+from tests.core.shape.test_symmetry import orbit_of
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -136,6 +138,46 @@ def test_open_sheet_has_signature_and_open_solid_none():
         shape(strip)
     strip.body_moments.kind = "SHELL"
     assert shape(strip).moments.measure == "area"
+
+
+@pytest.mark.parametrize("name", ["C1", "D2d", "S8", "C5h", "C6", "D6", "T", "O", "I"])
+def test_surface_decides_the_group_of_turned_and_moved_bodies(name):
+    points, faces = orbit_of(name)
+    for seed, away in enumerate((0.0, 3.0, 10.0)):
+        mesh = bpy.data.meshes.new(name)
+        mesh.from_pydata((points @ rotation(seed).T + away).tolist(), [], faces.tolist())
+        obj = add(mesh, rotation=(0.3, 0.4, 0.5 * seed), scale=(1, 1, (-1.0) ** seed))
+        assert shape(obj).pose()["symmetry"] == name
+
+
+@pytest.mark.parametrize("corners", range(3, 10))
+def test_pose_with_one_corner_off_is_bounded_or_not_unique(corners):
+    """A corner 1e-4 off leaves no symmetry but perhaps a mirror; axes that only it fixes are badly known."""
+    mesh, rng = prisms(corners), np.random.default_rng(corners)
+    mesh.vertices[0].co = np.array(mesh.vertices[0].co) + (0.6e-4, 0.7e-4, 0.5e-4)
+    points = np.array([[*vertex.co, 1.0] for vertex in mesh.vertices])
+    found = []
+    for _ in range(4):
+        obj = add(mesh.copy(), location=rng.normal(size=3), rotation=rng.uniform(-3, 3, 3))
+        pose = shape(obj).pose()
+        assert pose["symmetry"] in ("C1", "Cs", "C1 or Cs")
+        placed = points @ (np.array(pose["matrix"]) @ np.array(obj.matrix_world)).T
+        found.append((placed[:, :3], pose["angle_bound"] * 2.0 + pose["position_bound"], pose["unique"]))
+    for (one, bound, unique), (other, *_, also) in zip(found, found[1:]):
+        assert not (unique and also) or np.abs(one - other).max() < 2.0 * bound
+
+
+def test_pose_of_clear_axes_is_unique_within_its_bounds():
+    mesh, found = mesh_body(), []
+    points = np.array([[*vertex.co, 1.0] for vertex in mesh.vertices])
+    for turn in ((0, 0, 0), (0.3, 1.4, -0.5), (2.0, -1.0, 0.7)):
+        obj = add(mesh.copy(), location=turn, rotation=turn)
+        pose = shape(obj).pose()
+        placed = points @ (np.array(pose["matrix"]) @ np.array(obj.matrix_world)).T
+        found.append(placed[:, :3])
+        assert pose["unique"] and pose["angle_bound"] < 1e-3
+        off = np.linalg.norm(placed - np.array([*found[0].T, np.ones(len(points))]).T, axis=1)
+        assert (off <= pose["position_bound"] + pose["angle_bound"] * np.linalg.norm(placed[:, :3], axis=1)).all()
 
 
 @pytest.mark.filterwarnings("error")

@@ -188,9 +188,3 @@ def test_flat_moments_are_about_foot_of_reference():
     shown = {name: float(exact) for degree in degrees for name, _, exact in degree.rows}
     for name, p, q in (("1", 0, 0), ("x", 1, 0), ("y", 0, 1), ("x²", 2, 0), ("xy", 1, 1), ("y²", 0, 2)):
         assert close(shown[name], float(truth(p, q, (2, -1))), 1e-12), name
-
-
-def test_crossing_outlines_are_the_reason_of_refusal(reported):
-    only(sheet([(0, 0), (1, 1), (1, 0), (0, 1)]))
-    assert bpy.ops.object.body_moments_compute_moments() == {"CANCELLED"}
-    assert "outlines_cross" in reported.codes

@@ -123,35 +123,6 @@ def test_flat_shell_has_sheet_and_outline_moments():
     assert found.not_flat is None
 
 
-def test_a_wall_has_moments_to_any_order(box):
-    from body_moments.blender.session.stored import moments as moments_table
-
-    box.body_moments.kind, box.body_moments.wall, box.body_moments.thickness = "SHELL", "INWARD", 0.01
-    settings(moments_order=8)
-    assert bpy.ops.object.body_moments_compute_moments() == {"FINISHED"}
-    computed = moments_table.computed_moments(box)
-    assert computed is not None and computed.order == 8 and computed.mass is not None
-    raw = computed.volume.about_point(box.matrix_world.translation)
-    sides = np.array(box.dimensions[:], float)
-    whole, hollow = (np.prod(size) * (size[0] / 2) ** 8 / 9 for size in (sides, sides - 0.02))
-    assert abs(raw[0, 8, 0] - (whole - hollow)) < 1e-6 * whole  # it is turned about z
-
-
-def test_script_gets_moments_as_documented(box):
-    from body_moments.blender.bodies.measure_object import measure_object
-    from body_moments.blender.settings.options import MeasureOptions
-
-    options = MeasureOptions(order=12, surface=True)
-    one = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get(), options)
-    central = one.volume_moments.about_center()
-    assert central.order == one.area_moments.order == 12
-    assert central[4, 4, 4] == pytest.approx(box_moment((4, 4, 4), (0, 0, 0), (2, 1, 3)), rel=1e-5)
-    own = one.volume_moments.in_frame(one.rotation, one.location)
-    assert close(own[4, 4, 4], box_moment((4, 4, 4), (0, 0, 0), (1, 2, 3)), rel=1e-12)
-    plain = measure_object(bpy.context.object, bpy.context.evaluated_depsgraph_get())
-    assert plain.volume_moments.order == 3 and plain.area_moments.order == 0  # nothing that nobody asked for
-
-
 def test_overflowing_moments_are_refused(box, reported):
     box.scale = (1e12, 1e12, 1e12)
     bpy.context.view_layer.update()

@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-from body_moments.core.robots.model import Inertial, Link, Robot
+from body_moments.core.robots.model import Link, Robot
 from body_moments.core.robots.write import gltf, mjcf, stl, text, usd
 from body_moments.core.verdict.finding import finding
 
 from tests.blender.write.test_documents import of_box
-from tests.close import close
 
 
 def with_least(mass, moment):
@@ -99,23 +98,6 @@ GLB = struct.pack("<4s2I", b"glTF", 2, 32)
 def test_invalid_gltf_is_refused(data):
     with pytest.raises(ValueError, match=".*"):
         gltf.read_json(data)
-
-
-def test_gltf_motion_has_the_inertia_unless_a_moment_is_zero():
-    """glTF's y is Blender's z; a moment of zero would mean that it is found from the geometry, or infinite."""
-    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    moments = np.array([2.0, 3.0, 4.0])
-    body = Inertial(5.0, np.array([0.4, 0.6, 1.2]), turn @ np.diag(moments) @ turn.T, moments, turn)
-    found = gltf.motion(body, (0.1, 0.2, -0.3))
-    assert found["mass"] == 5.0 and close(found["centerOfMass"], [4.0, -4.0, -3.0], 1e-14)
-    assert close(found["inertiaDiagonal"], [2.0, 3.0, 4.0], 1e-14)
-    x, y, z, w = found["inertiaOrientation"]
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    rotation = np.eye(3) + 2.0 * (w * cross + cross @ cross)
-    assert np.abs(rotation - gltf.Y_UP @ turn).max() < 1e-14
-    for least in (0.0, 1e-30):
-        thin = gltf.motion(replace(body, moments=np.array([least, 3.0, 3.0])))
-        assert ("inertiaDiagonal" in thin, "inertiaOrientation" in thin) == (least > 0.0, least > 0.0)
 
 
 @pytest.mark.parametrize("length", range(1, 6))

@@ -168,6 +168,23 @@ def test_a_collection_remembers_its_exporter_and_runs_it_again(tmp_path, name, e
     assert path.read_bytes() != data and b"Upper" not in path.read_bytes()
 
 
+@pytest.mark.parametrize("name", SUFFIXES)
+def test_hinged_objects_are_exported_with_their_joint(tmp_path, name):
+    """Blender's own geometry cannot hold a body that moves in another one."""
+    upper, fore, tool = pair()
+    bpy.ops.rigidbody.world_add()
+    hinge = add(None, "Elbow", (1, 2, 3))
+    bpy.ops.rigidbody.constraint_add(type="HINGE")
+    hinge.rigid_body_constraint.object1, hinge.rigid_body_constraint.object2 = upper, fore
+    path = tmp_path / ("robot" + {**SUFFIXES, "gltf": ".glb"}[name])
+    assert export(name, path, fixed_base=True, use_collision=False) == {"FINISHED"}
+    data = path.read_bytes()
+    assert b"Elbow" in data and b"Fore" in data and b"ollision" not in data and b"collider" not in data
+    for text in {"mjcf": [b"hinge"], "usd": [b"PhysicsRevoluteJoint", b"PhysicsArticulationRootAPI"]}.get(name, []):
+        assert text in data
+    assert b"freejoint" not in data and b'group="3"' not in data
+
+
 def test_nothing_to_export_and_nowhere_to_write_are_refused(tmp_path):
     with pytest.raises(RuntimeError, match="no link"):
         export("urdf", tmp_path / "robot.urdf")
@@ -227,4 +244,5 @@ def test_bones_are_links_in_their_rest_frames_with_their_limits(tmp_path):
     assert len(document["meshes"]) == len(names) and "buffers" in document
     export("usd", tmp_path / "rig.usda", links="BONE")
     text = (tmp_path / "rig.usda").read_text(encoding="utf-8")
-    assert text.count("def Mesh ") == text.count('"PhysicsRigidBodyAPI"') == len(names) and "physics:body1" in text
+    assert text.count("def Mesh ") == 2 * text.count('"PhysicsRigidBodyAPI"') == 2 * len(names)
+    assert "physics:body1" in text

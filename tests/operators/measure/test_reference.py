@@ -9,6 +9,7 @@ import pytest
 from body_moments.blender.read.reference import ReferenceChoice
 from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.stored import reference
+from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.core.inertia.plain_body import tensor_rows
 from body_moments.core.verdict.finding import Finding
 from mathutils import Euler
@@ -129,12 +130,15 @@ def test_stored_reference_follows_next_measurement():
 
 def test_an_assembly_is_referred_too():
     root = collection()
-    box(root, SIZE, AT, DENSITY)
+    member = box(root, SIZE, AT, DENSITY)
     layers = bpy.context.view_layer.layer_collection.children
     bpy.context.view_layer.active_layer_collection = layers[root.name]
     bpy.ops.object.body_moments_measure_assembly()
     choose("WORLD")
     assert np.abs(inertia(root) - about((0, 0, 0))).max() <= 1e-14 * about((0, 0, 0)).max()
+    only(member)
+    bpy.ops.object.body_moments_store_reference()
+    assert "body_reference" in member and stale_reason(root, bpy.context.scene) is None
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from itertools import product
 import bpy
 import numpy as np
 import pytest
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
 from tests.blender.objects import HEIGHT, POINTS, add, measured, mesh_body, only, place, seen
 
@@ -150,14 +150,6 @@ def test_other_users_of_the_data_do_not_move(name):
     assert_reframed(name, obj)
 
 
-def test_all_users_selected_change_the_data_itself():
-    mesh = mesh_body()
-    objects = [add(mesh, str(i), location=(5 * i, i, 0)) for i in range(3)]
-    only(*objects)
-    assert run(ORIGIN) == {"FINISHED"}
-    assert {obj.data for obj in objects} == {mesh} and len(bpy.data.meshes) == 1
-
-
 @pytest.mark.parametrize("name", REFRAMING)
 def test_all_shape_keys_follow(name):
     obj = add(mesh_body(), location=(1, 1, 1), rotation=(0.5, 0, 0))
@@ -216,15 +208,6 @@ def test_local_space_modifier_is_refused_unchanged(name, kind, options):
     assert (seen(obj) == points).all()
 
 
-def test_scaled_body_of_bent_faces_gets_axes_at_once():
-    obj = add(mesh_body(), location=(3, -4, 5), rotation=(0.3, -1.2, 2.0), scale=(1, 0.5, 2.5))
-    obj.data.vertices[3].co += Vector((0.3, -0.2, 0.6))  # faces are not flat any more
-    obj.data.update()
-    assert run(AXES) == {"FINISHED"}
-    assert_axes_are_principal(obj)
-    assert run(AXES) == {"CANCELLED"}
-
-
 @pytest.mark.parametrize("name", [ALIGN, "body_moments_match_pose"])
 @pytest.mark.parametrize("kind", ["LATTICE", "ARRAY", "MIRROR"])
 def test_modifier_bound_to_place_refuses_motion_unchanged(name, kind, reported):
@@ -274,22 +257,6 @@ def test_an_object_that_others_mirror_about_is_refused():
     obj = add(mesh_body(), location=(1, 2, 3))
     other = add(mesh_body("Other"), "Other", location=(9, 0, 0))
     other.modifiers.new("Mirror", "MIRROR").mirror_object = obj
-    only(obj)
-    bpy.context.view_layer.update()
-    before, points = state(obj), seen(other)
-    assert run(ORIGIN) == {"CANCELLED"}
-    assert state(obj) == before and (seen(other) == points).all()
-
-
-def test_object_shown_by_nodes_of_others_is_refused():
-    obj = add(mesh_body(), location=(1, 2, 3))
-    tree = bpy.data.node_groups.new("Show", "GeometryNodeTree")
-    tree.interface.new_socket("Geometry", in_out="OUTPUT", socket_type="NodeSocketGeometry")
-    info, out = tree.nodes.new("GeometryNodeObjectInfo"), tree.nodes.new("NodeGroupOutput")
-    info.inputs["Object"].default_value = obj
-    tree.links.new(info.outputs["Geometry"], out.inputs[0])
-    other = add(mesh_body("Other"), "Other", location=(9, 0, 0))
-    other.modifiers.new("Nodes", "NODES").node_group = tree
     only(obj)
     bpy.context.view_layer.update()
     before, points = state(obj), seen(other)
