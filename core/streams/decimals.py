@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Decimal numbers of a text as an array, six times as fast as `numpy.fromstring`."""
+"""Decimal numbers of a text as an array, several times as fast as by `numpy.fromstring`."""
 
 from __future__ import annotations
 
