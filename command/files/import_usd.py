@@ -61,9 +61,10 @@ def import_usd(path: str) -> Opened:
 
 def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding, ...]]:
     """Run Blender's importer, and return the prims of objects by name, and a finding about missing references."""
-    # Objects left out by the importer would be missed in silence.
+    # Objects left out by the importer would be missed in silence, and scaled ones have float32 matrices.
     options |= {"import_visible_only": False, "import_guide": True, "import_proxy": True}
-    results: list[dict[str, _Prim] | Exception] = []
+    options["apply_unit_conversion_scale"] = False
+    results: list[tuple[float, dict[str, _Prim]] | Exception] = []
 
     class BODY_MOMENTS_USD_prims(bpy.types.USDHook):
         bl_idname = "body_moments_prims"
@@ -72,7 +73,8 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
         @staticmethod
         def on_import(context: Any) -> bool:
             try:
-                results.append(_Stage(context.get_stage()).prims(context.get_prim_map()))
+                stage = _Stage(context.get_stage())
+                results.append((stage.unit, stage.prims(context.get_prim_map())))
             except Exception as error:  # Blender would only print it.
                 results.append(error)
             return True
@@ -87,21 +89,23 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
         raise FileError(FILE_UNREADABLE, error="this Blender lacks the Python modules of USD")
     if isinstance(results[0], Exception):
         raise results[0]
-    return results[0], missing
+    unit, prims = results[0]
+    bpy.context.scene.unit_settings.scale_length = unit
+    if not abs(bpy.context.scene.unit_settings.scale_length - unit) <= 1e-6 * unit:
+        raise FileError(FILE_UNREADABLE, error="its metersPerUnit is {}".format(unit))
+    return prims, missing
 
 
 class _Stage:
-    """An open stage at the scene's frame. It is gone when Blender's importer returns."""
+    """An open stage at the scene's frame, in meters per `unit`. It is gone when Blender's importer returns."""
 
     def __init__(self, stage: Any) -> None:
         # Blender has these modules, and exposes them on request.
         usd, self._geom = (importlib.import_module("pxr." + name) for name in ("Usd", "UsdGeom"))
         self._stage, self._time = stage, usd.TimeCode(bpy.context.scene.frame_current)
         self._places = self._geom.XformCache(self._time)
-        scale = self._geom.GetStageMetersPerUnit(stage)
-        self._to_scene = np.diag([scale, scale, scale, 1.0])
-        if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y:
-            self._to_scene = UPRIGHT @ self._to_scene
+        self.unit = self._geom.GetStageMetersPerUnit(stage)
+        self._to_scene = UPRIGHT if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y else np.eye(4)
 
     def prims(self, blocks: Mapping[str, list[bpy.types.ID]]) -> dict[str, _Prim]:
         """Return the facts about the prims of objects, by name. blocks: Blender's data, by the prims' paths."""
