@@ -47,10 +47,10 @@ RUNNING = "{}.{}".format(*sys.version_info)  # the version of the Python that ru
 
 # Blender as a module -> the Python which its wheel is made for
 BLENDERS = {"4.5": "3.11", "5.2": "3.13"}
-# group of tests -> minutes on one of two idle cores; the window's takes both, after all the others
+# group of tests -> minutes on one of two idle cores; the window's comes alone, after all the others
 GROUPS = {
     **{"core": 4, "blender": 3, "command": 3, "operators": 2, "panels": 1},
-    **{"corpus": 2, "package": 2, "robots": 1, "window": 15},
+    **{"corpus": 2, "package": 2, "robots": 1, "window": 5},
 }
 SUBJECT_GROUPS = ("core", "blender", "command", "operators", "panels")  # where `test SUBJECT` looks
 SILENCE_LIMIT = 1800  # seconds without a line of output after which a run of pytest has hung: no file takes 2 minutes

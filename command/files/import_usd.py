@@ -183,10 +183,8 @@ def _correct(prims: Mapping[str, _Prim], missing: tuple[Finding, ...]) -> Opened
 
 def _shear(obj: Object, place: NDArray[np.float64]) -> NDArray | None:
     """Return the (4, 4) map that the matrix of an object lacks, or None if it is flat and has no volume."""
-    try:
-        return np.linalg.solve(np.array(obj.matrix_world, np.float64), place)
-    except np.linalg.LinAlgError:
-        return None
+    matrix = np.array(obj.matrix_world, np.float64)
+    return np.linalg.solve(matrix, place) if np.linalg.det(matrix) else None
 
 
 def _replace(obj: Object, data: bpy.types.Curve) -> None:
@@ -196,13 +194,9 @@ def _replace(obj: Object, data: bpy.types.Curve) -> None:
     for slot in obj.data.materials if not data.materials else ():
         data.materials.append(slot)
     new.parent, new.matrix_parent_inverse = obj.parent, obj.matrix_parent_inverse
-    new.rotation_mode, new.hide_render = obj.rotation_mode, obj.hide_render
-    new.location, new.scale, new.rotation_euler = obj.location, obj.scale, obj.rotation_euler
-    new.rotation_quaternion = obj.rotation_quaternion
+    new.matrix_basis, new.hide_render = obj.matrix_basis, obj.hide_render
     for constraint in obj.constraints:
         new.constraints.copy(constraint)
-    for key, value in obj.items():
-        new[key] = value
     for collection in obj.users_collection:
         collection.objects.link(new)
     for child in obj.children:

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Edges, the proof of closedness, connected parts and orientation, against plain Python."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from body_moments.core.mesh.edges import (
@@ -286,20 +284,3 @@ def test_faces_on_the_same_vertices_share_a_group():
     )
     faces = np.array([0, 0, 1, 1, 2, 3, 4])
     np.testing.assert_array_equal(same_vertices_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
-
-
-def box_with_a_face_of_two_corners(place):
-    """Between two edges that have the same ends: each edge has two sides, but one of them has no triangles."""
-    whole = mesh(CORNERS, SIDES.tolist(), np.float32)
-    corners, edges = whole.corner_vertices.tolist(), whole.corner_edges.tolist()
-    side = 4 * min(place, 5)
-    ends, edge = [corners[side + 1], corners[side]], edges[side]
-    edges[side] = max(edges) + 1
-    corners[4 * place : 4 * place], edges[4 * place : 4 * place] = ends, [max(edges), edge]
-    faces = np.arange(6, dtype=np.int32)
-    return replace(
-        whole,
-        corner_vertices=np.array(corners, np.int32),
-        corner_edges=np.array(edges, np.int32),
-        quad_faces=faces + (faces >= place),
-    )
