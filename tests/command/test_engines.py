@@ -33,7 +33,7 @@ def job(tmp_path):
     folder.mkdir()
     for number in range(COUNT - 1):
         np.save(folder / "scan {}.npy".format(number), np.full((3, 4, 5), number + 1, "u2"))
-    (folder / "killer.ply").write_text("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n")
+    shutil.copy(ROOT / "tests" / "soak" / "crash_corpus" / "damaged_block.blend", folder / "killer.blend")
     assert script("manifest", folder, "--parts", PARTS, "--output", tmp_path / "a list").returncode == 0
     (tmp_path / "results").mkdir()
     return tmp_path
@@ -43,7 +43,7 @@ def check(job, name="1"):
     text = (job / "results" / name / "all.jsonl").read_text(encoding="utf-8")
     found = [json.loads(line) for line in text.splitlines()]
     assert [Path(one["file"]).name for one in found] == [
-        "killer.ply",
+        "killer.blend",
         *("scan {}.npy".format(number) for number in range(6)),
     ]
     assert [one["status"] for one in found] == ["crashed"] + ["ok"] * 6

@@ -45,10 +45,9 @@ def scans(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def killer(tmp_path_factory):
-    """A file that kills Blender: one that promises more vertices than there is memory."""
-    path = tmp_path_factory.mktemp("killer") / "killer.ply"
-    path.write_text("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n")
-    return path
+    """A file that kills Blender."""
+    corpus = Path(__file__).resolve().parent.parent / "soak" / "crash_corpus"
+    return Path(shutil.copy(corpus / "damaged_block.blend", tmp_path_factory.mktemp("killer") / "killer.blend"))
 
 
 def test_file_that_kills_blender_is_a_record(scans, killer, tmp_path):
@@ -61,7 +60,7 @@ def test_file_that_kills_blender_is_a_record(scans, killer, tmp_path):
     assert [Path(one["file"]) for one in found] == [first, killer, tmp_path / "none.stl", second, first]
     assert [one["status"] for one in found] == ["ok", "crashed", "missing", "ok", "ok"]
     assert found[0] == found[4] and "2 times" in found[1]["errors"][0]["reason"]
-    assert b"4 files in" in ended.stderr and b"killer.ply: Blender crashed" in ended.stderr
+    assert b"4 files in" in ended.stderr and b"killer.blend: Blender crashed" in ended.stderr
     attempts = {Path(one["key"]["path"]).name: one["attempts"] for one in lines(tmp_path / "out.jsonl.journal")}
     assert attempts == {first.name: 1, killer.name: 2, "none.stl": 1, second.name: 1}
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.jsonl", "out.jsonl.journal"]
