@@ -13,6 +13,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,18 +35,19 @@ NO_INDICES = np.empty(0, np.intp)
 MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
-# Groups by moments to sixth order, and the lower groups whose bodies have the same moments to that order.
-UNDECIDED = {
-    "Oh": "O or Oh",
-    "Ih": "I or Ih",
-    "D6h": "C6h, D6 or D6h",
-    "C6v": "C6 or C6v",
-    "D5h": "C5h or D5h",
-    "D5d": "S10 or D5d",
-    "D4d": "S8 or D4d",
-}
+# For groups by moments to sixth order, the lower groups whose bodies have the same moments to that order.
+UNDECIDED = {"Oh": "O", "Ih": "I", "D6h": "C6h, D6", "C6v": "C6", "D5h": "C5h", "D5d": "S10", "D4d": "S8"}
 
 Distance = Callable[[NDArray], NDArray]
+
+
+class Skin(Protocol):
+    """A surface: points on it, distances of points from it (infinite if far), and its points nearest to others."""
+
+    points: NDArray[np.float64]
+
+    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]: ...
+    def nearest(self, points: NDArray) -> NDArray[np.float64]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,26 +177,17 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
     return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
 
 
-def decide(
-    candidates: Sequence[Symmetry],
-    center: NDArray,
-    points: NDArray,
-    distance: Distance,
-    nearest: Callable[[NDArray], NDArray],
-    tolerance: float,
-) -> list[Symmetry]:
-    """Return the largest finite symmetry among the candidates' that the geometry has; two if it leaves a choice.
+def decide(candidates: Sequence[Symmetry], center: NDArray, skin: Skin, tolerance: float) -> list[Symmetry]:
+    """Return the largest finite symmetry among the candidates' that a surface has; two if it leaves a choice.
 
-    Noise may have turned and shifted the operations a little: the points of the surface `nearest` to the images turn
-    them back. Misfits of one order of magnitude belong together: both limits, below and above the tolerance, are in the
-    widest gap between misfits.
+    Misfits of one order of magnitude belong together: both limits, below and above the tolerance, are in the widest gap
+    between misfits.
     """
-    points, known, compared = points - center, np.empty((0, 3, 3)), []
+    known, compared = np.empty((0, 3, 3)), []
     for operations in (candidate.operations for candidate in candidates):
         if len(operations) > len(_nearest_operations(operations, known)):
             known = np.concatenate([known, operations])
-            misfits = [_misfit(each, center, points, distance, nearest, tolerance) for each in operations]
-            compared.append((operations, np.array(misfits)))
+            compared.append((operations, np.array([_misfit(each, center, skin, tolerance) for each in operations])))
     misfits = np.concatenate([np.empty(0), *(each for _, each in compared)])
     limits = [
         _limit_between(misfits, tolerance * low, tolerance * low * LIMIT_RANGE) for low in (1.0 / LIMIT_RANGE, 1.0)
@@ -204,18 +198,13 @@ def decide(
     return [Symmetry(group, np.empty((0, 3)), 0, tolerance) for group in found]
 
 
-def _misfit(
-    operation: NDArray,
-    center: NDArray,
-    points: NDArray,
-    distance: Distance,
-    nearest: Callable[[NDArray], NDArray],
-    tolerance: float,
-) -> float:
-    """Return the largest distance of images of points, relative to the center, from the surface; or infinity.
+def _misfit(operation: NDArray, center: NDArray, skin: Skin, tolerance: float) -> float:
+    """Return the largest distance of images of a surface's points from it; infinity if some are far away.
 
-    The operation is turned and shifted a little until the images are clearly near, or come no nearer.
+    Noise may have turned and shifted the operation a little: it is moved back, until the images are clearly near or
+    come no nearer.
     """
+    points, distance = skin.points - center, partial(skin.distance, within=tolerance / LIMIT_RANGE)
     some, turned, shift, least = points[:: 1 + len(points) // FIRST_SAMPLES], operation, np.zeros(3), np.inf
     for _ in range(1 + REFINEMENTS):
         if not np.isfinite(distance(some @ turned.T + center + shift)).all():
@@ -225,7 +214,7 @@ def _misfit(
         if misfit <= tolerance / LIMIT_RANGE or misfit > 0.9 * least:
             return min(misfit, least)
         least = misfit
-        turn, step = _motion_between(images, nearest(images + center) - center)
+        turn, step = _motion_between(images, skin.nearest(images + center) - center)
         angle = float(np.linalg.norm(turn))
         rotation = _axis_rotation(turn / (angle or 1.0), angle)
         turned, shift = rotation @ turned, rotation @ shift + step

@@ -32,7 +32,7 @@ from ....core.moments.moments import Moments
 from ....core.polyhedron import polyhedron_moments
 from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
-from ....core.shape.symmetries import LIMIT_RANGE, UNDECIDED, Symmetry, confirm, decide, symmetry
+from ....core.shape.symmetries import UNDECIDED, Symmetry, confirm, decide, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
@@ -53,7 +53,7 @@ EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
 SURFACE_SAMPLES = 1500  # points of a surface whose distances from another surface are found
 POINTS_PER_BATCH = 64  # points whose distances are found at once
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
-NOISE_FACTORS = 1.0, 0.5, 2.0  # a unique frame does not depend on the level of the noise
+NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame does not depend
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-3  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
@@ -139,20 +139,21 @@ class Shape:
         body, constant = self.measurement.mass_properties, self.body.mass is None
         axes, unique = body.principal.axes, body.principal.is_unique
         moments = self.moments if constant else self.measurement.mass_moments[0]
-        alike, *others = [equivalent_frames(moments, factor * NOISE_LEVEL) for factor in NOISE_FACTORS]
+        alike, factors = equivalent_frames(moments), NOISE_FACTORS
         pose: dict[str, Any] = {"symmetry": None, "symmetry_order": None}
         if constant:
             if len(alike.revolution_axes) == 1 and self._is_polygonal:
                 alike = turn_by_harmonics(alike, self._harmonics(axis_last(alike)))
                 if not alike.revolution_axes:
-                    axes, unique, others = nearest_frame(alike, axes), len(alike.frames) == 1, []
+                    axes, unique, factors = nearest_frame(alike, axes), len(alike.frames) == 1, ()
             pose = self._point_group()
         angle = alike.tilt if EQUAL_AXES[body.principal.symmetry] else body.axes_bound(MATRIX_STRAIN)
         position = body.rounding_error["center"] + body.input_error["center"]
         unique = unique and max(angle, position / self.size) <= MAX_POSE_BOUND
-        for each in others if unique else ():  # noise of half or twice the size has to leave the same frame
+        for factor in factors if unique else ():
+            each = equivalent_frames(moments, factor * NOISE_LEVEL)
             is_same = len(each.frames) == 1 and np.abs(each.frames[0] - axes).max() < MAX_FRAME_CHANGE
-            unique = unique and is_same and not each.revolution_axes
+            unique = unique and bool(is_same) and not each.revolution_axes
         return {
             "matrix": pose_matrix(body.center, axes),
             "unique": unique,
@@ -169,12 +170,15 @@ class Shape:
         """
         axial = self._harmonics if self._is_polygonal else None
         found = symmetry(self.moments, axial=axial)
-        group = UNDECIDED.get(found.group, found.group)
+        group = found.group
         if self._is_polygonal:
             exact = replace(self.moments, input_error=np.zeros_like(self.moments.raw))
-            candidates = [found, *(symmetry(exact, noise, axial) for noise in CANDIDATE_NOISE)]
+            candidates = [found, symmetry(exact, CANDIDATE_NOISE[0], axial)]
             if any(len(each.operations) > 1 or len(each.revolution_axes) for each in candidates):
+                candidates += [symmetry(exact, noise, axial) for noise in CANDIDATE_NOISE[1:]]
                 group = self._confirmed_group(candidates)
+        elif group in UNDECIDED:
+            group = "{} or {}".format(UNDECIDED[group], group)
         return {"symmetry": group, "symmetry_order": found.order}
 
     def _harmonics(self, frame: NDArray) -> AxialHarmonics:
@@ -195,9 +199,8 @@ class Shape:
                 return first.group
         moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
         near = NOISE_LEVEL * self.size + 4.0 * moved
-        distance = partial(skin.distance, within=near / LIMIT_RANGE)
         finite = [each for each in candidates if not len(each.revolution_axes)]
-        groups = [each.group for each in decide(finite, self.center, skin.points, distance, skin.nearest, near)]
+        groups = [each.group for each in decide(finite, self.center, skin, near)]
         # Noise may hide what a body has beside a body of revolution.
         uncertain = candidates if moved > MAX_NOISE * self.size else [first]
         groups += [each.group for each in uncertain if len(each.revolution_axes)]
