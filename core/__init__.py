@@ -30,7 +30,7 @@ The packages, each with its own public names in its `__init__` (none imports a l
     flat         polygons with holes, section properties
     fourier      Fourier transforms in closed form, and on large grids to a tolerance (Barnett et al. 2019)
     rig          the bone that each face goes with; skinned bodies cut into closed pieces
-    streams      meshes in .stl and .ply files, read in blocks
+    streams      meshes in .stl and .ply files, read in blocks or as a whole
     density      materials, polynomials, piecewise densities, grids and trivariate splines (Soldea et al., 4 and 5)
     nurbs        B-spline curves and patches (Soldea, Elber and Rivlin, sections 2, 3), Blender's knots
     wall         walls of real thickness

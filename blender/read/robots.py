@@ -9,8 +9,8 @@ from math import inf, isfinite
 from types import MappingProxyType
 from typing import Any
 
-import bpy
 import numpy as np
+from bpy.types import Depsgraph, Object, PoseBone, RigidBodyConstraint, Scene
 
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
@@ -24,7 +24,7 @@ from .reading import float64_matrix
 
 
 def object_candidate(
-    label: str, obj: bpy.types.Object | None, measurement: Measurement, labels: Mapping[bpy.types.Object, str]
+    label: str, obj: Object | None, measurement: Measurement, labels: Mapping[Object, str]
 ) -> Candidate:
     """Return a measured object as a possible link, with its labeled parents; `obj` is None for instances."""
     if obj is None:
@@ -36,7 +36,7 @@ def object_candidate(
     return make_candidate(label, measurement, parents, obj.matrix_world.to_scale(), is_fixed=is_passive(obj))
 
 
-def is_passive(obj: bpy.types.Object) -> bool:
+def is_passive(obj: Object) -> bool:
     """Return whether an object is a passive rigid body, which nothing moves."""
     return obj.rigid_body is not None and obj.rigid_body.type == "PASSIVE"
 
@@ -58,7 +58,7 @@ CONSTRAINTS: dict[str, tuple[tuple[str, int, float], ...]] = {
 
 
 def constraint_connections(
-    scene: bpy.types.Scene, labels: Mapping[bpy.types.Object, str], unit: float
+    scene: Scene, labels: Mapping[Object, str], unit: float
 ) -> tuple[list[Connection], list[Candidate], list[Finding]]:
     """Return the constraints of labeled objects as joints, frames for other passive objects in them, and findings."""
     connections: list[Connection] = []
@@ -84,16 +84,14 @@ def constraint_connections(
     return connections, [bases[name] for name in sorted(bases)], findings
 
 
-def _pose(obj: bpy.types.Object, unit: float) -> Pose:
+def _pose(obj: Object, unit: float) -> Pose:
     """Return an object's location and rotation, m."""
     matrix = float64_matrix(obj.matrix_world)
     turn = polar_rotation(matrix[None])[0][0]
     return Pose(matrix[:3, 3] * unit, turn * np.sign(np.linalg.det(turn)))
 
 
-def _freedom(
-    constraint: bpy.types.RigidBodyConstraint, values: Mapping[str, float], unit: float
-) -> tuple[FreeAxis, ...]:
+def _freedom(constraint: RigidBodyConstraint, values: Mapping[str, float], unit: float) -> tuple[FreeAxis, ...]:
     """Return the free axes of a constraint, with the values of its springs unless `values` states them."""
     free = []
     for kind, index, sign in CONSTRAINTS[constraint.type]:
@@ -118,7 +116,7 @@ def _freedom(
 
 
 def joint_values(
-    owner: bpy.types.Object | bpy.types.PoseBone,
+    owner: Object | PoseBone,
 ) -> tuple[dict[str, float], Mimic | None, list[Finding]]:
     """Return the values of a joint that are custom properties, its mimic, and findings about unusable properties."""
     values: dict[str, float] = {}
@@ -136,9 +134,7 @@ def joint_values(
     return values, None if leader is None else Mimic(str(leader), *factors), findings
 
 
-def link_surface(
-    objects: Iterable[bpy.types.Object], depsgraph: bpy.types.Depsgraph, pose: Pose, unit: float
-) -> Surface | None:
+def link_surface(objects: Iterable[Object], depsgraph: Depsgraph, pose: Pose, unit: float) -> Surface | None:
     """Return the surfaces of a link's objects as triangles in m, in the link's frame; None if they show no faces."""
     pieces, to_link = [], pose.inverse()
     for obj in objects:
@@ -150,7 +146,7 @@ def link_surface(
     return join_surfaces(pieces) if len(pieces) > 1 else pieces[0] if pieces else None
 
 
-def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
+def sheared_objects(objects: Iterable[Object]) -> list[str]:
     """Return the names of objects with a matrix that does more than move, turn, scale and mirror."""
     located = list(objects)
     if not located:
@@ -160,7 +156,7 @@ def sheared_objects(objects: Iterable[bpy.types.Object]) -> list[str]:
 
 
 def bone_freedom(
-    bone: bpy.types.PoseBone, values: Mapping[str, float] = MappingProxyType({}), unit: float = 1.0
+    bone: PoseBone, values: Mapping[str, float] = MappingProxyType({}), unit: float = 1.0
 ) -> tuple[FreeAxis, ...]:
     """Return a bone's axes along which it may move in its parent, then those about which it may turn, with limits.
 
@@ -168,47 +164,42 @@ def bone_freedom(
     moves only along axes that a Limit Location constraint limits. Axes are left out if they are locked, or if their
     limits leave no room. values: of each axis. unit: m.
     """
-    limits: dict[str, tuple[float | None, float | None]] = {}
-    for axis in "xyz":
-        if getattr(bone, "use_ik_limit_" + axis):
-            limits[axis] = getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis)
-    for constraint in bone.constraints:
-        if constraint.type == "LIMIT_ROTATION" and constraint.owner_space == "LOCAL" and constraint.enabled:
-            for axis in "xyz":
-                if getattr(constraint, "use_limit_" + axis):
-                    limits[axis] = getattr(constraint, "min_" + axis), getattr(constraint, "max_" + axis)
-    free = _bone_slides(bone, values, unit)
-    for index in (2, 1, 0):
-        axis = "xyz"[index]
-        lower, upper = limits.get(axis, (None, None))
-        no_room = lower is not None and upper is not None and not lower < upper
-        if no_room or bone.lock_rotation[index] or getattr(bone, "lock_ik_" + axis):
-            continue
-        limited = -inf if lower is None else lower, inf if upper is None else upper
-        free.append(FreeAxis("rotate", np.eye(3)[index], *limited, values))
+    turns = {
+        axis: (getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis))
+        for axis in "xyz"
+        if getattr(bone, "use_ik_limit_" + axis)
+    } | _bone_limits(bone, "LIMIT_ROTATION", "use_limit_")
+    is_connected = bone.parent is not None and bone.bone.use_connect
+    slides = {} if is_connected else _bone_limits(bone, "LIMIT_LOCATION", "use_min_", "use_max_")
+    rest = float64_matrix(bone.id_data.matrix_world)[:3, :3] @ float64_matrix(bone.bone.matrix_local)[:3, :3]
+    free = []
+    for index, axis in enumerate("xyz"):
+        lower, upper = slides.get(axis, (0.0, 0.0))
+        if lower < upper and not bone.lock_location[index]:
+            length = unit * float(np.linalg.norm(rest[:, index]))
+            free.append(FreeAxis("translate", np.eye(3)[index], lower * length, upper * length, values))
+    for index, axis in reversed([*enumerate("xyz")]):
+        lower, upper = turns.get(axis, (-inf, inf))
+        if lower < upper and not bone.lock_rotation[index] and not getattr(bone, "lock_ik_" + axis):
+            free.append(FreeAxis("rotate", np.eye(3)[index], lower, upper, values))
     return tuple(free)
 
 
-def _bone_slides(bone: bpy.types.PoseBone, values: Mapping[str, float], unit: float) -> list[FreeAxis]:
-    """Return a bone's axes along which it may move in its parent; a bone that is connected to it moves along none."""
-    free: dict[int, FreeAxis] = {}
-    rest = float64_matrix(bone.id_data.matrix_world)[:3, :3] @ float64_matrix(bone.bone.matrix_local)[:3, :3]
-    for constraint in () if bone.parent is not None and bone.bone.use_connect else bone.constraints:
-        if constraint.type != "LIMIT_LOCATION" or constraint.owner_space != "LOCAL" or not constraint.enabled:
+def _bone_limits(bone: PoseBone, kind: str, *uses: str) -> dict[str, tuple[float, float]]:
+    """Return the limits of a bone's constraints of a kind in local space, by axis. uses: switches of both ends."""
+    limits = {}
+    for constraint in bone.constraints:
+        if constraint.type != kind or constraint.owner_space != "LOCAL" or not constraint.enabled:
             continue
-        for index, axis in enumerate("xyz"):
-            used = [getattr(constraint, "use_{}_{}".format(end, axis)) for end in ("min", "max")]
-            length = unit * float(np.linalg.norm(rest[:, index]))
-            lower = getattr(constraint, "min_" + axis) * length if used[0] else -inf
-            upper = getattr(constraint, "max_" + axis) * length if used[1] else inf
+        for axis in "xyz":
+            used = [getattr(constraint, use + axis) for use in uses]
             if any(used):
-                free.pop(index, None)
-                if lower < upper and not bone.lock_location[index]:
-                    free[index] = FreeAxis("translate", np.eye(3)[index], lower, upper, values)
-    return [free[index] for index in sorted(free)]
+                lower = getattr(constraint, "min_" + axis) if used[0] else -inf
+                limits[axis] = lower, getattr(constraint, "max_" + axis) if used[-1] else inf
+    return limits
 
 
-def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[str]:
+def bone_parents(bone: PoseBone, labels: Mapping[str, str]) -> list[str]:
     """Return the labels of a bone's parents, the nearest first; `labels` maps the names of bones that are links."""
     return [labels[above.name] for above in bone.parent_recursive if above.name in labels]
 
@@ -216,7 +207,7 @@ def bone_parents(bone: bpy.types.PoseBone, labels: Mapping[str, str]) -> list[st
 USD_ROOT = "root"  # Blender's exporter puts everything under it
 
 
-def usd_path(obj: bpy.types.Object, identifier: Callable[[str], str]) -> list[str]:
+def usd_path(obj: Object, identifier: Callable[[str], str]) -> list[str]:
     """Return the names of the prims from the root to an object's; `identifier` converts names as the exporter does."""
     names, above = [], obj
     while above is not None:

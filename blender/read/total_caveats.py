@@ -18,7 +18,7 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
     # A layer that is switched off renders nothing; if all are switched off, the open layer counts.
     layers = [layer for layer in scene.view_layers if layer.use] or [view_layer]
     rendered = {obj for layer in layers for obj in _rendered(layer.layer_collection) if not obj.hide_render}
-    operands = boolean_operands(scene)
+    operands = operands_of(scene.objects)
     reasons = {}
     for obj in scene.objects:
         if obj in operands and obj.display_type in {"WIRE", "BOUNDS"}:
@@ -26,11 +26,6 @@ def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Findin
         elif obj not in rendered:
             reasons[obj] = finding(NOT_RENDERED)
     return reasons
-
-
-def boolean_operands(scene: Scene) -> dict[Object, Object]:
-    """Return the operands of Boolean modifiers of the scene's objects, each with the first user by name."""
-    return operands_of(scene.objects)
 
 
 def operands_of(objects: Iterable[Object]) -> dict[Object, Object]:

@@ -29,6 +29,7 @@ from ...core.scans.limits import Limits
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.nurbs.splines import keep_faces
+from ..read.reading import SplineReading
 from .findings import SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
@@ -173,7 +174,7 @@ def import_bodies(
 
 def show_bodies(bodies: Sequence[SurfaceBody], collection: bpy.types.Collection, factor: float) -> list[Object]:
     """Add an object of each body, with any faces, to a collection; it shows them and is measured by them."""
-    made = []
+    made, readings = [], {}
     for body in bodies:
         obj, _ = surface_object(body.name, list(map(_shown, body.patches)), factor)
         for spline in obj.data.splines:
@@ -181,9 +182,11 @@ def show_bodies(bodies: Sequence[SurfaceBody], collection: bpy.types.Collection,
                 spline.resolution_u = spline.resolution_v = 1
         matrix = np.diag([factor, factor, factor, 1.0])
         matrix[:3, 3] -= obj.location
-        keep_faces(obj.data, tuple(face.transform(matrix) for face in body.patches), factor * body.rounding)
+        faces = tuple(face.transform(matrix) for face in body.patches)
+        readings[obj.data] = SplineReading(faces, factor * body.rounding, ())
         collection.objects.link(obj)
         made.append(obj)
+    keep_faces(readings)
     return made
 
 

@@ -89,9 +89,10 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
     scene: sets the unit scale.
     """
-    is_posed = obj.type == "ARMATURE" and armatures.stands_for_meshes(obj)
-    if is_posed and (total := _sum_of_meshes(obj, scene)) is not None:
-        return total
+    if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
+        total = _as_one(obj, scene, [displayed(mesh, scene) for mesh in armatures.deformed_meshes(obj)])
+        if total is not None:
+            return total
     current = following.followed.get(obj)
     now = None if current is None else current.result
     if current is not None and now is not None and (measurement := now.measurement) is not None:
@@ -139,7 +140,8 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
     """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
     if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
-        shown = _sum_of_bones(obj, scene) if shown is not None and not shown.is_posed else shown
+        if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
+            shown = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:
         stamp = None if before is None or before.reason is not None else of_results(obj)
         if before is not None and stamp is not None and has_transform(obj, stamp.transform):
@@ -187,25 +189,15 @@ def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
     return Displayed(own, world, unit, method, findings, trust, reason)
 
 
-def _sum_of_meshes(armature: Object, scene: Scene) -> Displayed | None:
-    """Return the sum of the meshes that an armature deforms and that have numbers; None if they have no mass."""
-    meshes = armatures.deformed_meshes(armature)
-    return _as_one(armature, scene, [shown for mesh in meshes if (shown := displayed(mesh, scene)) is not None])
-
-
-def _sum_of_bones(armature: Object, scene: Scene) -> Displayed | None:
-    """Return the sum of a character's parts in its current pose; its own stored numbers are of the rest pose."""
-    bones = armature.pose.bones
-    return _as_one(armature, scene, [shown for bone in bones if (shown := drawn_bone(bone, scene)) is not None])
-
-
-def _as_one(armature: Object, scene: Scene, parts: Sequence[Displayed]) -> Displayed | None:
-    world = add_bodies([part.world for part in parts])
+def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -> Displayed | None:
+    """Return the sum of a character's meshes or bones in its current pose; None if they have no mass."""
+    known = [part for part in parts if part is not None]
+    world = add_bodies([part.world for part in known])
     if world is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
     own = world.in_object(armature.matrix_world, unit)
-    worst = max(parts, key=lambda part: tuple(Trust).index(part.trust))
+    worst = max(known, key=lambda part: tuple(Trust).index(part.trust))
     return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
 
 

@@ -12,7 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 SIZE = 128  # pixels
-_SAMPLES = 200_000  # points of the surface that are drawn
+_SAMPLES = 5_000  # points of the surface, so that parts thinner than a pixel are drawn, too
+_MAX_TESTS = 1_000_000  # pairs of a pixel and a triangle; many long slivers would have far more
+_MANY_SAMPLES = 200_000  # in their place
 _MARGIN = 0.1
 _VIEW = np.array([[0.8, -0.6, 0.0], [0.36, 0.48, 0.8], [0.48, 0.64, -0.6]]).T  # columns: right, up, away from the eye
 _AXES = ((214, 64, 64), (72, 160, 72), (72, 96, 214))  # red, green, blue: axes 1, 2 and 3
@@ -46,20 +48,47 @@ def thumbnail(
 
 
 def _draw(image: NDArray, corners: NDArray, normals: NDArray, areas: NDArray) -> None:
-    """Draw points of the triangles, spread over their areas, the nearest in front; each is shaded by its normal."""
+    """Draw the triangles at the centers of pixels, the nearest in front, each shaded by its normal."""
+    owner, spots = _covered_pixels(corners)
+    sampled, samples = _sample(corners, areas, _SAMPLES if len(owner) else _MANY_SAMPLES)
+    owner, spots = np.concatenate([sampled, owner]), np.concatenate([samples, spots])
+    order = np.argsort(-spots[:, 2], kind="stable")  # the farthest first: the last one put at a pixel stays
+    light = np.abs(normals @ (0.75, 0.75, -0.35)) / np.maximum(areas, np.finfo(float).tiny)
+    colors = np.full((len(areas), 4), 255, np.uint8)
+    colors[:, :3] = _BODY * (0.35 + 0.65 * np.minimum(light, 1.0)[:, None])
+    _put(image, spots[order], colors[owner[order]])
+
+
+def _covered_pixels(corners: NDArray) -> tuple[NDArray, NDArray[np.float64]]:
+    """Return the (k,) triangles that cover centers of pixels, and these (k, 3) points; none if there are too many."""
+    flat = corners[:, :, :2]
+    first, last = np.ceil(flat.min(axis=1)).astype(int), np.floor(flat.max(axis=1)).astype(int)
+    spans = np.maximum(last - first + 1, 0)
+    counts = spans.prod(axis=1)
+    counts *= counts.sum() <= _MAX_TESTS
+    owner = np.repeat(np.arange(len(corners)), counts)
+    place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    points = first[owner] + np.stack(np.divmod(place, np.maximum(spans[owner, 1], 1)), axis=1)
+    origin, sides = corners[owner, 0], (corners[:, 1:] - corners[:, :1])[owner]
+    (x, y), away = sides[:, :, :2].transpose(1, 0, 2), points - origin[:, :2]
+    doubled = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0]
+    with np.errstate(all="ignore"):  # triangles seen from their edge
+        a = (away[:, 0] * y[:, 1] - away[:, 1] * y[:, 0]) / doubled
+        b = (x[:, 0] * away[:, 1] - x[:, 1] * away[:, 0]) / doubled
+        depth = origin[:, 2] + a * sides[:, 0, 2] + b * sides[:, 1, 2]
+    inside = (a >= 0.0) & (b >= 0.0) & (a + b <= 1.0)
+    return owner[inside], np.column_stack([points, depth])[inside]
+
+
+def _sample(corners: NDArray, areas: NDArray, count: int) -> tuple[NDArray, NDArray[np.float64]]:
+    """Return points that are spread over the triangles' areas, and the triangle of each."""
     chance = np.random.default_rng(0)
-    chosen = np.searchsorted(np.cumsum(areas), chance.random(_SAMPLES) * areas.sum())
+    chosen = np.searchsorted(np.cumsum(areas), chance.random(count) * areas.sum())
     chosen = np.minimum(chosen, len(areas) - 1)  # the sums may be rounded differently
-    a, b = chance.random((2, _SAMPLES, 1))
+    a, b = chance.random((2, count, 1))
     a, b = np.where(a + b > 1.0, 1.0 - a, a), np.where(a + b > 1.0, 1.0 - b, b)
     triangles = corners[chosen]
-    spots = triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (triangles[:, 2] - triangles[:, 0])
-    order = np.argsort(-spots[:, 2], kind="stable")  # the farthest first: the last one put at a pixel stays
-    light = np.abs(normals[chosen] @ (0.75, 0.75, -0.35)) / areas[chosen]
-    colors = np.empty((_SAMPLES, 4), np.uint8)
-    colors[:, :3] = _BODY * (0.35 + 0.65 * np.minimum(light, 1.0)[:, None])
-    colors[:, 3] = 255
-    _put(image, spots[order], colors[order])
+    return chosen, triangles[:, 0] + a * (triangles[:, 1] - triangles[:, 0]) + b * (triangles[:, 2] - triangles[:, 0])
 
 
 def _put(image: NDArray, spots: NDArray, colors: NDArray) -> None:
@@ -78,5 +107,5 @@ def _png(image: NDArray[np.uint8]) -> bytes:
     height, width, _ = image.shape
     rows = np.concatenate([np.zeros((height, 1), np.uint8), image.reshape(height, 4 * width)], axis=1)
     head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    body = zlib.compress(rows.tobytes(), 9)
+    body = zlib.compress(rows.tobytes())
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", body) + chunk(b"IEND", b"")

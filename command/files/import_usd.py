@@ -61,9 +61,10 @@ def import_usd(path: str) -> Opened:
 
 def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding, ...]]:
     """Run Blender's importer, and return the prims of objects by name, and a finding about missing references."""
-    # Objects left out by the importer would be missed in silence.
+    # Objects left out by the importer would be missed in silence, and scaled ones have float32 matrices.
     options |= {"import_visible_only": False, "import_guide": True, "import_proxy": True}
-    results: list[dict[str, _Prim] | Exception] = []
+    options["apply_unit_conversion_scale"] = False
+    results: list[tuple[float, dict[str, _Prim]] | Exception] = []
 
     class BODY_MOMENTS_USD_prims(bpy.types.USDHook):
         bl_idname = "body_moments_prims"
@@ -72,7 +73,8 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
         @staticmethod
         def on_import(context: Any) -> bool:
             try:
-                results.append(_Stage(context.get_stage()).prims(context.get_prim_map()))
+                stage = _Stage(context.get_stage())
+                results.append((stage.unit, stage.prims(context.get_prim_map())))
             except Exception as error:  # Blender would only print it.
                 results.append(error)
             return True
@@ -87,21 +89,23 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
         raise FileError(FILE_UNREADABLE, error="this Blender lacks the Python modules of USD")
     if isinstance(results[0], Exception):
         raise results[0]
-    return results[0], missing
+    unit, prims = results[0]
+    bpy.context.scene.unit_settings.scale_length = unit
+    if not abs(bpy.context.scene.unit_settings.scale_length - unit) <= 1e-6 * unit:
+        raise FileError(FILE_UNREADABLE, error="its metersPerUnit is {}".format(unit))
+    return prims, missing
 
 
 class _Stage:
-    """An open stage at the scene's frame. It is gone when Blender's importer returns."""
+    """An open stage at the scene's frame, in meters per `unit`. It is gone when Blender's importer returns."""
 
     def __init__(self, stage: Any) -> None:
         # Blender has these modules, and exposes them on request.
         usd, self._geom = (importlib.import_module("pxr." + name) for name in ("Usd", "UsdGeom"))
         self._stage, self._time = stage, usd.TimeCode(bpy.context.scene.frame_current)
         self._places = self._geom.XformCache(self._time)
-        scale = self._geom.GetStageMetersPerUnit(stage)
-        self._to_scene = np.diag([scale, scale, scale, 1.0])
-        if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y:
-            self._to_scene = UPRIGHT @ self._to_scene
+        self.unit = self._geom.GetStageMetersPerUnit(stage)
+        self._to_scene = UPRIGHT if self._geom.GetStageUpAxis(stage) == self._geom.Tokens.y else np.eye(4)
 
     def prims(self, blocks: Mapping[str, list[bpy.types.ID]]) -> dict[str, _Prim]:
         """Return the facts about the prims of objects, by name. blocks: Blender's data, by the prims' paths."""
@@ -183,10 +187,8 @@ def _correct(prims: Mapping[str, _Prim], missing: tuple[Finding, ...]) -> Opened
 
 def _shear(obj: Object, place: NDArray[np.float64]) -> NDArray | None:
     """Return the (4, 4) map that the matrix of an object lacks, or None if it is flat and has no volume."""
-    try:
-        return np.linalg.solve(np.array(obj.matrix_world, np.float64), place)
-    except np.linalg.LinAlgError:
-        return None
+    matrix = np.array(obj.matrix_world, np.float64)
+    return np.linalg.solve(matrix, place) if np.linalg.det(matrix) else None
 
 
 def _replace(obj: Object, data: bpy.types.Curve) -> None:
@@ -196,13 +198,9 @@ def _replace(obj: Object, data: bpy.types.Curve) -> None:
     for slot in obj.data.materials if not data.materials else ():
         data.materials.append(slot)
     new.parent, new.matrix_parent_inverse = obj.parent, obj.matrix_parent_inverse
-    new.rotation_mode, new.hide_render = obj.rotation_mode, obj.hide_render
-    new.location, new.scale, new.rotation_euler = obj.location, obj.scale, obj.rotation_euler
-    new.rotation_quaternion = obj.rotation_quaternion
+    new.matrix_basis, new.hide_render = obj.matrix_basis, obj.hide_render
     for constraint in obj.constraints:
         new.constraints.copy(constraint)
-    for key, value in obj.items():
-        new[key] = value
     for collection in obj.users_collection:
         collection.objects.link(new)
     for child in obj.children:

@@ -33,7 +33,7 @@ def measured_together(
 
     That is the case if an object needs settings or results of its own besides mass properties.
     """
-    if options.order is not None or options.pose or options.signature or options.thumbnails:
+    if options.order is not None or options.pose or options.signature:
         return None
     if options.threshold is not None or options.polynomial is not None or options.density_from is not None:
         return None

@@ -19,7 +19,7 @@ import bpy
 
 from ...blender.bodies.measure_object import THREADS, Measured
 from ...blender.bodies.stacks.stack import Stacked
-from ...blender.read.total_caveats import boolean_operands, open_body_caveats, total_caveats
+from ...blender.read.total_caveats import open_body_caveats, operands_of, total_caveats
 from ...blender.read.tracking import tracking_paused
 from ...blender.session.findings import DENSITY_DEFAULTED
 from ...blender.session.tracking.staleness import mark_up_to_date
@@ -206,7 +206,7 @@ class Run:
         Failures are added to `errors`. of_file: findings about the file.
         """
         objects, measured, flats = [], [], []
-        operands = boolean_operands(bpy.context.scene) if self.options.object is None else {}
+        operands = operands_of(bpy.context.scene.objects) if self.options.object is None else {}
         in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
         for label, obj in chosen:
             user = operands.get(obj)

@@ -102,6 +102,8 @@ def _merge(options: argparse.Namespace) -> tuple[Iterable[str], int]:
             if names:
                 more = " and {} more".format(len(names) - _LISTED) if len(names) > _LISTED else ""
                 raise UsageError("There are {} {}{}".format(what, ", ".join(names[:_LISTED]), more))
+        place = {name: number for number, name in enumerate(listed)}
+        documents = dict(sorted(documents.items(), key=lambda item: place[os.path.abspath(item[0] or "")]))
     return to_json_lines(documents.values()), 0
 
 

@@ -47,7 +47,7 @@ def read_obj_faces(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], 
 def _read_points(lines: Lines) -> NDArray[np.float64]:
     """Return the (n, 3) vertices of a block."""
     is_vertex = lines.kinds[0]
-    values, at = parse_decimals(lines.keep(is_vertex))
+    values, at, _ = parse_decimals(lines.keep(is_vertex))
     line = np.searchsorted(lines.starts, at, "right")
     first = np.flatnonzero(np.diff(line, prepend=-1))
     return values[first[:, None] + np.arange(3)]

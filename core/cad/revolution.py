@@ -21,13 +21,12 @@ _ORDER = 3
 def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round: bool) -> Patch | None:
     """Return a solid's surface about an axis "X", "Y" or "Z", facing outward, or None if it has no volume.
 
-    bottom, top: the radii at the ends of its straight part, which is `height` long. is_round: whether half balls, and
-    no disks, follow it.
+    bottom, top: the radii at the ends of its straight part, which is `height` long; with a negative height the ends
+    change places. is_round: whether half balls, and no disks, follow it. Other axes are taken as Z.
     """
-    half = height / 2.0
-    if not (math.isfinite(bottom + top + height) and max(bottom, top) > 0.0 and min(bottom, top, height) >= 0.0):
-        return None
-    if not (half > 0.0 or is_round and bottom == top):
+    bottom, top = (abs(top), abs(bottom)) if height < 0.0 else (abs(bottom), abs(top))
+    half = abs(height) / 2.0
+    if not (math.isfinite(bottom + top + half) and max(bottom, top) > 0.0 and (half > 0.0 or is_round)):
         return None
     profile = _Profile(0.0, -half - bottom * is_round)
     profile.extend(bottom, -half, bend=is_round)
@@ -37,7 +36,7 @@ def revolved_solid(bottom: float, top: float, height: float, axis: str, is_round
     columns = radii[None, :, None] * np.concatenate([_CIRCLE, np.zeros((9, 1))], axis=1)[:, None]
     columns[..., 2] = heights
     # Rotated so that the third axis becomes the wanted one.
-    points = np.roll(columns, "ZXY".index(axis), axis=2)
+    points = np.roll(columns, max("ZXY".find(axis), 0), axis=2)
     return Patch((_space(len(_CIRCLE)), _space(len(radii))), points, np.outer(_WEIGHTS, weights))
 
 

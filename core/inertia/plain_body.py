@@ -12,7 +12,7 @@ from math import atan2, cos, hypot, sin, sqrt
 from sys import float_info
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..numerics.vectors import cross, subtract
+from ..numerics.vectors import cross, dot, subtract
 
 if TYPE_CHECKING:
     from .mass_properties import MassProperties
@@ -174,7 +174,7 @@ def frame_about(axis: Sequence[float]) -> Axes:
 
 def _across(vector: Sequence[float], axis: Sequence[float]) -> Vector:
     """Return the direction of a vector's part that is perpendicular to an axis; () if there is none."""
-    (along,) = along_axes(vector, (axis,))
+    along = dot(vector, axis)
     part = [entry - along * other for entry, other in zip(vector, axis)]
     length = hypot(*part)
     return tuple(entry / length for entry in part) if length >= MIN_ACROSS else ()

@@ -92,7 +92,7 @@ def apply_linear(values: NDArray, order: int, linear: NDArray) -> NDArray[np.flo
 
 def rotate_moments(raw: NDArray, order: int, rotation: NDArray) -> NDArray[np.float64]:
     """Return (..., K) moments of bodies after rotations (..., 3, 3), from their moments `raw`; no error bounds."""
-    if raw.ndim == 2 and len(rotation) == len(raw) > ROTATIONS_PER_BLOCK:
+    if raw.ndim + 1 == rotation.ndim == 3 and len(rotation) == len(raw) > ROTATIONS_PER_BLOCK:
         blocks = [slice(start, start + ROTATIONS_PER_BLOCK) for start in range(0, len(raw), ROTATIONS_PER_BLOCK)]
         return np.concatenate([rotate_moments(raw[block], order, rotation[block]) for block in blocks])
     out = np.zeros((*np.broadcast_shapes(raw.shape[:-1], rotation.shape[:-2]), raw.shape[-1]))

@@ -22,7 +22,7 @@ from .boxes import Box, box_of_blocks
 from .decimals import parse_decimals
 from .file_mesh import FileMesh, Polygons, merge_equal, name_of_file
 from .findings import STL_CUT_SHORT
-from .misread import map_file
+from .misread import MARK, MAX_FLOAT32, map_file
 from .stl_text import BY_COUNT, BY_WORD, SOLID, check_stl_text
 
 HEAD, RECORD = 84, 50  # Bytes before the triangles, and bytes of each triangle.
@@ -32,8 +32,11 @@ SAMPLES = 1000  # triangles that show where the body is
 TEXT_PER_BLOCK = 1 << 20  # bytes
 TEXT_PER_TRIANGLE = 250  # bytes, about
 FACET_END = b"endfacet"
-FACET_NUMBERS = 12  # of the normal and three corners
-_NORMAL = re.compile(rb"normal[^v]*")
+# The words of a facet without the letter that numbers may have, and all letters of numbers and white space.
+FACET_LETTERS = b"factnormaloutrloopvrtxvrtxvrtxndloopndfact"
+WORDS, _SPACE = 21, ord(" ")  # of a facet
+_NUMERIC = b"0123456789.e+- \t\r\n\v\f"
+_NORMAL = re.compile(rb"normal[^v]*?out")
 
 
 class StlFile:
@@ -48,10 +51,9 @@ class StlFile:
         size = path.stat().st_size
         count = int.from_bytes(head[80:84], "little")
         self._binary = len(head) == HEAD and size == HEAD + RECORD * count
-        if not self._binary and not head.lstrip().lower().startswith(b"solid"):
+        if not self._binary and not head.removeprefix(MARK).lstrip().lower().startswith(b"solid"):
             raise FileError(STL_CUT_SHORT, end=BY_COUNT)
-        if not self._binary:
-            check_stl_text(map_file(path))
+        self._is_checked = False
         self.face_count = count if self._binary else size // TEXT_PER_TRIANGLE
 
     def sampled_box(self) -> Box:
@@ -94,25 +96,55 @@ class StlFile:
         while chunk := file.read(TEXT_PER_BLOCK):
             waiting += chunk.lower()
             end = waiting.rfind(FACET_END) + len(FACET_END) if FACET_END in waiting else 0
-            corners = _parse(waiting[:end])
+            corners = self._parse(waiting[:end])
             waiting = waiting[end:]
             for start in range(0, len(corners), TRIANGLES_PER_BLOCK):
                 yield corners[start : start + TRIANGLES_PER_BLOCK]
+        if SOLID.sub(b"", waiting).strip():
+            check_stl_text(map_file(self._path))
         if b"endsolid" not in waiting:
             raise FileError(STL_CUT_SHORT, end=BY_WORD)
 
-
-def _parse(text: bytes) -> NDArray[np.float32]:
-    """Return the (n, 3, 3) corners of whole facets in lower case, which `check_stl_text` has checked."""
-    if b"solid" in text:
-        text = SOLID.sub(b"", text)
-    count = text.count(FACET_END)
-    numbers, skipped = parse_decimals(text)[0], 3
-    if len(numbers) != FACET_NUMBERS * count:  # a normal that is no number
-        numbers, skipped = parse_decimals(_NORMAL.sub(b"", text))[0], 0
-        if len(numbers) != (FACET_NUMBERS - 3) * count:
+    def _parse(self, text: bytes) -> NDArray[np.float32]:
+        """Return the (n, 3, 3) corners of whole facets in lower case. FileError if a word is wrong."""
+        has_solids = b"solid" in text
+        corners = None if has_solids else _plain_corners(text)
+        if corners is not None:
+            return corners
+        if not self._is_checked:
+            check_stl_text(map_file(self._path))
+            self._is_checked = True
+        text = SOLID.sub(b"", text) if has_solids else text
+        corners = _plain_corners(_NORMAL.sub(b"normal 0 0 0 out", text))  # a normal that is no number
+        if corners is None:
             raise FileError(STL_CUT_SHORT, end=BY_WORD)
-    return numbers.reshape(count, -1)[:, skipped:].astype(np.float32).reshape(-1, 3, 3)
+        return corners
+
+
+def _plain_corners(text: bytes) -> NDArray[np.float32] | None:
+    """Return the (n, 3, 3) corners of facets whose words and numbers are in their places, or None if some are not."""
+    count = text.count(FACET_END)
+    if text.translate(None, _NUMERIC) != FACET_LETTERS * count:
+        return None
+    try:
+        numbers, at, exponents = parse_decimals(text)
+    except ValueError:
+        return None
+    if len(numbers) != 12 * count or text.count(b"e") != 11 * count + exponents:
+        return None
+    letters, at = np.frombuffer(text, np.uint8), at.reshape(count, 12)
+    if np.count_nonzero((letters[1:] > _SPACE) & (letters[:-1] <= _SPACE)) + (text[:1] > b" ") != WORDS * count:
+        return None
+    normal, vertex, loop = (
+        np.flatnonzero(letters == ord(one)).reshape(count, times) for one, times in (("m", 1), ("x", 3), ("p", 2))
+    )
+    # Each row is in order if the words and the first and last numbers between them are.
+    order = [normal, at[:, [0, 2]], loop[:, :1], vertex[:, :1], at[:, [3, 5]], vertex[:, 1:2], at[:, [6, 8]]]
+    order += [vertex[:, 2:], at[:, [9, 11]], loop[:, 1:]]
+    is_plain = (np.diff(np.concatenate(order, axis=1), axis=1) > 0).all() and np.abs(numbers).max(
+        initial=0.0
+    ) < MAX_FLOAT32
+    return numbers.reshape(count, 4, 3)[:, 1:].astype(np.float32) if is_plain else None
 
 
 def _binary_corners(file: BinaryIO) -> Iterator[NDArray[np.float32]]:

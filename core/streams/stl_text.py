@@ -16,7 +16,7 @@ from .findings import STL_CUT_SHORT
 from .misread import SHORT, SHORT_OR_NAN, Data, Fault, find_number_fault, refuse_line, shorten
 
 BY_COUNT, BY_WORD = "where its number of triangles does", "with “endsolid”"  # words for the end of a file
-SOLID = re.compile(rb"(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
+SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
 _NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
 _FACETS = re.compile(

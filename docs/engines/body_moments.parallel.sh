@@ -2,15 +2,20 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# GNU parallel: ranges of a list, on this machine or, with --sshlogin, on others that share its storage.
+# GNU parallel: the parts of a list, on this machine or, with --sshlogin, on others that share its storage.
 #
-#     SCRIPT=operators/batch.py BLENDER=blender MANIFEST=files.list FOLDER=results COUNT=400 SIZE=100 \
-#         body_moments.parallel.sh --jobs 2
+#     python3 operators/batch.py manifest parts/ --parts 4 --output files.list
+#     ADDON=. BLENDER=blender MANIFEST=files.list FOLDER=results body_moments.parallel.sh --jobs 2
 #
+# The results are in FOLDER/JOB. JOB is the time, or a name: a run of the same name goes on with its results.
 set -eu
-export SCRIPT BLENDER MANIFEST FOLDER SIZE PYTHON=${PYTHON:-python3} OPTIONS=${OPTIONS:-}
-seq 0 "$SIZE" $((COUNT - 1)) | parallel --env SCRIPT --env BLENDER --env MANIFEST --env FOLDER --env SIZE --env PYTHON \
-    --env OPTIONS "$@" \
-    '"$PYTHON" "$SCRIPT" measure --blender "$BLENDER" --manifest "$MANIFEST" --range {}:$(({} + SIZE)) --jobs 1 --resume \
-        --errors-exit-0 --format jsonl --output "$FOLDER/part-{}.jsonl" $OPTIONS'
-ls "$FOLDER"/part-*.jsonl | sort -V | xargs "$PYTHON" "$SCRIPT" merge --force --output "$FOLDER/all.jsonl"
+export ADDON BLENDER MANIFEST PYTHON=${PYTHON:-python3} TIMEOUT=${TIMEOUT:-600} OPTIONS=${OPTIONS:-}
+export RESULTS=$FOLDER/${JOB:-$(date +%Y-%m-%d-%H%M%S)}
+mkdir -p "$RESULTS"
+parts=$("$PYTHON" -c 'import json, sys; print(json.loads(open(sys.argv[1]).readline()).get("parts", 1))' "$MANIFEST")
+seq 1 "$parts" | parallel --env ADDON --env BLENDER --env MANIFEST --env PYTHON --env TIMEOUT --env OPTIONS --env RESULTS \
+    "$@" \
+    '"$PYTHON" "$ADDON/operators/batch.py" measure --blender "$BLENDER" --manifest "$MANIFEST" --part {} --jobs 1 \
+        --timeout "$TIMEOUT" --resume --errors-exit-0 --format jsonl --output "$RESULTS/part-{}.jsonl" $OPTIONS'
+"$PYTHON" "$ADDON/operators/batch.py" merge --force --manifest "$MANIFEST" --output "$RESULTS/all.jsonl" \
+    "$RESULTS"/part-*.jsonl

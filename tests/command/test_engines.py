@@ -16,29 +16,31 @@ import pytest
 pytest.importorskip("bpy")
 
 from tests.command import slurm_controller
-from tests.command.test_process import BLENDER, ROOT, SCRIPT, in_blender, process, script
+from tests.command.test_process import BLENDER, ROOT, in_blender, process, script
 from tests.soak import commands
 
 ENGINES = ROOT / "docs" / "engines"
 OPENJD = shutil.which("openjd", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]))
-COUNT, SIZE = 7, 3
+COUNT, PARTS = 7, 3
 
 
 @pytest.fixture
 def job(tmp_path):
-    """A list of seven files, of which one kills Blender, and a folder for results."""
-    folder = tmp_path / "files"
+    """A list of seven files, of which one kills Blender, and a folder for results, with spaces in all names."""
+    tmp_path = tmp_path / "a job"
+    tmp_path.mkdir()
+    folder = tmp_path / "files to measure"
     folder.mkdir()
     for number in range(COUNT - 1):
         np.save(folder / "scan {}.npy".format(number), np.full((3, 4, 5), number + 1, "u2"))
     (folder / "killer.ply").write_text("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n")
-    assert script("manifest", folder, "--output", tmp_path / "list").returncode == 0
+    assert script("manifest", folder, "--parts", PARTS, "--output", tmp_path / "a list").returncode == 0
     (tmp_path / "results").mkdir()
     return tmp_path
 
 
-def check(job):
-    text = (job / "results" / "all.jsonl").read_text(encoding="utf-8")
+def check(job, name="1"):
+    text = (job / "results" / name / "all.jsonl").read_text(encoding="utf-8")
     found = [json.loads(line) for line in text.splitlines()]
     assert [Path(one["file"]).name for one in found] == [
         "killer.ply",
@@ -49,15 +51,15 @@ def check(job):
 
 
 def environment(job, **more):
-    values = {"SCRIPT": SCRIPT, "BLENDER": BLENDER, "MANIFEST": job / "list", "FOLDER": job / "results", "SIZE": SIZE}
+    values = {"ADDON": ROOT, "BLENDER": BLENDER, "MANIFEST": job / "a list", "FOLDER": job / "results", "JOB": 1}
     return {name: str(value) for name, value in {**values, "PYTHON": sys.executable, **more}.items()}
 
 
 @in_blender
 @pytest.mark.skipif(not OPENJD, reason="needs openjd-cli")
 def test_open_job_description(job):
-    values = {"Python": sys.executable, "Script": SCRIPT, "Blender": BLENDER, "Manifest": job / "list"}
-    values |= {"Folder": job / "results", "Last": COUNT - 1, "Size": SIZE}
+    values = {"Python": sys.executable, "Addon": ROOT, "Blender": BLENDER, "Manifest": job / "a list"}
+    values |= {"Folder": job / "results", "Job": 1, "Parts": PARTS}
     words = [word for name, value in values.items() for word in ("-p", "{}={}".format(name, value))]
     template = ENGINES / "body_moments.openjd.yaml"
     ended = process(OPENJD, "run", template, "--step", "Merge", "--run-dependencies", *words)
@@ -68,7 +70,7 @@ def test_open_job_description(job):
 @in_blender
 @pytest.mark.skipif(not shutil.which("parallel"), reason="needs GNU parallel")
 def test_gnu_parallel(job):
-    ended = process("bash", ENGINES / "body_moments.parallel.sh", "--jobs", "2", env=environment(job, COUNT=COUNT))
+    ended = process("bash", ENGINES / "body_moments.parallel.sh", "--jobs", "2", env=environment(job))
     assert ended.returncode == 0, ended.stderr
     check(job)
 
@@ -77,13 +79,12 @@ def test_gnu_parallel(job):
 @pytest.mark.skipif(os.name == "nt", reason="not on this system: bash")
 def test_the_tasks_of_a_slurm_array(job):
     """Run one task twice, as Slurm does: a requeued task continues."""
-    for number in (0, 1, 2, 1):
-        variables = environment(job, SLURM_ARRAY_TASK_ID=number, SLURM_CPUS_PER_TASK=1)
+    for number in (1, 2, 3, 2):
+        variables = environment(job, SLURM_ARRAY_JOB_ID=1, SLURM_ARRAY_TASK_ID=number, SLURM_CPUS_PER_TASK=1)
         ended = process("bash", ENGINES / "body_moments.slurm.sh", env=variables)
         assert ended.returncode == 0, ended.stderr
-    assert b"0 files in" in ended.stderr
-    parts = [job / "results" / "part-{}.jsonl".format(number) for number in range(3)]
-    assert script("merge", *parts, "--output", job / "results" / "all.jsonl").returncode == 0
+    assert b"2 of 2 files reused" in ended.stderr
+    assert process("bash", ENGINES / "body_moments.slurm.sh", "1", env=environment(job)).returncode == 0
     check(job)
 
 
@@ -104,42 +105,41 @@ def slurm():
 @in_blender
 def test_an_array_under_a_controller_of_slurm(job, slurm):
     """Follow the head of the script; the controller requeues a task during a slow file."""
-    listed = [json.loads(line) for line in (job / "list").read_text().splitlines()]
-    slow = job / "files" / "slow_2048x2048x2048_uint8.raw"
+    listed = [json.loads(line) for line in (job / "a list").read_text().splitlines()]
+    slow = job / "slow_2048x2048x2048_uint8.raw"
     slow.touch()
     os.truncate(slow, 1 << 33)
     listed[0]["files"] += 1
-    with open(job / "list", "w") as file:
+    with open(job / "a list", "w") as file:
         file.writelines(json.dumps(line) + "\n" for line in [*listed, {"path": str(slow)}])
     log = job / "log-%a"
     environment_of_job = slurm | environment(job)
-    submit = ("sbatch", "--parsable", "--requeue", "--array=0-2", "--output", log, "--open-mode=append")
+    submit = ("sbatch", "--parsable", "--requeue", "--array=1-3", "--output", log, "--open-mode=append")
     number = slurm_controller.asked(environment_of_job, *submit, ENGINES / "body_moments.slurm.sh")
     assert number.isdigit(), number
-    joins = ENGINES.joinpath("body_moments.slurm.sh").read_text().split("--wrap")[1].split("'")[1]
-    joins = joins.replace("python3", '"$PYTHON"')
-    words = ("sbatch", "--parsable", "--dependency=afterok:" + number, "--output", job / "log-merge", "--wrap", joins)
-    merge = slurm_controller.asked(environment_of_job, *words)
+    words = ("sbatch", "--parsable", "--dependency=afterok:" + number, "--output", job / "log-merge")
+    merge = slurm_controller.asked(environment_of_job, *words, ENGINES / "body_moments.slurm.sh", number)
     assert merge.isdigit(), merge
 
     def state(task):
         return slurm_controller.asked(slurm, "squeue", "-h", "-t", "all", "-j", task, "-o", "%T").split("\n")[0]
 
-    journal = job / "results" / "part-2.jsonl.journal"
-    assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 1, 120.0)
-    slurm_controller.asked(slurm, "scontrol", "requeue", number + "_2")
-    now = ("scontrol", "update", "JobId=" + number + "_2", "StartTime=now")  # not after Slurm's two minutes
-    commands.wait_until(lambda: state(number + "_2") == "PENDING", 60.0)
+    journal = job / "results" / number / "part-3.jsonl.journal"
+    assert commands.wait_until(lambda: journal.exists() and journal.read_bytes().count(b"\n") == 2, 120.0)
+    slurm_controller.asked(slurm, "scontrol", "requeue", number + "_3")
+    now = ("scontrol", "update", "JobId=" + number + "_3", "StartTime=now")  # not after Slurm's two minutes
+    commands.wait_until(lambda: state(number + "_3") == "PENDING", 60.0)
     slow.unlink()  # Only after the first run has ended, or that run could record the missing file.
     slurm_controller.asked(slurm, *now)
     assert commands.wait_until(lambda: state(merge) in ("COMPLETED", "FAILED"), 300.0), state(merge)
-    told = (job / "log-2").read_text()
+    told = (job / "log-3").read_text()
     assert state(merge) == "COMPLETED", (told, (job / "log-merge").read_text())
-    assert "1 file in" in told, told  # The second run does not repeat measured files.
-    everything = [json.loads(line) for line in (job / "results" / "all.jsonl").read_text().splitlines()]
+    assert "2 of 3 files reused" in told, told  # The second run does not repeat measured files.
+    joined = job / "results" / number / "all.jsonl"
+    everything = [json.loads(line) for line in joined.read_text().splitlines()]
     assert everything.pop()["status"] == "missing"
-    (job / "results" / "all.jsonl").write_text("".join(json.dumps(line) + "\n" for line in everything))
-    check(job)
+    joined.write_text("".join(json.dumps(line) + "\n" for line in everything))
+    check(job, number)
 
 
 # Flamenco's interface to a job type.
@@ -158,7 +158,7 @@ const sandbox = {
 };
 vm.createContext(sandbox);
 vm.runInContext(fs.readFileSync(source, "utf8") + ";this.JOB_TYPE = JOB_TYPE;", sandbox);
-sandbox.compileJob({settings: JSON.parse(given), addTask: task => made.push(task)});
+sandbox.compileJob({name: "a job", settings: JSON.parse(given), addTask: task => made.push(task)});
 console.log(JSON.stringify({type: sandbox.JOB_TYPE, tasks: made}));
 """
 
@@ -173,25 +173,23 @@ def compiled(tmp_path, settings):
 @pytest.mark.skipif(not shutil.which("node"), reason="needs Node")
 def test_the_job_type_of_flamenco(job):
     """With stubs of its interface; the workers' part is done here."""
-    settings = {"manifest": str(job / "list"), "script": SCRIPT, "folder": str(job / "results"), "count": COUNT}
-    settings |= {"size": SIZE, "python": sys.executable, "options": "--jobs 1"}
+    settings = {"manifest": str(job / "a list"), "addon": str(ROOT), "folder": str(job / "results"), "parts": PARTS}
+    settings |= {"python": sys.executable, "options": "--jobs 1"}
     found = json.loads(compiled(job, settings).stdout)
     kinds = {setting["type"] for setting in found["type"]["settings"]}
     assert kinds <= {"string", "int32", "float", "bool"}
     *parts, merge = found["tasks"]
-    assert [part["name"] for part in parts] == ["measure 0", "measure 3", "measure 6"]
+    assert [part["name"] for part in parts] == ["measure 1", "measure 2", "measure 3"]
     assert merge["needs"] == [part["name"] for part in parts]
     for task in found["tasks"]:
-        (command,) = task["commands"]
-        assert command["name"] == "exec" and task["kind"] == "misc"
-        words = [command["exe"], *command["args"]]
-        if "--blender" in words and not BLENDER:
-            at = words.index("--blender")
-            del words[at : at + 2]
-        ended = subprocess.run(words, capture_output=True, timeout=600)
-        assert ended.returncode == 0, ended.stderr
-    check(job)
-    settings.pop("size")
-    assert len(json.loads(compiled(job, settings).stdout)["tasks"]) == 2  # the default, which the API does not send
-    settings.pop("count")
+        for command in task["commands"]:
+            assert command["name"] == "exec" and task["kind"] == "misc"
+            words = [command["exe"], *command["args"]]
+            if "--blender" in words and not BLENDER:
+                at = words.index("--blender")
+                del words[at : at + 2]
+            ended = subprocess.run(words, capture_output=True, timeout=600)
+            assert ended.returncode == 0, ended.stderr
+    check(job, "a_job")
+    settings.pop("parts")
     assert compiled(job, settings).returncode != 0

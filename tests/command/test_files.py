@@ -13,6 +13,7 @@ import pytest
 
 pytest.importorskip("bpy")
 import bpy
+import numpy as np
 from body_moments.command.files import files as opening
 from body_moments.core.streams.stl_text import BY_WORD
 from body_moments.core.verdict.finding import FileError
@@ -20,6 +21,7 @@ from body_moments.core.verdict.finding import FileError
 from tests.blender import batch_files as files
 from tests.blender.batch_files import codes, document, measured, reason, run, sentence
 from tests.close import close
+from tests.core import mesh_files
 
 pytestmark = pytest.mark.usefixtures("registered")
 needs_usd = pytest.mark.skipif(not bpy.app.usd.supported, reason="this Blender is built without USD")
@@ -60,6 +62,37 @@ def test_a_file_written_by_hand_is_measured_as_blender_shows_it(tmp_path, name, 
     entry = measured(files.write_text(tmp_path / name, text))
     assert entry["volume"] == pytest.approx(1.0, rel=1e-12)
     assert close(entry["center_of_mass"], center, rel=2e-7 if "OBJ" in name else 1e-12)
+
+
+def contents():
+    """Names, transform and geometry of the scene's one object."""
+    (obj,) = bpy.context.scene.objects
+    mesh = obj.data
+    faces = [tuple(face.vertices) for face in mesh.polygons]
+    edges = sorted(tuple(sorted(edge.vertices)) for edge in mesh.edges)
+    values = sorted(layer.name for layer in mesh.attributes if layer.data_type == "FLOAT")
+    points = [tuple(vertex.co) for vertex in mesh.vertices]
+    return obj.name, mesh.name, obj.matrix_world.copy(), points, faces, edges, values
+
+
+@pytest.mark.parametrize("name", ["a b.c.stl", "t.STL", "t.ply", "little.ply", "big.ply"])
+def test_meshes_are_imported_as_by_blender(tmp_path, name):
+    rng = np.random.default_rng(5)
+    points = rng.normal(size=(60, 3)).astype(np.float32)
+    faces = [sorted(rng.choice(60, count, replace=False).tolist()) for count in rng.integers(3, 7, 80)]
+    if name.endswith("ply"):
+        order = {"t.ply": "", "little.ply": "<", "big.ply": ">"}[name]
+        data = mesh_files.ply(points, faces, order, extra=True).replace(b"uchar red", b"uchar heat")
+    else:
+        part = points, np.unique([face[:3] for face in faces], axis=0)
+        data = mesh_files.stl(part) if "a" in name else mesh_files.stl_text(part)
+    (tmp_path / name).write_bytes(data)
+    files.empty_scene()
+    importer = bpy.ops.wm.ply_import if name.endswith("ply") else bpy.ops.wm.stl_import
+    importer(filepath=str(tmp_path / name))
+    truth = contents()
+    opening.open_file(str(tmp_path / name))
+    assert contents() == truth
 
 
 @pytest.mark.parametrize("suffix", [".stl", ".obj", ".ply"])

@@ -94,58 +94,6 @@ def test_words_that_are_no_numbers_are_refused_streamed_or_not(tmp_path, name):
         assert "Line {} ".format(line + (name == "t.stl")) in reason(path, "--stream", stream)
 
 
-def rows_of(order):
-    """A table of vertices with other columns around the coordinates: its header's lines, and its rows."""
-    row = np.dtype([("a", "u1"), ("x", order + "f4"), ("y", order + "f8"), ("z", order + "f4"), ("q", order + "f4")])
-    lines = ["element vertex 200000", "property uchar a", "property float x", "property double y"]
-    rows = np.zeros(200000, row)
-    rows["q"] = math.nan
-    return [*lines, "property float z", "property float quality"], rows
-
-
-@pytest.mark.parametrize("order", ["<", ">"])
-def test_binary_ply_is_read_in_its_byte_order(tmp_path, order):
-    lines, rows = rows_of(order)
-    kind = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
-    lists = struct.pack(order + "B2fB1f", 2, math.nan, math.nan, 1, math.nan)
-    fixed = struct.pack(order + "3h", 1, 2, 3)
-    before = ["element strip 2", "property list uchar float f", "element other 3", "property short s"]
-    path = tmp_path / "t.ply"
-
-    def write():
-        path.write_bytes(ply_head(kind, *before, *lines).encode() + lists + fixed + rows.tobytes())
-
-    write()
-    assert checked(path) is None
-    rows["z"][123456], rows["y"][150000], rows["x"][123457] = math.inf, 1e39, math.nan
-    write()
-    said(path, 3, "at_row", element="vertex", row=123456)
-    lists = [*lines[:1], "property list uchar short l", *AXES]
-    lists[0] = "element vertex 3"
-    body = [struct.pack(order + "Bh3f", 1, 7, 0, 0, 0), struct.pack(order + "B3f", 0, 0, 0, math.nan)]
-    path.write_bytes(ply_head(kind, *lists).encode() + b"".join(body) + body[0])
-    said(path, 1, "at_row", element="vertex", row=1)
-
-
-def test_a_binary_stl_may_have_any_normals(tmp_path):
-    facets = np.zeros(70000, np.dtype([("normal", "3<f4"), ("at", "(3,3)<f4"), ("more", "<u2")]))
-    facets["normal"] = math.nan
-    path = tmp_path / "t.stl"
-
-    def write():
-        path.write_bytes(b"solid binary".ljust(80) + struct.pack("<I", len(facets)) + facets.tobytes())
-
-    write()
-    assert checked(path) is None
-    facets["at"][69999, 2, 1] = -math.inf
-    facets["at"][65000, 0, 0] = facets["at"][65000, 2, 2] = math.nan
-    write()
-    said(path, 3, "at_row", element="triangle", row=65000)
-    facets = facets[-1:]
-    write()
-    assert reason(path) == refused(1, "at_row", element="triangle", row=0)
-
-
 @pytest.fixture
 def gltf(tmp_path):
     """A box as .gltf and .bin: its document, and the bytes of its positions."""

@@ -54,12 +54,14 @@ SOLIDS = [
     ("Capsule", {"radius": 1, "height": 4}, BALL + 4 * pi, 0.0),
     ("Cylinder", {"radius": 2, "height": 5}, 20 * pi, 0.0),
     ("Cone", {"radius": 2, "height": 5}, 20 * pi / 3, -1.25),
+    ("Cone", {"radius": 2, "height": -5}, 20 * pi / 3, 1.25),
+    ("Capsule_1", {"radiusTop": 1, "radiusBottom": -2, "height": 0}, 6 * pi, -0.625),
     ("Capsule_1", {"radiusTop": 1, "radiusBottom": 1, "height": 4}, BALL + 4 * pi, 0.0),
     ("Cylinder_1", {"radiusTop": 0, "radiusBottom": 2, "height": 5}, 20 * pi / 3, -1.25),
 ]
 
 
-@pytest.mark.parametrize("kind, sizes, volume, center", SOLIDS, ids=[solid[0] for solid in SOLIDS])
+@pytest.mark.parametrize("kind, sizes, volume, center", SOLIDS)
 def test_round_usd_solids_match_closed_forms(tmp_path, kind, sizes, volume, center):
     lines = ["double {} = {}".format(*pair) for pair in sizes.items()]
     axes = ["X", "Y", "Z"] if "height" in sizes else [""]

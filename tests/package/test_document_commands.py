@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The commands and Python examples printed in the documents, run as printed on small files."""
 
+import doctest
 import json
 import os
 import re
@@ -198,3 +199,12 @@ def test_agents_get_the_printed_answer(registered, capsys):
     (printed,) = re.findall(r"```text\n(.*?)```", text, re.S)
     assert capsys.readouterr().out.endswith(printed)
     assert "body_mass" not in bpy.data.objects["Cube"]
+
+
+@pytest.mark.usefixtures("registered")
+def test_examples_for_users_of_other_libraries_run_as_printed():
+    text = (ROOT / "docs" / "coming-from.md").read_text(encoding="utf-8")
+    examples = "\n".join(re.findall(r"```python\n(.*?)```", text, re.S))
+    test = doctest.DocTestParser().get_doctest(examples, {}, "coming-from.md", None, 0)
+    failed, attempted = doctest.DocTestRunner().run(test)
+    assert not failed and attempted > 20

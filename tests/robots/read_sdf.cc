@@ -37,8 +37,12 @@ int main(int count, char **arguments)
     for (uint64_t number = 0; number < model->JointCount(); ++number)
     {
       const auto *joint = model->JointByIndex(number);
-      std::printf("joint\t%s\t%d\t%s\t%s\n", joint->Name().c_str(), static_cast<int>(joint->Type()),
-          joint->ParentLinkName().c_str(), joint->ChildLinkName().c_str());
+      ignition::math::Pose3d pose;
+      for (const auto &error : joint->SemanticPose().Resolve(pose, "__model__"))
+        std::printf("error\t%d\t%s\n", static_cast<int>(error.Code()), error.Message().c_str());
+      std::printf("joint\t%s\t%d\t%s\t%s\t%.17g\t%.17g\t%.17g\n", joint->Name().c_str(),
+          static_cast<int>(joint->Type()), joint->ParentLinkName().c_str(), joint->ChildLinkName().c_str(), pose.Pos().X(),
+          pose.Pos().Y(), pose.Pos().Z());
     }
   }
   return 0;

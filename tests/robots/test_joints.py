@@ -309,13 +309,13 @@ def test_usd_breaks_no_rule_of_its_own_validators():
 @pytest.mark.parametrize("unit", [1.0, 0.001])
 def test_usd_layer_of_masses_holds_fixed_roots(unit):
     robot = Robot("arm", arm(is_fixed=True).links)
-    paths = {link.name: ["root", link.name] for link in robot.links}
+    paths = {link.name: ["scene", link.name] for link in robot.links}
     layer = Sdf.Layer.CreateAnonymous(".usda")
     assert layer.ImportFromString(usd.write_over(robot, paths, "./geometry.usdc", unit))
-    (prim,) = [spec for spec in layer.GetPrimAtPath("/root").nameChildren if spec.typeName == "PhysicsFixedJoint"]
-    assert prim.relationships["physics:body1"].targetPathList.explicitItems == ["/root/base"]
+    (prim,) = [spec for spec in layer.GetPrimAtPath("/scene").nameChildren if spec.typeName == "PhysicsFixedJoint"]
+    assert prim.relationships["physics:body1"].targetPathList.explicitItems == ["/scene/base"]
     place = np.array(prim.attributes["physics:localPos0"].default) * unit
     assert (
         np.abs(place - robot.links[0].pose.position).max() < 1e-6
-        and len(layer.GetPrimAtPath("/root").nameChildren) == 4
+        and len(layer.GetPrimAtPath("/scene").nameChildren) == 4
     )

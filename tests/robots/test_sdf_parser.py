@@ -49,12 +49,17 @@ def test_gazebo_takes_each_link_and_has_its_numbers(parse):
 
 
 def test_gazebo_takes_joints_and_shapes(parse):
-    chain = bodies(24, chain=True)
+    chain = bodies(24, chain=True, away=True).with_fixed_roots()
     dressed = Link("dressed", chain.links[0].inertial, Pose(), shapes(chain.links[1].pose))
     said = parse(sdf.write(Robot("world", (*chain.links, dressed), chain.joints)))
     assert {words[0] for words in said} == {"link", "joint"}, [words for words in said if words[0] == "error"]
-    joints = {words[1]: words[3:] for words in said if words[0] == "joint"}
+    joints = {words[1]: words[3:5] for words in said if words[0] == "joint"}
+    assert joints.pop("body 0_joint") == ["world", "body 0"]
     assert joints == {joint.name: [joint.parent, joint.child] for joint in chain.joints}
+    places = {words[1]: np.array(words[5:], np.float64) for words in said if words[0] == "joint"}
+    for joint in chain.joints:
+        true = (chain.link(joint.child).pose @ joint.pose).position
+        assert np.abs(places[joint.name] - true).max() <= 1e-12
     for link, words in zip(chain.links, said):
         assert np.abs(np.array(words[-3:], np.float64) - link.pose.position).max() <= 1e-13
 

@@ -16,12 +16,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from bpy.types import Curve
 from numpy.typing import NDArray
 
 from ....core.moments.moments import FLOAT32_HALF_ULP
 from ....core.numerics.bspline import SplineSpace
 from ....core.nurbs.blender_knots import blender_space, display_parameters, display_table
-from ....core.nurbs.patch import Face, Patch
+from ....core.nurbs.patch import Patch
 from ....core.verdict.finding import ReadError, finding
 from ..findings import CONTROL_POINTS_RECOVERED, SPLINES_LEFT_OUT
 from ..reading import SplineReading
@@ -32,19 +33,20 @@ RECOVERY_RTOL = 1e-6  # relative to the size: error of recovered control points
 MAX_CONDITION = 1e4  # largest condition number of a direction's samples
 
 
-_faces_of_files: dict[int, SplineReading] = {}  # by the identifier of the data in this session
+_faces_of_file: dict[int, SplineReading] = {}  # by the identifier of the data in this session
 
 
-def keep_faces(data, faces: tuple[Face, ...], stored: float) -> None:
-    """Measure the objects of surface data, which only show faces, by the faces themselves; `stored`: of the reading."""
-    _faces_of_files[data.session_uid] = SplineReading(faces, stored, ())
+def keep_faces(readings: dict[Curve, SplineReading]) -> None:
+    """Measure objects by readings of their data from a file, instead of the splines that show them; forget others."""
+    _faces_of_file.clear()
+    _faces_of_file.update({data.session_uid: reading for data, reading in readings.items()})
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
     """Return the patches of a surface object, checked against `mesh` if given; None if its mesh has to be measured."""
     original = evaluated.original
-    if original.data.session_uid in _faces_of_files:
-        return _faces_of_files[original.data.session_uid]
+    if original.data.session_uid in _faces_of_file:
+        return _faces_of_file[original.data.session_uid]
     if spline_modifiers(original)[1]:
         return None
     splines = [spline for spline in evaluated.data.splines if spline.type == "NURBS"]

@@ -90,7 +90,6 @@ def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainB
     if linear is None or current.matrix is None:
         return shown
     now, unit = float64_matrix(obj.matrix_world), shortest_decimal(scene.unit_settings.scale_length)
-    to_own = rotation_matrix(obj.matrix_world.to_quaternion()).T
     stretch = abs(np.linalg.det(linear))
     center = measured.mass_properties.center / unit
     if current.first_order is None:
@@ -105,11 +104,11 @@ def _mapped(obj: Object, current: Followed, measured: Measurement, shown: PlainB
     mass = measured.mass_properties.mass
     if object_settings(obj, scene).mass is None:
         mass *= volume / measured.volume
-    axes = rotation_matrix(obj.matrix_world.to_quaternion()) @ np.transpose(shown.axes)
-    image = affine_image(measured.mass_properties, linear, center * unit, mass, axes)
+    turn = rotation_matrix(obj.matrix_world.to_quaternion())
+    image = affine_image(measured.mass_properties, linear, center * unit, mass, turn @ np.transpose(shown.axes))
     location = now[:3, 3] * unit
     area = shown.area * stretch ** (2.0 / 3.0)
-    return PlainBody.of_body(image.in_frame(to_own.T, location), mass / volume, volume, area, shown.error_bound)
+    return PlainBody.of_body(image.in_frame(turn, location), mass / volume, volume, area, shown.error_bound)
 
 
 def update(obj: Object, depsgraph: Depsgraph) -> LiveResult:

@@ -98,6 +98,7 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
     yield
     depsgraph = context.evaluated_depsgraph_get()
     for root, bodies in before.items():
+        handlers.count_change(root)
         member, stamp = members_of(root, depsgraph), stamps.of_results(root)
         now = _member_bodies(member)
         if stamp is None or bodies.keys() != now.keys():
@@ -107,7 +108,6 @@ def kept_up_to_date(context: Context) -> Iterator[None]:
         if all(_is_same(bodies[obj], now[obj]) for obj in now):
             key = members_key(member, {obj: properties.fingerprint(obj) for obj in now})
             root["body_fingerprint"] = stamp._replace(geometry=digest(key.encode())).text
-    handlers.count_change()
 
 
 def _member_bodies(root: Member) -> dict[Object, PlainBody]:

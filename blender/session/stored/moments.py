@@ -179,7 +179,7 @@ def current_numbers(obj: Object, scene: Scene) -> Display:
 
 def reference_of(obj: Object, computed: ComputedMoments, scene: Scene) -> Reference:
     """Return the scene's chosen reference, or raise MeasureError if there is none."""
-    return ReferenceChoice.from_settings(scene.body_moments_reference).resolve(obj, scene, computed.center)
+    return ReferenceChoice.from_settings(scene.body_moments_reference).resolve(obj, scene, computed.center.tolist())
 
 
 def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree]:

@@ -14,6 +14,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 import numpy as np
 
+from ...mesh.surface import Surface
 from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
@@ -22,7 +23,9 @@ from .joints import lost_values
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_name
 
+FLATNESS = 1e-7  # Thickness relative to length, of float32 vertices in a plane.
 BASE, WORLD = "base_link", "world"
+SLACK = 2.0**-48  # The largest moment of a flat body is lowered by this part: MuJoCo tests A + B ≥ C without tolerance.
 LEAST = 1e-14  # kg and kg·m² that MuJoCo gives massless frames, as it refuses less than 1e-15.
 # A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an effect.
 EFFORT, VELOCITY = 1e6, 1e3
@@ -117,7 +120,11 @@ def _add_inertial(parent: Element, inertial: Inertial) -> None:
     element = SubElement(parent, "inertial")
     SubElement(element, "origin", xyz=numbers(inertial.center), rpy="0 0 0")
     SubElement(element, "mass", value=number(inertial.mass))
-    SubElement(element, "inertia", {name: number(inertial.inertia[i, j]) for name, i, j in ENTRIES})
+    tensor, axis = inertial.inertia, inertial.axes[:, 2]
+    missing = SLACK * inertial.moments[2] - (inertial.moments[0] + inertial.moments[1] - inertial.moments[2])
+    if missing > 0.0:
+        tensor = tensor - missing * np.outer(axis, axis)
+    SubElement(element, "inertia", {name: number(tensor[i, j]) for name, i, j in ENTRIES})
 
 
 def inertial_text(inertial: StatedInertial, *_: object) -> str:
@@ -127,7 +134,8 @@ def inertial_text(inertial: StatedInertial, *_: object) -> str:
 
 def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
     for tag in ("visual", "collision"):
-        for piece in (piece for shape in shapes if tag == "visual" or shape.collides for piece in _pieces(shape)):
+        shown = [shape for shape in shapes if tag == "visual" or shape.collides and not _is_flat(shape.surface)]
+        for piece in (piece for shape in shown for piece in _pieces(shape)):
             element = SubElement(parent, tag)
             _add_origin(element, piece.pose)
             geometry = SubElement(element, "geometry")
@@ -141,6 +149,15 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
                 SubElement(geometry, "cylinder", radius=number(piece.size[0]), length=number(piece.size[1]))
             else:
                 SubElement(geometry, "sphere", radius=number(piece.size[0]))
+
+
+def _is_flat(surface: Surface | None) -> bool:
+    """Return whether a surface lies in a plane, so that no convex hull of it can collide; MuJoCo refuses it."""
+    if surface is None:
+        return False
+    points = surface.points[np.unique(surface.all_triangles()[0])]
+    spread = np.linalg.svd(np.cov((points - points[0]).T), compute_uv=False)
+    return bool(spread[2] <= FLATNESS**2 * spread[0])
 
 
 def _pieces(shape: Shape) -> list[Shape]:

@@ -55,12 +55,11 @@ def remember():
     bpy.ops.object.body_moments_compute_moments()
     moments_table.current_numbers(obj, bpy.context.scene)
     displayed.total(bpy.context)
-    displayed.drawn(obj, bpy.context.scene)
     obj.body_moments.density = 500.0
     obj.data.vertices[0].co.x -= 1.0
     obj.data.update()
     bpy.context.view_layer.update()
-    assert staleness.is_edited(obj)
+    assert staleness.is_edited(obj) and displayed.drawn(obj, bpy.context.scene) is not None
     displayed.remember_failure(obj, finding("no_faces"))
     assert {key for key, cache in caches().items() if not len(cache)} == set()
 
@@ -68,7 +67,7 @@ def remember():
 @pytest.mark.parametrize("end", ["load", "unregister"])
 def test_caches_are_empty_after_load_and_unregister(end, tmp_path):
     remember()
-    assert staleness._shapes
+    assert staleness._shapes and displayed._drawn
     if end == "load":
         path = str(tmp_path / "session.blend")
         bpy.ops.wm.save_as_mainfile(filepath=path)
@@ -77,7 +76,7 @@ def test_caches_are_empty_after_load_and_unregister(end, tmp_path):
         body_moments.unregister()
     try:
         assert {key for key, cache in caches().items() if len(cache)} == set()
-        assert not staleness._shapes
+        assert not staleness._shapes and not displayed._drawn
     finally:
         if end == "unregister":
             body_moments.register()

@@ -91,10 +91,10 @@ def test_stl_with_a_word_for_a_number_is_refused(tmp_path, place):
     for word in (*NO_NUMBERS, *["1e39", "nan"] * (place > 2)):
         text = facet([*FIELDS[:place], word, *FIELDS[place + 1 :]])
         with misread(LINES[place], NUMBER, text=word):
-            open_mesh_file(write(tmp_path / "a.stl", text))
+            open_mesh_file(write(tmp_path / "a.stl", text)).mesh()
     for word in (*NUMBERS, *["1e39", "-nan(ind)", "1.#QNAN", "inf"] * (place < 3)):
         text = facet([*FIELDS[:place], word, *FIELDS[place + 1 :]])
-        open_mesh_file(write(tmp_path / "a.stl", text))
+        open_mesh_file(write(tmp_path / "a.stl", text)).mesh()
 
 
 @pytest.mark.parametrize("place", range(12))
@@ -102,7 +102,7 @@ def test_stl_without_a_number_is_refused(tmp_path, place):
     missing, double = (facet([*FIELDS[:place], word, *FIELDS[place + 1 :]]) for word in ("", "1 1"))
     for text in (missing, double):
         with refused("line_misread"):
-            open_mesh_file(write(tmp_path / "a.stl", text))
+            open_mesh_file(write(tmp_path / "a.stl", text)).mesh()
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_stl_without_a_number_is_refused(tmp_path, place):
 def test_stl_with_other_words_is_refused(tmp_path, old, new, line, word, expected):
     text = facet(FIELDS).replace(old, new, 1)
     with misread(line, "“{}”".format(expected), text=word):
-        open_mesh_file(write(tmp_path / "a.stl", text))
+        open_mesh_file(write(tmp_path / "a.stl", text)).mesh()
 
 
 def test_stl_words_may_stand_on_any_lines():
