@@ -61,6 +61,16 @@ def rig(window):
     return window
 
 
+def first_in_properties(tab):
+    return (
+        f"next(one for one in window.screen.areas if one.type == 'PROPERTIES').spaces.active.context = {tab!r}\n"
+        f"cls = bpy.types.{tab}_PT_body_moments\n"
+        "bpy.utils.unregister_class(cls)\n"
+        "cls.bl_options, cls.bl_order = set(), -1\n"
+        "bpy.utils.register_class(cls)"
+    )
+
+
 def test_bones_are_measured_and_drawn_in_their_pose(rig):
     window = rig
     window.press("object.body_moments_measure_bones")
@@ -81,12 +91,7 @@ def test_the_bone_has_its_numbers_in_its_properties(rig):
     window = rig
     window.ask(
         "bpy.data.objects['Rig'].data.bones.active = bpy.data.objects['Rig'].data.bones['bone 3']\n"
-        "editor = next(one for one in window.screen.areas if one.type == 'PROPERTIES')\n"
-        "editor.spaces.active.context = 'BONE'\n"
-        "cls = bpy.types.BONE_PT_body_moments\n"
-        "bpy.utils.unregister_class(cls)\n"
-        "cls.bl_options, cls.bl_order = set(), -1\n"
-        "bpy.utils.register_class(cls)"
+        + first_in_properties("BONE")
     )
     window.redraw()
     window.picture("rig-bone-properties")
@@ -101,14 +106,7 @@ def test_the_assembly_is_a_tree(rig):
     )
     window.ask("bpy.ops.object.body_moments_measure_assembly('EXEC_DEFAULT', True)")
     assert 4000.0 < window.get("bpy.data.collections['Character']['body_mass']") < 4125.0  # bent, so a little less
-    window.ask(
-        "bpy.context.view_layer.objects.active = bpy.data.objects['Skin']\n"
-        "next(one for one in window.screen.areas if one.type == 'PROPERTIES').spaces.active.context = 'COLLECTION'\n"
-        "cls = bpy.types.COLLECTION_PT_body_moments\n"
-        "bpy.utils.unregister_class(cls)\n"
-        "cls.bl_options, cls.bl_order = set(), -1\n"
-        "bpy.utils.register_class(cls)"
-    )
+    window.ask("bpy.context.view_layer.objects.active = bpy.data.objects['Skin']\n" + first_in_properties("COLLECTION"))
     assert len(window.get("[row.name for row in bpy.data.collections['Character'].body_moments.rows]")) == 3
     window.redraw()
     window.picture("rig-assembly")

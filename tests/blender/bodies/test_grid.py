@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Volume objects: voxels to the bit by both ways of reading them, and numbers through every transform and type."""
 
-import tempfile
-
 import bpy
 import numpy as np
 import pytest
@@ -210,21 +208,6 @@ def test_a_sheared_parent_and_the_unit_scale(tmp_path):
     matrix = np.array(obj.matrix_world, float)
     matrix[:3] *= 0.001
     check(found, values, matrix)
-
-
-def test_a_uniform_fog_is_a_box():
-    """Values of one half in 4 x 2 x 6 voxels of 0.5: a box of 2 x 1 x 3 m."""
-    with tempfile.TemporaryDirectory() as folder:
-        obj = volume_object(
-            folder + "/a.vdb", vdb_grid(np.full((4, 2, 6), 0.5, np.float32), matrix=np.diag([0.5, 0.5, 0.5, 1.0]))
-        )
-        obj.body_moments.value_density = 4.0
-        found = measure(obj)
-    body = found.mass_properties
-    assert close(body.mass, 12.0, rel=1e-14)
-    assert close(np.diag(body.inertia), [10.0, 13.0, 5.0], rel=1e-13)
-    assert close(found.volume, 6.0, rel=1e-14) and found.volume_moments.order == 3
-    assert found.area == 0.0 and (found.health.closed, found.health.components) == (True, 1)
 
 
 @pytest.mark.parametrize("order", [2, 4])

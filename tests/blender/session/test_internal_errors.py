@@ -24,24 +24,15 @@ from body_moments.operators.measure.measure_selected import OBJECT_OT_body_momen
 
 from tests.blender import batch_files as files
 from tests.blender.objects import add, mesh_body, only, place
+from tests.blender.session import test_unkeyed
 from tests.operators.measure.test_stepwise import finished, pressed
 
 pytestmark = pytest.mark.usefixtures("registered", "scene")
 
 ERRORS = [TypeError("planted"), RecursionError("planted"), NotImplementedError("planted")]
 OPERATORS = {
-    "measure": lambda: bpy.ops.object.body_moments_measure(),
-    "faults": lambda: bpy.ops.object.body_moments_select_faults(),
+    **{name: run for name, run in test_unkeyed.OPERATORS.items() if name not in ("clear", "balance", "setting")},
     "section": lambda: bpy.ops.object.body_moments_measure_section(),
-    "origin": lambda: bpy.ops.object.body_moments_origin_to_center(),
-    "axes": lambda: bpy.ops.object.body_moments_axes_to_principal(),
-    "align": lambda: bpy.ops.object.body_moments_align_to_world(),
-    "match": lambda: bpy.ops.object.body_moments_match_pose(),
-    "empty": lambda: bpy.ops.object.body_moments_add_empty(),
-    "cursor": lambda: bpy.ops.view3d.body_moments_cursor_to_center(),
-    "rigid body": lambda: bpy.ops.object.body_moments_set_rigid_body_mass(add=True),
-    "symmetry": lambda: bpy.ops.object.body_moments_find_symmetry(),
-    "similar": lambda: bpy.ops.object.body_moments_find_similar(),
 }
 
 

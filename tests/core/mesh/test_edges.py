@@ -21,64 +21,8 @@ from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, 
 from tests.core.strategies import holds, seeds
 
 
-def union_find(count, a, b):
-    parent = list(range(count))
-
-    def root(i):
-        while parent[i] != i:
-            i = parent[i]
-        return i
-
-    for i, j in zip(a, b):
-        i, j = sorted((root(i), root(j)))
-        parent[j] = i
-    return np.array([root(i) for i in range(count)])
-
-
-@holds(60)
-@given(seed=seeds)
-def test_components_match_union_find_in_order_of_first_nodes(seed):
-    rng = np.random.default_rng(seed)
-    count = int(rng.integers(1, 200))
-    a, b = rng.integers(0, count, size=(2, int(rng.integers(0, 2 * count))))
-    label, number = connected_components(count, a, b)
-    roots = union_find(count, a, b)
-    expected = np.unique(roots, return_inverse=True)[1]
-    np.testing.assert_array_equal(label, expected)
-    assert number == len(np.unique(roots))
-
-
-def test_a_long_shuffled_path_is_one_component():
-    nodes = np.random.default_rng(1).permutation(100_000)
-    label, number = connected_components(len(nodes), nodes[:-1], nodes[1:])
-    assert number == 1 and not label.any()
-
-
 def star(center, leaves):
     return np.full(len(leaves), center), leaves
-
-
-def clique(nodes):
-    one, other = np.triu_indices(len(nodes), 1)
-    return nodes[one], nodes[other]
-
-
-@holds(12)
-@given(seed=seeds)
-def test_stars_paths_and_cliques_match_union_find(seed):
-    rng = np.random.default_rng(seed)
-    nodes = [rng.permutation(3000)[:1500], np.arange(3000)][seed % 2]  # the hub in the middle, or after all its leaves
-    links = [
-        star(nodes[999], nodes[:999]),
-        (nodes[999:1150], nodes[1000:1151]),
-        clique(nodes[1200:1240]),
-        star(nodes[1241], nodes[1242:1500]),
-    ]
-    a, b = np.concatenate(links, axis=1)
-    mixed = rng.permutation(len(a))
-    label, number = connected_components(3000, a[mixed], b[mixed])
-    _, expected = np.unique(union_find(3000, a, b), return_inverse=True)
-    assert number == expected.max() + 1 and label.tolist() == expected.tolist()
 
 
 def test_hub_after_its_leaves_costs_no_more_time():

@@ -118,16 +118,18 @@ MAPS = {
 }
 
 
+@pytest.mark.parametrize("order", [ORDER, 9])
 @pytest.mark.parametrize("name", MAPS)
-def test_an_affine_map_is_exact_within_its_bound(name):
+def test_an_affine_map_is_exact_within_its_bound(name, order):
     matrix = np.vstack([MAPS[name], [0, 0, 0, 1]])
-    exact = simplex_moments()
+    exact = simplex_moments(order)
     image = floats(exact).transform(matrix)
     assert np.array_equal(image.about, matrix[:3, 3])
-    true = mapped_exactly(exact, matrix, image.about)
-    assert_within_bound(image, true)
-    # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
-    assert image.rounding_error.max() <= 1e-14 * (np.abs(matrix).max() + 1.0) * max(np.abs(image.raw).max(), 1e-40)
+    assert_within_bound(image, mapped_exactly(exact, matrix, image.about, order))
+    if order == ORDER:  # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
+        assert image.rounding_error.max() <= 1e-14 * (np.abs(matrix).max() + 1.0) * max(np.abs(image.raw).max(), 1e-40)
+    many = sum_of_images(floats(exact), np.array([matrix, matrix]), image.about)
+    assert (np.abs(many.raw - 2.0 * image.raw) <= many.rounding_error + 2.0 * image.rounding_error).all()
 
 
 def test_a_shift_follows_the_binomial_theorem_and_comes_back():
@@ -167,16 +169,6 @@ def test_instances_are_the_sum_of_their_maps():
     total = total.truncate(3)
     assert_within_bound(total, true)
     assert np.allclose(total.raw, [float(x) for x in true], rtol=1e-13, atol=1e-9 * abs(total.raw).max())
-
-
-@pytest.mark.parametrize("name", MAPS)
-def test_a_map_at_high_order_is_exact_within_its_bound(name):
-    order, matrix = 9, np.vstack([MAPS[name], [0, 0, 0, 1]])
-    exact = simplex_moments(order)
-    image = floats(exact).transform(matrix)
-    assert_within_bound(image, mapped_exactly(exact, matrix, image.about, order))
-    many = sum_of_images(floats(exact), np.array([matrix, matrix]), image.about)
-    assert (np.abs(many.raw - 2.0 * image.raw) <= many.rounding_error + 2.0 * image.rounding_error).all()
 
 
 @pytest.mark.parametrize("point", [(0.5, 1.0, 1.5), (-1e-3, 0.0, 0.0), (300.0, -1e4, 7.0)])
@@ -291,8 +283,6 @@ def test_moments_without_scale_cannot_be_normalized():
     for body in (Moments(np.zeros(10), np.zeros(3)), Moments(np.ones(1), np.zeros(3))):
         with refused("normalization_undefined"):
             normalize(body)
-    with refused("normalization_undefined"):
-        normalize(Moments(np.ones(4), np.zeros(3)), "gyration")
 
 
 def test_scaling_by_a_density_scales_the_bounds():
@@ -359,13 +349,6 @@ def test_negative_exponents_have_no_monomial():
     for exponents in ((-1, 0, 0), (0, -1, 1), (np.array([0, 1]), np.array([0, -1]), np.array([0, 0]))):
         with pytest.raises(IndexError, match="negative"):
             monomial_index(*exponents)
-
-
-def test_repr_of_moments_begins_with_order_and_point():
-    moments = Moments([2.0, *np.zeros(9)], (0.5, 1.0, 0.0), "area")
-    assert repr(moments) == "Moments(order=2, about=(0.5, 1.0, 0.0), area=2.0)"
-    stack = Moments(np.ones((4, 1)), np.zeros((4, 3)))
-    assert repr(stack).startswith("Moments(order=0, about=4 points, volume=array(")
 
 
 def test_iteration_over_moments_yields_their_exponents():
@@ -448,11 +431,6 @@ def test_flattening_maps_leave_no_volume():
 def test_sum_of_no_bodies_is_refused():
     with pytest.raises(ValueError, match="parts must not be empty"):
         sum_moments([])
-
-
-def test_unknown_normalizations_are_refused():
-    with pytest.raises(ValueError, match="by not 'size', 'gyration': 'mass'"):
-        normalize(Moments(np.ones(10), np.zeros(3)), "mass")
 
 
 def test_different_measures_do_not_add():

@@ -72,22 +72,7 @@ def test_every_cut_of_the_cubes_faces_gives_the_same_directions():
         again = (part[0], np.roll(part[1], turn, axis=1))
         vectors = offset_directions(*again).vectors
         assert np.abs(vectors - np.sign(part[0])).max() < 1e-14
-    points, triangles = bodies.welded(
-        bodies.joined(
-            *(
-                bodies.moved(bodies.grid(4), turn, offset)
-                for turn, offset in (
-                    (np.eye(3), (0, 0, 1)),
-                    (np.diag([1, -1, -1]), (0, 1, 0)),
-                    (np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]]), (1, 0, 0)),
-                    (np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]]), (0, 0, 0)),
-                    (np.array([[0, 1, 0], [0, 0, 1], [1, 0, 0]]), (0, 1, 0)),
-                    (np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]), (0, 0, 0)),
-                )
-            )
-        )
-    )
-    body = wall((points, triangles), "inward", 0.1)
+    body = wall(fine_box(4), "inward", 0.1)
     assert abs(body.total - (1 - 0.8**3)) <= 1e-14
 
 

@@ -394,25 +394,6 @@ def test_bodies_that_leave_a_choice_are_stable(name, make):
     assert np.abs(seen(obj) - points).max() < 1e-6
 
 
-@pytest.mark.parametrize("name", [ORIGIN, AXES, ALIGN, "body_moments_add_empty"])
-def test_one_undo_brings_everything_back(name):
-    mesh = mesh_body()
-    obj = add(mesh, location=(1, 2, 3), rotation=(0.1, 0.2, 0.3), scale=(1, 2, 1))
-    add(mesh, "Other")
-    child = add(None, "Child")
-    child.parent = obj
-    only(obj)
-    bpy.ops.ed.undo_push(message="before")
-    before, count = seen(obj), len(bpy.data.objects)
-    matrix, at_child = place(obj), place(child)
-    assert run(name) == {"FINISHED"}
-    bpy.ops.ed.undo_push(message="after")
-    bpy.ops.ed.undo()
-    obj, child = bpy.data.objects["Body"], bpy.data.objects["Child"]
-    assert len(bpy.data.objects) == count and len(bpy.data.meshes) == 1
-    assert (seen(obj) == before).all() and (place(obj) == matrix).all() and (place(child) == at_child).all()
-
-
 def test_stored_results_are_kept_up_to_date(reported):
     from body_moments.blender.session.tracking import staleness
 
