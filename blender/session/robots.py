@@ -26,7 +26,7 @@ from ..read.robots import link_surface, object_candidate
 from ..read.visibility import measurable
 from ..settings.options import AS_SET, MeasureOptions
 from ..write import reports
-from .findings import LEFT_OUT_OF_ROBOT, ROBOT_WITHOUT_BONES
+from .findings import LEFT_OUT_OF_ROBOT
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ def bone_links(context: Context, name: str, objects: list[Object], options: Meas
                 connections.append(Connection("{}_joint".format(label), parents[0], label, None, free, mimic))
             pieces[label] = part.surfaces
     if not made:
-        raise EditRefusedError(ROBOT_WITHOUT_BONES)
+        raise EditRefusedError(ROBOT_WITHOUT_LINKS)
     robot, left = assemble_robot(name, made, connections)
     return SceneLinks(robot, [*findings, *left], unit, pieces=pieces)
 

@@ -9,7 +9,10 @@ ROBOT_LINKS_LEFT_OUT = warning(
     "{count} object without mass is no link: {links}. Give it a density or a mass.",
     "{count} objects without mass are no links: {links}. Give them densities or masses.",
 )
-ROBOT_WITHOUT_LINKS = error("robot_without_links", "There is no link. Measure objects with mass.")
+ROBOT_WITHOUT_LINKS = error(
+    "robot_without_links",
+    "There is no link. Measure objects with mass, or for bones an armature with what it moves.",
+)
 ROBOT_BASE_ADDED = note(
     "robot_base_added",
     "{count} objects have no parent. They are fixed to an added link without mass, {name}. Parent them to one of "

@@ -181,10 +181,12 @@ def _check_mimics(joints: Iterable[Joint]) -> tuple[list[Joint], list[Finding]]:
     single = {joint.child: joint.name for joint in checked if len(joint.free) == 1}
     single |= {name: name for name in single.values()}
     for index, joint in enumerate(checked):
-        mimic = joint.mimic and joint.mimic._replace(joint=single.get(joint.mimic.joint, ""))
-        if mimic and (mimic.joint in ("", joint.name) or joint.name not in single):
-            named = joint.mimic.joint
-            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=joint.name, key="joint_mimic", value=named))
-            mimic = None
-        checked[index] = replace(joint, mimic=mimic)
+        mimic = joint.mimic
+        if mimic is None:
+            continue
+        leader = single.get(mimic.joint, joint.name)
+        is_usable = leader != joint.name and joint.name in single
+        if not is_usable:
+            findings.append(finding(JOINT_VALUE_UNUSABLE, joint=joint.name, key="joint_mimic", value=mimic.joint))
+        checked[index] = replace(joint, mimic=mimic._replace(joint=leader) if is_usable else None)
     return checked, findings

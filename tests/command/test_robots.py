@@ -332,7 +332,7 @@ def test_a_robot_without_links_is_an_error():
     line = Run(parsed("measure", "--format", "urdf", "--links", "bone"))
     line.measure()
     (entry,) = line.documents[0]["errors"]
-    assert line.errors == 1 and entry == {"name": None, "reason": str(finding("robot_without_bones"))}
+    assert line.errors == 1 and entry == {"name": None, "reason": str(finding("robot_without_links"))}
 
 
 def test_unwritable_meshes_are_an_error_beside_the_robot(tmp_path):

@@ -64,11 +64,10 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             _add_inertial(body, link.inertial)
         for shape in () if inertial_only else link.shapes:
             _add_geoms(body, shape, meshes)
-    followers = [] if inertial_only else [joint for joint in robot.joints if joint.mimic is not None]
-    equality = SubElement(root, "equality") if followers else root
-    for joint in followers:
-        leader, multiplier, offset = joint.mimic
-        both = {"joint1": joint_names[joint.name], "joint2": joint_names[leader]}
+    mimics = [] if inertial_only else [(joint.name, joint.mimic) for joint in robot.joints if joint.mimic is not None]
+    equality = SubElement(root, "equality") if mimics else root
+    for name, (leader, multiplier, offset) in mimics:
+        both = {"joint1": joint_names[name], "joint2": joint_names[leader]}
         SubElement(equality, "joint", both, polycoef=numbers((offset, multiplier, 0.0, 0.0, 0.0)))
     return document(root, "mjcf", remarks)
 

@@ -151,8 +151,5 @@ def _add_axes(element: Element, joint: Joint) -> None:
             add_text(limit, name, number(value))
         groups = {"effort": limit, "velocity": limit}
         for name, value in free.values.items():
-            if name not in groups:
-                groups[name] = (
-                    axis.find("dynamics") if axis.find("dynamics") is not None else SubElement(axis, "dynamics")
-                )
-            add_text(groups[name], NAMES["SDF"][name], number(value))
+            group = groups.get(name, axis.find("dynamics"))
+            add_text(SubElement(axis, "dynamics") if group is None else group, NAMES["SDF"][name], number(value))

@@ -84,8 +84,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         last = _add_joint(root, taken, name, parent, names[link.name], robot.pose_in_parent(link), joint)
         if joint is not None and joint.mimic is not None:
             leader, multiplier, offset = joint.mimic
-            values = {"multiplier": number(multiplier), "offset": number(offset)}
-            SubElement(last, "mimic", joint=joint_names[leader], **values)
+            values = {"joint": joint_names[leader], "multiplier": number(multiplier), "offset": number(offset)}
+            SubElement(last, "mimic", values)
     return document(root, "urdf", remarks)
 
 
