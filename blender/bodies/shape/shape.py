@@ -198,7 +198,8 @@ class Shape:
             if len(found.revolution_axes):
                 return first.group
         moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
-        near = NOISE_LEVEL * self.size + 4.0 * moved
+        # Trees of single precision miss some narrow triangles: then not even the surface's own points lie on it.
+        near = max(NOISE_LEVEL * self.size + 4.0 * moved, 2.0 * float(skin.distance(skin.points).max()))
         finite = [each for each in candidates if not len(each.revolution_axes)]
         groups = [each.group for each in decide(finite, self.center, skin, near)]
         # Noise may hide what a body has beside a body of revolution.
