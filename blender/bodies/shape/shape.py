@@ -55,7 +55,7 @@ POINTS_PER_BATCH = 64  # points whose distances are found at once
 EQUAL_AXES_ATOL = 1e-12  # cosine: harmonics about axes nearer to each other are equal
 NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame does not depend
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
-MAX_POSE_BOUND = 1e-3  # radians, and relative to the size: above it a pose is not called unique
+MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
 CANDIDATE_NOISE = 1e-2, 1e-3, 1e-4, NOISE_LEVEL  # of moments whose symmetries the surface may have
 MAX_NOISE = 1e-6  # relative to the size: coordinates with more noise may hide corners from the moments
@@ -198,7 +198,8 @@ class Shape:
             if len(found.revolution_axes):
                 return first.group
         moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
-        near = NOISE_LEVEL * self.size + 4.0 * moved
+        # Trees of single precision miss some narrow triangles: then not even the surface's own points lie on it.
+        near = max(NOISE_LEVEL * self.size + 4.0 * moved, 2.0 * float(skin.distance(skin.points).max()))
         finite = [each for each in candidates if not len(each.revolution_axes)]
         groups = [each.group for each in decide(finite, self.center, skin, near)]
         # Noise may hide what a body has beside a body of revolution.
