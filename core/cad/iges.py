@@ -268,8 +268,8 @@ class _Reader:
             raise SurfaceRefusedError(SURFACE_UNSUPPORTED, base=NAMES.get(base.type, str(base.type)))
         else:
             fields = self._text.fields(base)
-            *spline, domain = _spline(fields)
-            surface = placed_surface(*spline, matrix)
+            knots, orders, points, weights, domain = _spline(fields)
+            surface = placed_surface(knots, orders, points, weights, matrix)
             rounding = self._note_rounding(fields, surface, matrix)
             faces = trimmed_faces(
                 surface, domain, bezier_surface(surface, domain, self._for_blender), boundaries, has_outer, rounding

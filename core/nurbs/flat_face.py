@@ -139,7 +139,7 @@ class FlatFace:
             (x0, x1), y0, y1 = x[:, order], bottom[row[order]], top[row[order]]
             left, right = slice(0, None, 2), slice(1, None, 2)
             corners = [(x0[left], y0[left]), (x0[right], y0[right]), (x1[right], y1[right]), (x1[left], y1[left])]
-            found.append(np.moveaxis(np.array(corners), 2, 0))
+            found.append(np.moveaxis(np.array(corners, np.float64), 2, 0))
         return np.concatenate(found) @ self._frame.T + self.center
 
     @cached_property

@@ -177,7 +177,7 @@ def _cut_sides(curves: Sequence[Curve], sides: _Sides, tolerance: float) -> list
         return []
     ends = sides.points[open_sides][:, [0, -1]].reshape(-1, 3)
     pieces, is_cut = [[curve] for curve in curves], False
-    for k in open_sides:
+    for k in open_sides.tolist():
         curve, samples = curves[k], sides.points[k]
         step = np.linalg.norm(np.diff(samples, axis=0), axis=1).max()
         near = ends[np.linalg.norm(ends[:, None] - samples, axis=2).min(axis=1) <= step + tolerance]

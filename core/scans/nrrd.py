@@ -198,7 +198,7 @@ def _sample_matrix(
     else:
         spacings, matrix[:3, 3] = _even_axes(fields, shape)
         placed = spacings is not None
-        matrix[:3, :3] = np.diag(spacings if placed else np.ones(3))
+        matrix[:3, :3] = np.diag([1.0, 1.0, 1.0] if spacings is None else spacings)
     if units is not None and unit is None:
         if "space directions" in fields and field == "units":
             return matrix, placed, None  # Units of the axes do not tell those of their directions' coordinates.

@@ -141,9 +141,8 @@ def _plain_corners(text: bytes) -> NDArray[np.float32] | None:
     # Each row is in order if the words and the first and last numbers between them are.
     order = [normal, at[:, [0, 2]], loop[:, :1], vertex[:, :1], at[:, [3, 5]], vertex[:, 1:2], at[:, [6, 8]]]
     order += [vertex[:, 2:], at[:, [9, 11]], loop[:, 1:]]
-    is_plain = (np.diff(np.concatenate(order, axis=1), axis=1) > 0).all() and np.abs(numbers).max(
-        initial=0.0
-    ) < MAX_FLOAT32
+    positions = np.concatenate(order, axis=1)
+    is_plain = (positions[:, 1:] > positions[:, :-1]).all() and np.abs(numbers).max(initial=0.0) < MAX_FLOAT32
     return numbers.reshape(count, 4, 3)[:, 1:].astype(np.float32) if is_plain else None
 
 

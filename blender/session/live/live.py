@@ -29,6 +29,7 @@ from ....core.measurement.measurement import Measurement
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
+from ....core.nurbs.patch import Patch
 from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.verdict import internal_error
 from ....core.verdict.finding import MeasureError
@@ -155,7 +156,8 @@ def _measure(obj: Object, current: Followed, depsgraph: Depsgraph) -> tuple[Meas
     splines = part.splines
     assert splines is not None
     matrix = part.matrices[0] * unit  # the last row is not used
-    patches = [patch.transform(matrix) for patch in splines.patches]
+    # Flat faces exist only while a file is measured.
+    patches = [patch.transform(matrix) for patch in splines.patches if isinstance(patch, Patch)]
     if np.linalg.det(matrix) < 0.0:
         patches = [patch.reverse_orientation() for patch in patches]
     stored = splines.stored * float(np.linalg.norm(matrix[:3, :3], 2))
