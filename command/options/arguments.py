@@ -48,6 +48,9 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
         if len(options.files) > 1:
             fail(ONE_FILE.format(options.format))
         options.frame = "object"  # frame of the links
+        given = [name for name in ("kind", "thickness", "wall", "overlap") if getattr(options, name) is not None]
+        if options.links == "bone" and given:
+            fail("--links bone takes what the bones' settings say, and no --{}".format(given[0]))
         binary = ROBOT_FORMATS[options.format].binary_suffixes
         if options.output is not None and options.output.suffix.lower() in binary:
             fail("argument --output: {} is written as text. Use .gltf, .usd or .usda".format(options.format))

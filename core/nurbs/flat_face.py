@@ -129,7 +129,8 @@ class FlatFace:
         low, high = np.minimum(begin[:, 1], end[:, 1]), np.maximum(begin[:, 1], end[:, 1])
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (end[:, 0] - begin[:, 0]) / (end[:, 1] - begin[:, 1])
-        step, found = max(1, PAIRS_PER_BLOCK // len(low)), []
+        found: list[NDArray[np.float64]] = []
+        step = max(1, PAIRS_PER_BLOCK // len(low))
         for start in range(0, len(heights) - 1, step):
             bottom, top = heights[start : start + step], heights[start + 1 : start + 1 + step]
             bottom = bottom[: len(top)]

@@ -80,7 +80,7 @@ def test_values_are_taken_or_refused_with_their_reason(option, capsys):
 
 
 SUPERVISED = (("--jobs", "1"), ("--timeout", "1"), ("--memory-mb", "1"), ("--blender", "b"))
-OF_BODIES = ("--density=1", "--mass=1", "--kind=solid", "--thickness=1", "--material=Brass", "--wall=thin")
+OF_BODIES = ("--kind=solid", "--thickness=1", "--wall=thin", "--overlap=union")
 
 
 @pytest.mark.parametrize(
