@@ -145,9 +145,15 @@ def threshold_body(
             sums.add_cut_cells(Cells.join(cut), threshold)
             cut = []
     about = about.astype(np.float64)
-    volume = Moments(sums.volume, about, Measure.VOLUME, sums.error("volume")).transform(matrix)
-    area = Moments(sums.area, about, Measure.MASS, sums.error("area")).transform(matrix)  # its scale is in the sums
-    mass = Moments(sums.mass, about, Measure.VOLUME, sums.error("mass")).transform(matrix) if with_density else None
+    volume = Moments(sums.volume, about, Measure.VOLUME, sums.rounding_error("volume")).transform(matrix)
+    area = Moments(sums.area, about, Measure.MASS, sums.rounding_error("area")).transform(
+        matrix
+    )  # its scale is in the sums
+    mass = (
+        Moments(sums.mass, about, Measure.VOLUME, sums.rounding_error("mass")).transform(matrix)
+        if with_density
+        else None
+    )
     return ThresholdBody(
         volume,
         replace(area, measure=Measure.AREA),
@@ -201,7 +207,7 @@ class _Sums:
         self.volume_estimate, self.area_estimate, self.mass_estimate = np.zeros((3, len(self.powers)))
         self.terms = 0
 
-    def error(self, measure: str) -> NDArray[np.float64]:
+    def rounding_error(self, measure: str) -> NDArray[np.float64]:
         """Return the error bounds of "volume", "area" or "mass"."""
         units = (60 + 8 * self.order + np.log2(self.terms + 1.0)) * U
         return getattr(self, measure + "_estimate") + units * getattr(self, measure + "_size")

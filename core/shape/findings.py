@@ -4,9 +4,6 @@
 
 from ..verdict.finding import error
 
-LIBRARY_LINE_TOO_LONG = error(
-    "library_line_too_long", "{file}: line {line} has more than {limit} bytes. Write the library with --format jsonl."
-)
 LIBRARY_LINE = error(
     "library_line", "{file}: line {line} is not a body_moments document. Write the library with --format jsonl."
 )

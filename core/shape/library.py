@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ..numerics.arguments import check_type
 from ..verdict.finding import FileError, Finding, finding
-from .findings import LIBRARY_LINE, LIBRARY_LINE_TOO_LONG, RECORD_WITHOUT_SHAPE, RECORD_WITHOUT_SIGNATURE
+from .findings import LIBRARY_LINE, RECORD_WITHOUT_SHAPE, RECORD_WITHOUT_SIGNATURE
 from .signatures import MAX_SIMILAR_DIFFERENCE, Likeness, Signature, similarity
 
 # signatures nearer than this are one shape's: some float32 steps, and no more than a careless export
@@ -117,7 +117,7 @@ def _lines(path: Path) -> Iterator[bytes]:
         while line := file.readline(MAX_LINE_BYTES + 1):
             number += 1
             if len(line) > MAX_LINE_BYTES:
-                raise FileError(LIBRARY_LINE_TOO_LONG, file=path.name, line=number, limit=MAX_LINE_BYTES)
+                raise FileError(LIBRARY_LINE, file=path.name, line=number)
             yield line
 
 
