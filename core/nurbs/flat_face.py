@@ -148,7 +148,7 @@ class FlatFace:
         """(3, 2) two unit vectors along the plane; the normal is their cross product."""
         along = np.cross(self.normal, np.eye(3)[np.argmin(np.abs(self.normal))])
         along /= np.linalg.norm(along)
-        return np.stack([along, np.cross(self.normal, along)], axis=1)
+        return np.array([along, np.cross(self.normal, along)], np.float64).T
 
 
 def split_faces(faces: Sequence[Face]) -> tuple[list[Patch], list[FlatFace]]:

@@ -349,7 +349,8 @@ class SurfaceDistance:
         far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1), kind="stable")[
             -SURFACE_SAMPLES // 10 :
         ]
-        self.points: NDArray[np.float64] = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+        points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+        self.points = points.astype(np.float64, copy=False)
 
     def build(self) -> Iterator[float]:
         """Build the tree, in steps of some tenths of a second for a million triangles; yield the share done."""
