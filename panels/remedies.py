@@ -68,7 +68,8 @@ def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Fi
 
 def remedies(layout: UILayout, context: Context, shown: Finding) -> None:
     """Draw the buttons that carry out the advice of a finding."""
-    idnames = (AXES,) if shown.code == RIGID_BODY_CENTER_ELSEWHERE else remedies_of(shown.code, context.object.type)
+    kind = "" if context.object is None else context.object.type  # a collection may be shown without an object
+    idnames = (AXES,) if shown.code == RIGID_BODY_CENTER_ELSEWHERE else remedies_of(shown.code, kind)
     for idname in idnames:
         rows.button(layout, context, idname, ICONS[idname])
 
