@@ -80,7 +80,10 @@ def jointed_robot(
 def object_links(
     context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
-    """Return a robot with a link for each object that can be measured. step: gets the number of finished objects."""
+    """Return a robot with a link for each object that can be measured; a finding names the others.
+
+    EditRefusedError if none can be measured. step: gets the number of finished objects.
+    """
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}

@@ -73,7 +73,7 @@ def reframe_objects(
     def plans_of(
         chosen: Sequence[Object], right: dict[Object, Measured | Stacked]
     ) -> tuple[list[reframe.Plan], list[Finding]]:
-        """Return plans and refusals; add measurements of objects in place that have stored results to `right`."""
+        """Return plans and refusals; add measurements of unchanged objects with stored results to `right`."""
         plans: list[reframe.Plan] = []
         failures: list[Finding] = []
         measured = measured_in_turn(chosen, context.evaluated_depsgraph_get(), CENTER if move_only else POSE)

@@ -44,7 +44,7 @@ class Combined:
         return {assembly.root.member.data: assembly.measurement for assembly in self.assemblies}
 
     def records(self, frame: str) -> dict[str, Any]:
-        """Return the entries of a document, without empty lists."""
+        """Return a document's `assemblies` and `bones`; a list that would be empty is left out."""
         assemblies = [record.record(assembly.measurement, frame) for assembly in self.assemblies]
         bones = [
             record.record(part.measurement, frame, more={"armature": rig.armature.name})

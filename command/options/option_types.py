@@ -115,7 +115,7 @@ def split_source(text: str) -> tuple[str, str]:
 
 
 def source(text: str) -> str:
-    """Return a source of density: a word, followed by a colon and a name if it needs one."""
+    """Return `value`, `materials`, `attribute:NAME` or `volume:NAME`; raise ArgumentTypeError for other texts."""
     word, name = split_source(text)
     if _NAMED.get(word) is not bool(name):
         raise ArgumentTypeError("{!r} is not value, materials, attribute:NAME or volume:NAME".format(text))

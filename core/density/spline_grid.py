@@ -81,8 +81,9 @@ def grid_moments(
 ) -> Moments:
     """Return the mass moments of a grid of density samples.
 
-    The moments are about the image of the middle of the grid; if the mass is far from it, of the knot nearest to its
-    center. The samples are the coefficients of a spline with full supports, uniform along each axis without positions.
+    The moments are about the point to which the matrix takes the middle of the grid or, if the mass is far from there,
+    the knot nearest to the center of mass. The samples are the coefficients of a spline with full supports, uniform
+    along each axis without positions.
 
     Parameters
     ----------

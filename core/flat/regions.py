@@ -3,8 +3,8 @@
 """Area moments of a plane region to any order, as `Moments` with third coordinate zero.
 
 So they shift, turn, add and are normalized like those of bodies. Beside the rounding of the integration, which
-`n_dimensions` bounds, a region's points may be off: an edge that moves sweeps over at most its length times the
-distance it moves, and there x^p y^q is at most its value at the farther end.
+`n_dimensions` bounds, a region's points may be off: an edge of length l whose ends move by at most d
+sweeps over at most d (l + 2 d), and there |x| and |y| exceed those of the ends by at most d.
 """
 
 from __future__ import annotations

@@ -10,7 +10,8 @@ integral over the shape's barycentric coordinates λ:
 
     ∫ λ_1^{k_1} … λ_d^{k_d} = measure · d! k_1! … k_d! / (k_1 + … + k_d + d)!,
 
-one term for each choice of a corner for every factor of the monomial.
+one term for each choice of a corner for every factor of the monomial. The rule that makes principal axes unique
+(eq. 11) is `core/inertia/principal_frames.py:zhang_chen_frame`.
 
 A reference: d^n terms for order n. Generic over the number type, exact in `fractions.Fraction`. The paper's pose (eq.
 11) is `zhang_chen_frame` in `core/inertia/principal_frames.py`, its Fourier transform `core/fourier/transform.py`.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conversion of measured bodies to the links of a robot."""
+"""Links and joints of a robot from measured bodies and the connections between them."""
 
 from __future__ import annotations
 
@@ -33,9 +33,10 @@ class Candidate(NamedTuple):
 
 
 class Connection(NamedTuple):
-    """A joint between two candidates; "" is anything else. pose: its frame in the world, m; by default the second's.
+    """A joint between two candidates; "" stands for any object that is no candidate.
 
-    free: freedom of `second` relative to `first`, the axis next to `first` first.
+    pose: the frame of the joint in the world, m; by default the second's. free: freedom of `second` relative to
+    `first`, the axis next to `first` first.
     """
 
     name: str

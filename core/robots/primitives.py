@@ -63,7 +63,7 @@ def equal_inertia_shape(inertial: Inertial, kind: str) -> Shape:
 
 
 def _capsule(t: float) -> tuple[float, float]:
-    """Return ∫x² dV across and along the axis of a capsule of unit radius and length t."""
+    """Return ∫x² dV across and along the axis of a capsule of unit radius whose cylinder has length t."""
     return pi * (t / 4.0 + 4.0 / 15.0), pi * (t**3 / 12.0 + t * t / 3.0 + t / 2.0 + 4.0 / 15.0)
 
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The boundary loops of open surfaces: gaps without area, and holes, which are capped.
 
-A boundary side is joined at each of its vertices to the side that leaves in the most similar direction, so that an edge
-and the shorter edges that run back along it (a T-junction) make a loop of their own, which has no area: there the
-surface closes in space although it does not in the mesh. The other loops are capped by the cone to their centroid: as a
+At each vertex a boundary side is joined to the side whose direction, seen from the vertex, is nearest to its own. So at
+a T-junction the long edge and the short ones along it make a loop without area: the surface is closed there, in space
+though not in the mesh. The other loops are capped by the cone to their centroid: as a
 signed chain, it is the flat cap of a flat loop of any shape, without a triangulation.
 """
 

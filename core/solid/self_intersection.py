@@ -95,7 +95,7 @@ def all_cones_agree(surface: Surface, center: NDArray[np.float64]) -> bool:
 
 
 def _corner_blocks(surface: Surface) -> Iterator[list[NDArray[np.float64]]]:
-    """Yield three (3, k) arrays, the triangles' corners, for each block; the first block is short."""
+    """Yield the corners of blocks of triangles, three (3, k) arrays; the first blocks of each kind are short."""
     for faces in (surface.quads, surface.triangles):
         starts = [0, *range(FACES_LOOKED_AT_FIRST, len(faces), FACES_PER_BLOCK), len(faces)]
         for start, stop in zip(starts[:-1], starts[1:]):

@@ -21,7 +21,7 @@ from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS
 from .misread import map_file
 from .ply_header import MAX_HEADER, Element, parse_header
 from .ply_rows import RowReader, RowsError
-from .ply_text import check_ply_text
+from .ply_text_check import check_ply_text
 
 MAX_SPREAD = 4  # Up to so many vertices per corner between a block's first and last, they are not copied.
 
