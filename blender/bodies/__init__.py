@@ -24,6 +24,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     measure_rig="rig",
     measured_in_turn="stacks.many",
     object_transform="fourier",
-    register_surfaces="shape.shape",
+    register_surfaces="shape.surface_distance",
     rig="rig",
 )

@@ -107,7 +107,7 @@ def _check(options: dict[str, Any]) -> None:
 def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Object]:
     """Return the objects once each. Raises ValueError."""
     if objects is None:
-        return list(bpy.context.selected_objects)
+        return list(bpy.context.view_layer.objects.selected)  # also without a window
     several: Iterable[Any] = [objects] if isinstance(objects, (Object, str)) else objects
     scene_objects = bpy.context.view_layer.objects
     chosen = {}
@@ -115,7 +115,7 @@ def _chosen(objects: Object | str | Iterable[Object | str] | None) -> list[Objec
         name = one if isinstance(one, str) else one.name
         if name not in scene_objects:
             raise ValueError("no object of this view layer is called {!r}".format(name))
-        chosen[scene_objects[name]] = None
+        chosen[scene_objects[name] if isinstance(one, str) else one] = None  # a linked object may have the same name
     return list(chosen)
 
 

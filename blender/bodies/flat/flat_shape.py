@@ -30,7 +30,8 @@ from ....core.shape.symmetries import Symmetry
 from ....core.verdict.finding import MeasureError, ReadError
 from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
 from ..findings import SHAPE_FAR_FROM_ORIGIN
-from ..shape.shape import EXACT_DISTANCE, SURFACE_SAMPLES, Shape, SurfaceDistance, surface_shape_of
+from ..shape.shape import Shape, surface_shape_of
+from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance
 from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
 
 # curves and text are read with this resolution, because shapes must not depend on the drawn one

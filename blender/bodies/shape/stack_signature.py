@@ -20,7 +20,8 @@ from ....core.shape.signatures import Signature, signatures
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR
 from ..stacks.many import measured_in_turn
 from ..stacks.stack import MeasuredStack, Stacked
-from .shape import EXACT_DISTANCE, SURFACE_OPTIONS, Shape, surface_shape, surface_shape_of
+from .shape import SURFACE_OPTIONS, Shape, surface_shape, surface_shape_of
+from .surface_distance import EXACT_DISTANCE
 
 
 def signed_in_turn(

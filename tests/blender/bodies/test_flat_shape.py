@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.flat.flat_shape import OutlineDistance, flat_shape_of
-from body_moments.blender.bodies.shape.shape import register_surfaces
+from body_moments.blender.bodies.shape.surface_distance import register_surfaces
 
 from tests.blender.flat_objects import sheet
 from tests.close import close

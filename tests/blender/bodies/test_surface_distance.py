@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from body_moments.blender.bodies.shape.shape import SurfaceDistance
+from body_moments.blender.bodies.shape.surface_distance import SurfaceDistance
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.numerics.rotations import rotation_matrix
 

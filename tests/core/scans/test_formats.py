@@ -18,6 +18,8 @@ from body_moments.core.scans.scan import Scan
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.core.scan_files import NIFTI_CODES, NRRD_NAMES, nifti, nrrd, written
 
+from tests.close import close
+
 
 def values(dtype="f4", shape=(3, 4, 5)):
     return np.arange(np.prod(shape)).reshape(shape).astype(dtype)
@@ -193,7 +195,7 @@ def test_nrrd_space_units_scale_the_coordinates(tmp_path):
     lines = "space directions: (1,0,0) (1,2,0) (0,0,3) none", "space origin: (1,2,3)", 'space units: "m" "mm" "cm"'
     data = nrrd(values(), *lines).replace(b"dimension: 3\nsizes: 3 4 5", b"dimension: 4\nsizes: 3 4 5 1")
     scan = read_scan(written(tmp_path / "a.nrrd", data))
-    assert np.allclose(scan.matrix[:3], [[1, 1, 0, 1], [0, 2e-3, 0, 2e-3], [0, 0, 0.03, 0.03]], rtol=1e-15)
+    assert close(scan.matrix[:3], [[1, 1, 0, 1], [0, 2e-3, 0, 2e-3], [0, 0, 0.03, 0.03]], 1e-15)
     assert scan.unit == 1.0
     data = data.replace(b"(0,0,3) none", b"none (0,0,3)")
     assert refusal(read_scan, written(tmp_path / "a.nrrd", data)) == "header_field"

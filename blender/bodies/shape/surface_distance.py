@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Distances of points from a shape's surface, and the registration of two shapes by them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
+from typing import Any, Protocol
+
+import numpy as np
+from mathutils.bvhtree import BVHTree
+from numpy.typing import NDArray
+
+from ....core.mesh.point_triangle import triangle_distances
+from ....core.mesh.surface import Surface, join_surfaces
+from ....core.shape.registration import RigidMatch
+
+# Relative to the size: distances between these two are wrong for thin triangles in single precision.
+EXACT_DISTANCE, NEAR_DISTANCE = 1e-5, 1e-2
+SURFACE_SAMPLES = 1500  # points of a surface whose distances from another surface are found
+POINTS_PER_BATCH = 64  # points whose distances are found at once
+
+
+class Registered(Protocol):
+    """A shape that can be laid onto shapes of its kind: a `Shape` or a `FlatShape`."""
+
+    @property
+    def center(self) -> NDArray[np.float64]: ...
+    @property
+    def size(self) -> float: ...
+    def pieces(self) -> Iterable[Surface]: ...
+    def match(self, target: Any, residual: Callable[[NDArray, int | None], NDArray[np.float64]], /) -> RigidMatch: ...
+
+
+class SurfaceDistance:
+    """Distances of points from a shape's surface, available after `build`.
+
+    Lengths in meters, world axes. Blender's tree of triangles keeps float32 coordinates, so its points are about the
+    center and in units of the size.
+    """
+
+    def __init__(self, shape: Registered):
+        whole = join_surfaces(list(shape.pieces()))
+        self._center, self._scale = shape.center, shape.size
+        self._triangles = triangles = whole.all_triangles()[0]
+        self._corners = (whole.points - self._center) / self._scale
+        is_used = np.zeros(len(whole.points), bool)
+        is_used[triangles] = True
+        used = np.flatnonzero(is_used)
+        pick = np.linspace(0, len(used) - 1, min(len(used), SURFACE_SAMPLES // 2)).astype(int)
+        middles = whole.points[
+            triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SURFACE_SAMPLES // 2)).astype(int)]
+        ].mean(axis=1)
+        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1), kind="stable")[
+            -SURFACE_SAMPLES // 10 :
+        ]
+        points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+        self.points = points.astype(np.float64, copy=False)
+
+    def build(self) -> Iterator[float]:
+        """Build the tree, in steps of some tenths of a second for a million triangles; yield the share done."""
+        points = _as_tuples(self._corners)
+        yield 0.2
+        triangles = _as_tuples(self._triangles)
+        yield 0.4
+        self._tree = BVHTree.FromPolygons(points, triangles, all_triangles=True)
+        yield 1.0
+
+    def nearest(self, points: NDArray) -> NDArray[np.float64]:
+        """Return (n, 3) the points of the surface nearest to (n, 3) points, in single precision."""
+        scaled = ((points - self._center) / self._scale).tolist()
+        found = np.array([self._tree.find_nearest(row)[0] for row in scaled], np.float64)
+        return found * self._scale + self._center
+
+    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
+        """Return (n,) distances of (n, 3) points from the surface.
+
+        within: the limit, if only distances above or below it matter: clear cases are in single precision, or infinite.
+        """
+        scaled = (points - self._center) / self._scale
+        nearest, queries = self._tree.find_nearest, scaled.tolist()
+        reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)
+        distances = np.array([nearest(row, reach)[3] for row in queries], np.float64)  # None becomes NaN
+        distances[np.isnan(distances)] = np.inf
+        doubtful = np.flatnonzero(
+            (distances > EXACT_DISTANCE) & (distances < NEAR_DISTANCE) & (distances * self._scale > (within or 0.0))
+        )
+        for start in range(0, len(doubtful), POINTS_PER_BATCH):
+            some = doubtful[start : start + POINTS_PER_BATCH]
+            around = [
+                [hit[2] for hit in self._tree.find_nearest_range(queries[i], NEAR_DISTANCE)] for i in some.tolist()
+            ]
+            which = np.repeat(some, [len(hits) for hits in around])
+            near_triangles = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
+            np.minimum.at(distances, which, triangle_distances(scaled[which], self._corners[near_triangles]))
+        return distances * self._scale
+
+
+def _as_tuples(array: NDArray) -> list[tuple]:
+    """Return a list of the rows as tuples, which the garbage collector does not visit again and again like lists."""
+    return list(zip(*array.T.tolist()))
+
+
+def register_surfaces(
+    source: Registered,
+    target: Registered,
+    source_skin: SurfaceDistance,
+    target_skin: SurfaceDistance,
+    scale: float = 1.0,
+) -> RigidMatch:
+    """Return the motion that lays a scaled shape onto another one, by the distances between their surfaces."""
+
+    def residual(way: NDArray, max_points: int | None) -> NDArray[np.float64]:
+        source_points, target_points = (
+            each_skin.points[:: max(1, len(each_skin.points) // max_points) if max_points else 1]
+            for each_skin in (source_skin, target_skin)
+        )
+        there = target_skin.distance(scale * (source_points - source.center) @ way.T + target.center)
+        back = source_skin.distance((target_points - target.center) @ way / scale + source.center)
+        return np.concatenate([there, scale * back])
+
+    return source.match(target, residual)
