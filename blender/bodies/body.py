@@ -42,11 +42,7 @@ class MeshBody(Body):
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments of volume and area (None without `area`) to an order; parts are measured once and mapped.
-
-        The repaired surface gives the volume, and the area in the same pass if the repair has neither added nor removed
-        a face.
-        """
+        """Return the moments of volume and area (None without `area`) to an order, measured once for each part."""
         if (order, area) not in self._known:  # the frame and the shape ask for the same order
             self._known[order, area] = self._to_order(order, area)
         return self._known[order, area]
@@ -135,11 +131,7 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
-    """Return the moments of m bodies, images of `shapes` (moments of volumes or areas), in their own coordinates.
-
-    `which` (m,) is the shape of each body, `linear` (m, 3, 3) the map from it: any map, mirrored ones included.
-    A mirrored shape counts as a shape of its own; so does an unevenly mapped shape, in the coordinates of its body.
-    """
+    """Return the moments, in own coordinates, of m images of `shapes` (`which`) under (m, 3, 3) linear maps."""
     is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
     rotation = np.eye(3)[None].repeat(len(which), 0)
     rotation[is_even] = polar_rotation(linear[is_even])[0]

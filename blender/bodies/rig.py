@@ -97,10 +97,7 @@ class Rig:
 
 
 def measure_rig(context: Context, armature: Object, options: MeasureOptions = AS_SET) -> Rig:
-    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass.
-
-    options: overrides of the objects' settings; a given density or mass also overrides the bones' own.
-    """
+    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass."""
     with rest_pose(context, armature) as depsgraph:
         return _Measuring(armature, depsgraph, options).rig()
 

@@ -41,11 +41,7 @@ def matrix_bytes(matrix: Matrix) -> bytes:
 
 
 def transform_key(obj: bpy.types.Object) -> str:
-    """Return a key of the transform as far as the numbers of the object depend on it, for `has_transform` to compare.
-
-    The key contains scale and mirroring, but neither location nor rotation. It is a digest of the whole transform if
-    the object is sheared, or its body does not move along with it.
-    """
+    """Return a key of the transform for `has_transform`: scale and mirroring, or all if sheared or not movable."""
     scale = _scale(obj) if _moves_along(obj) else None
     if scale is None:
         return matrix_hash(obj)

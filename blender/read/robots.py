@@ -158,12 +158,7 @@ def sheared_objects(objects: Iterable[Object]) -> list[str]:
 def bone_freedom(
     bone: PoseBone, values: Mapping[str, float] = MappingProxyType({}), unit: float = 1.0
 ) -> tuple[FreeAxis, ...]:
-    """Return a bone's axes along which it may move in its parent, then those about which it may turn, with limits.
-
-    Angles have the limits of a Limit Rotation constraint in local space, else those for inverse kinematics. A bone
-    moves only along axes that a Limit Location constraint limits. Axes are left out if they are locked, or if their
-    limits leave no room. values: of each axis. unit: m.
-    """
+    """Return a bone's unlocked axes of movement and of rotation with limits, in m, by constraints and IK."""
     turns = {
         axis: (getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis))
         for axis in "xyz"

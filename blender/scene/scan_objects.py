@@ -51,11 +51,7 @@ def read_placed(
     files: dict[str, str],
     unit: float,
 ) -> PlacedScan:
-    """Read a scan and place its samples.
-
-    raw: shape, type and byte order of raw samples, if the file name does not state them. spacing: in m, in place of the
-    file's. files: files of sample positions, by axis. unit: meters per unit of these files. Raises FileError.
-    """
+    """Read a scan and place its samples; files: of their positions, in `unit` meters, by axis. Raises FileError."""
     try:
         is_raw = scan_suffix(path) == ".raw"
         scan = read_raw(path, *raw, limits) if raw is not None and is_raw else read_scan(path, limits)
@@ -72,10 +68,7 @@ def read_placed(
 
 
 def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
-    """Write the scan as a grid with `unit` meters per unit, whole or not at all, and return its least value.
-
-    The background differs from every sample's value, so that none is lost, but is zero if no sample is negative.
-    """
+    """Write the scan whole, with `unit` meters per unit and a background unlike any value; return the least value."""
     scan, target, matrix = placed.scan, placed.target, placed.matrix.copy()
     matrix[:3] /= unit
     least, exact = np.inf, True

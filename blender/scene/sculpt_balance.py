@@ -122,11 +122,7 @@ class _GroupedMesh:
 def balance_mesh(
     context: Context, obj: Object, group: str, target: Sequence[float], across: str, limit: float
 ) -> Balanced:
-    """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place.
-
-    group: the vertex group in Object Mode, "" for the active one. target: (3,) in Blender units. across: "ALL" for all
-    directions, else those across gravity. limit: of a move in Blender units, 0 for the size of the mesh.
-    """
+    """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place."""
     mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, group)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     directions = np.eye(3) if across == "ALL" else _horizontal_directions(context.scene)

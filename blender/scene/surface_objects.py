@@ -38,12 +38,7 @@ MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
 
 
 def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> tuple[Object, float]:
-    """Return a surface object in no collection, and the largest effect of float32 on a point as a share of its size.
-
-    patches: with the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
-    patches do. factor: Blender units for a unit of the patches. The object's origin is the origin of the patches'
-    coordinates, or a point among the patches if they are far from it.
-    """
+    """Return a surface object of *Bézier* patches in no collection, and the effect of float32 as a share."""
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
     obj.location = origin
@@ -214,10 +209,7 @@ class ImportedSurfaces(NamedTuple):
 
 
 def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -> ImportedSurfaces:
-    """Make an object of each body in a file. unit: meters per unit of a file that states none.
-
-    Raises FileError.
-    """
+    """Make an object of each body in a file. unit: meters per unit of a file that states none. Raises FileError."""
     try:
         file = read_surfaces(path, limits)
     except OSError as error:

@@ -15,10 +15,7 @@ Root = Object | Collection
 
 
 class BodyMomentsAssemblyRow(PropertyGroup):
-    """One member in the tree of an assembly, as it was measured.
-
-    `name`: of the object or collection.
-    """
+    """One member in the tree of an assembly, as it was measured. `name`: of the object or collection."""
 
     depth: IntProperty(name="Depth", description="How many assemblies the member is in")
     member: EnumProperty(

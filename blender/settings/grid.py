@@ -35,10 +35,7 @@ class GridOptions(NamedTuple):
 
     @classmethod
     def from_settings(cls, settings, density: float | None = None) -> GridOptions:
-        """Return the options of an object's settings.
-
-        density: overrides the density of a value of 1, and the table.
-        """
+        """Return the options of an object's settings. density: overrides the density of a value of 1, and the table."""
         table = settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
         return cls(
             settings.grid,

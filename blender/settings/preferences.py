@@ -133,10 +133,7 @@ def preferences() -> BodyMomentsPreferences | None:
 
 
 def copy_defaults(scene: Scene) -> None:
-    """Copy the preferences into a scene into which they have not been copied yet.
-
-    Meant for operators that a user starts.
-    """
+    """Copy the preferences into a scene that has none yet; meant for operators that a user starts."""
     settings, source = scene.body_moments, preferences()
     if source is None or settings.has_defaults or not scene.is_editable:
         return

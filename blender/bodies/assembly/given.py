@@ -36,12 +36,7 @@ GIVEN_RTOL = 1e-6  # slack for values typed with few digits, relative to the tra
 def given_moments(
     mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
 ) -> tuple[Moments, list[Finding]]:
-    """Return the mass moments (SI, world axes, about the center) of a part with a given mass, and the findings.
-
-    `rotation` (3, 3), axes as columns, and `location` (3,), m, are the part's frame, in which `given` is stated.
-    A center that is not given comes from `geometry`, and so does the inertia, scaled to the mass; without `geometry`
-    the part is a point at the frame's origin. Raise ReadError if the mass or the tensor is impossible.
-    """
+    """Return mass moments (SI, world, about the center) of a part with given mass, center and inertia, and findings."""
     if not mass > 0.0:
         raise ReadError(ZERO_QUANTITY, quantity="mass")
     raw, rounding, inputs = np.zeros((3, COUNT))

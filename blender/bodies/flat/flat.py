@@ -115,12 +115,7 @@ def flat_region(
     exact: bool = True,
     unit: float | None = None,
 ) -> FlatRegion:
-    """Return an object as a region of a plane, in SI units.
-
-    `selected` reads only the selected faces in Edit Mode; `resolution` replaces the resolution of curves and text;
-    `exact` reads the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if
-    the object is not flat, is extruded, or has outlines that cross.
-    """
+    """Return an object, or its selected faces, as a region of a plane, in SI units; MeasureError if it is not one."""
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     try:

@@ -103,10 +103,7 @@ class FlatShape:
         )
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield one wall along the outline, at right angles to the plane, one `size` high on either side.
-
-        A point of the plane is as far from the wall as from the outline.
-        """
+        """Yield one wall along the outline, one `size` high on either side: as far from points as the outline."""
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size
         low, high = (np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0))

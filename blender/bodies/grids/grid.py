@@ -127,10 +127,7 @@ def body(reading: VolumeReading, request: Request) -> Body:
 def grid_body(
     reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1, order: int = KNOWN_ORDER
 ) -> Body:
-    """Return the body of one grid.
-
-    unit: meters per Blender unit. order: of the wanted mass moments. Raises MeasureError if the grid has no body.
-    """
+    """Return the body of one grid, with its mass moments to an order. Raises MeasureError if the grid has no body."""
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
@@ -159,10 +156,7 @@ def grid_body(
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
-    """Return the blocks of a grid, with indices from the start of the axis if it has positions, else of the box.
-
-    All positions of an axis are needed, because the thickness of an outer sample depends on its neighbors.
-    """
+    """Return the blocks of a grid, from the start of an axis if it has positions (outer samples need neighbors)."""
     offset = [0 if row is None else int(low) for low, row in zip(reading.low, positions)]
 
     def blocks() -> Iterator[tuple[tuple[int, int, int], NDArray]]:
@@ -185,11 +179,7 @@ def density_body(
     order: int = KNOWN_ORDER,
     positions: Positions = EVEN,
 ) -> GridBody:
-    """Return the body of samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept.
-
-    background: a value that counts as empty. progress: called with the number of samples about to be read. order: of
-    the wanted mass moments. positions: of the samples along each axis, None for 0, 1, 2, …
-    """
+    """Return the body of samples at matrix @ (i, j, k, 1), in meters, that stand for slope · sample + intercept."""
     if min(shape) < 1:
         raise ReadError(GRID_EMPTY)
     weigh = _Weights(options, background, slope, intercept)

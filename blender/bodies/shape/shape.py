@@ -125,11 +125,7 @@ class Shape:
         return self.body.surfaces(self._sheets)
 
     def pose(self) -> dict[str, Any]:
-        """Return the pose for a record (`docs/shape.md`): matrix, uniqueness, bounds and symmetry.
-
-        A varying density has mass moments to third order only, which cannot tell a symmetry. An apparent axis of
-        revolution is tested by harmonics to order 30; if the body is not round, they fix its turn about this axis.
-        """
+        """Return the pose for a record (`docs/shape.md`), with harmonics to order 30 if the body may be round."""
         body, constant = self.measurement.mass_properties, self.body.mass is None
         axes, unique = body.principal.axes, body.principal.is_unique
         moments = self.moments if constant else self.measurement.mass_moments[0]
@@ -157,11 +153,7 @@ class Shape:
         }
 
     def _point_group(self) -> dict[str, Any]:
-        """Return the body's point group and the order of the moments that it was found by.
-
-        The surface decides between the groups that the moments allow. Small moments do not fix axes well: more noise
-        leaves the group of a nearly equal body with clear axes, of which the surface keeps a part.
-        """
+        """Return the body's point group, decided by the surface, and the order of moments that show it."""
         axial = self._harmonics if self._is_polygonal else None
         found = symmetry(self.moments, axial=axial)
         group = found.group

@@ -74,10 +74,7 @@ def is_of_another_scale(obj: Object, current: Followed) -> bool:
 
 
 def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArray | None:
-    """Return the linear map from the measured object to its current state.
-
-    Return None for shells and wires, or if one of the matrices is singular.
-    """
+    """Return the linear map from the measured object to its current state, or None without one."""
     assert current.matrix is not None
     before, now = current.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
     if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():

@@ -66,11 +66,7 @@ class MovingSurface:
         return cls(surface, read.corner_vertices)
 
     def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
-        """Return the object's current volume and (3,) center, in its own coordinates.
-
-        None if the evaluated `depsgraph` does not show these faces, or they enclose nothing.
-        obj: the original object that was measured.
-        """
+        """Return the object's current volume and (3,) center, in its own coordinates; None if it shows other faces."""
         if obj.type != "MESH" or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"} or obj.data.is_editmode:
             return None
         try:

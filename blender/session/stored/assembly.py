@@ -35,10 +35,7 @@ SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates o
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
-    """Store the results of an assembly and its members; return names of members that cannot hold them, and the reasons.
-
-    Raise EditRefusedError if the assembly itself cannot hold results.
-    """
+    """Store the results of an assembly and its members; return names of members that cannot hold them, and reasons."""
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
     root = assembly.root.member.data
@@ -84,10 +81,7 @@ def clear(root: Root) -> bool:
 
 @contextmanager
 def kept_up_to_date(context: Context) -> Iterator[None]:
-    """Keep assemblies up to date while a block gives members other frames and stores their results anew.
-
-    An assembly keeps its old stamp if a member's mass or center changes, or a member's results are out of date.
-    """
+    """Keep assemblies up to date while a block stores members anew in other frames, unless mass or center changes."""
     scene = context.scene
     roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
     stored = [root for root in roots if "body_fingerprint" in root and is_assembly(root)]

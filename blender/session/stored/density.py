@@ -51,10 +51,7 @@ def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Findin
 
 
 def follow_density(obj: Object, scene: Scene) -> None:
-    """Update stored results if the object's settings change them by a factor alone; else leave them out of date.
-
-    The scene's unit scale and default density count.
-    """
+    """Update stored results if the settings change them by a factor alone; else leave them out of date."""
     stamp = stamps.of_results(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return

@@ -31,10 +31,7 @@ _last: ActionOutcome | None = None
 
 
 def remember(action: str, findings: Iterable[Finding]) -> None:
-    """Keep the refusals and warnings of an action, in place of the previous action's.
-
-    action: the operator's label. Mere notes are left out; if nothing remains, nothing is shown.
-    """
+    """Keep the refusals and warnings of an action (an operator's label) in place of the previous ones."""
     global _last
     kept = of_severity(findings, Severity.ERROR, Severity.WARNING)
     objects = dict.fromkeys(name for finding in kept for name in _objects_of(finding))

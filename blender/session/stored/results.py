@@ -23,10 +23,7 @@ from . import density, faults, reference, threshold, walls
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write a measurement on the object, and remember the data for its sliders.
-
-    Raises EditRefusedError if the object cannot hold results.
-    """
+    """Write a measurement on the object, and remember the data for its sliders, or raise EditRefusedError."""
     measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
     staleness.note_edits(obj)
     about = reference.stored_choice(obj)

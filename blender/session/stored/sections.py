@@ -22,10 +22,7 @@ MeasuredSection = tuple[Section, str, tuple[Finding, ...]]
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> MeasuredSection:
-    """Return an object's section in SI units and world axes, a description of the measured part, and the findings.
-
-    Raises MeasureError if there is no section.
-    """
+    """Return an object's section (SI, world axes), a description of the measured part, and the findings."""
     found = flat_region(obj, depsgraph, exact=False)
     section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
     return section, found.description, (*found.findings, *area_findings(found, section.area))
