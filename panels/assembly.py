@@ -16,6 +16,7 @@ from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
+from ..core.verdict.groups import Group
 from ..core.verdict.sentences import severity
 from . import remedies, rows
 from .density import given_rows
@@ -90,7 +91,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     units = Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
     rows.stale_row(layout, context, stale_reason(root, context.scene))
-    remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
+    remedies.lines(layout, context, [Group(found) for found in findings], can_accept=False)
     rows.quantities(layout, units, [("Mass", "mass", stored.mass)])
     _tree(layout, context, settings)
     _numbers(layout, units, stored, isinstance(root, Collection))

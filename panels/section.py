@@ -14,6 +14,7 @@ from ..blender.session.tracking.stamps import of_section
 from ..blender.write import section as record
 from ..blender.write.translations import localized
 from ..blender.write.units import Units, number
+from ..core.verdict.groups import Group
 from . import remedies, rows
 from .places import in_both_places
 
@@ -46,7 +47,7 @@ class SectionPanel:
             return
         units = Units.from_settings(context.scene.unit_settings)
         _verdict(layout, context, stored, stale_reason(obj, context.scene, of_section))
-        remedies.warnings(layout, context, "body_moments_section_warnings", stored.findings, can_accept=False)
+        remedies.lines(layout, context, [Group(found) for found in stored.findings], can_accept=False)
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)
         remedies.notes(layout, context, "body_moments_section_notes", stored.findings)

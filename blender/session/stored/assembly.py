@@ -27,7 +27,6 @@ from ...bodies.stacks.stack import Stacked
 from ...read.assembly import Member, MemberKind, Root, is_assembly, members_key, members_of, settings_of
 from ...read.fingerprint import digest
 from ...write import properties
-from .. import displayed
 from ..tracking import handlers, staleness, stamps
 from . import reference, results
 
@@ -55,8 +54,6 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
         done[data] = None
         if part.measured is not None:
             measured.append((data, part.measured))
-        elif part.refusal is not None and part.member.kind in (MemberKind.OBJECT, MemberKind.POINT):
-            displayed.remember_failure(data, part.refusal)
         elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
             try:
                 properties.store(data, assembly_measurement(part, depsgraph, unit))
@@ -64,7 +61,6 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
                 failures.append((data.name_full, internal_error.finding_of(error)))
     stored = []
     for obj, refusal in results.store_many(measured, scene):
-        displayed.remember_failure(obj, None)
         if refusal is None:
             stored.append(obj)
         else:
