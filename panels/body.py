@@ -12,6 +12,7 @@ from bpy.types import Context, Object, UILayout
 from ..blender.session.displayed import Displayed, Trust, displayed, failure
 from ..blender.session.live.following import Lag, current_numbers, is_live
 from ..blender.session.tracking import armatures
+from ..blender.settings.links import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
@@ -59,6 +60,7 @@ class BodyPanel:
 
     def draw_header_preset(self, context: Context) -> None:
         header_switch(self.layout, context)
+        draw_links(self.layout, icons_only=True)
 
     def draw(self, context: Context) -> None:
         obj, scene = context.object, context.scene
@@ -82,7 +84,7 @@ class BodyPanel:
             remedies.unit_question(layout, context, shown.world)
             _numbers(layout, context, shown)
             row = layout.column(align=True) if narrow else layout.row(align=True)
-            rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")
+            row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
             rows.button(row, context, "object.body_moments_clear", "TRASH")
             remedies.notes(layout, context, "body_moments_notes", findings)
 
@@ -171,14 +173,11 @@ class ApplyPanel:
         rows.button(column, context, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
         rows.button(column, context, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
         column = layout.column(align=True)
-        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY", text="Add Empty")
+        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
         rows.button(column, context, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
-        rows.button(
-            column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL", text="Transform Orientation"
-        )
+        rows.button(column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
         rows.button(column, context, "object.body_moments_rigid_bodies", "RIGID_BODY")
-        text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
-        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY", text=text)
+        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not obj.rigid_body
         rows.button(layout, context, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")

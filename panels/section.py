@@ -50,7 +50,7 @@ class SectionPanel:
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)
         remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
-        rows.button(layout, context, "object.body_moments_copy_section", "COPYDOWN", short="Copy")
+        rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "SECTION"
 
 
 def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:

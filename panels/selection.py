@@ -90,10 +90,8 @@ def _listed(layout: UILayout, context: Context) -> None:
         rows=LINES,
     )
     column = layout.column(align=True)
-    rows.button(column, context, "object.body_moments_copy_csv", "COPYDOWN")
-    rows.button(
-        column, context, "object.body_moments_save_numbers", "FILE_TICK", text="Save CSV or JSON...", short="Save..."
-    )
+    rows.button(column, context, "object.body_moments_copy", "COPYDOWN").what = "TABLE"
+    rows.button(column, context, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:
