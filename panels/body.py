@@ -15,6 +15,7 @@ from ..blender.session.displayed import Displayed, Total, Trust, displayed, show
 from ..blender.session.live.following import Lag, current_numbers, is_live
 from ..blender.session.stored import outcome
 from ..blender.session.tracking import armatures
+from ..blender.settings.links import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
@@ -53,6 +54,7 @@ class BodyPanel:
 
     def draw_header_preset(self, context: Context) -> None:
         header_switch(self.layout, context)
+        draw_links(self.layout, icons_only=True)
 
     def draw(self, context: Context) -> None:
         self.layout.use_property_decorate = False
@@ -83,7 +85,7 @@ def _one_object(layout: UILayout, context: Context, shown: Displayed | None) -> 
     remedies.lines(layout, context, [Group(found) for found in shown.findings])
     _details(layout, context, shown, numbers)
     row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
-    rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")
+    row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
     rows.button(row, context, "object.body_moments_clear", "TRASH")
     remedies.notes(layout, context, "body_moments_notes", shown.findings)
 
@@ -96,9 +98,13 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     else:
         text = localized("1 Object" if count == 1 else "{:d} Objects").format(count)
     _verdict(layout, text, "GROUP", shown.trust)
-    _answer(layout, context, shown.numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume)
+    posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
+    numbers = shown.numbers if posed is None else posed.world
+    _answer(layout, context, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume)
     material_row(layout, context, context.object)
     _buttons(layout, context)
+    if posed is not None and properties.optional(context.object, "body_mass") is not None:
+        rows.remark(layout, context, "The mass is that of the rest pose. Clear Bones to take that of the posed skin")
     for names, text in ((shown.missing, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
         if names:
             rows.remark(layout, context, text, icon="FILE_REFRESH", objects=names)
@@ -130,8 +136,9 @@ def _answer(
     units, column = Units.from_settings(context.scene.unit_settings), layout.column(align=True)
     if numbers is None:
         rows.table(column, [("Mass", "–", "", ""), ("Volume", "–", "", "")])
-        rows.title(layout, heading)
-        rows.table(layout.column(align=True), [(label, "–", "", "") for label in rows.AXIS_LABELS])
+        column = layout.column(align=True)
+        rows.title(column.row(align=True), heading)
+        rows.table(column, [(label, "–", "", "") for label in rows.AXIS_LABELS])
         return
     size = ("Volume", "volume", numbers.volume if volume is None else volume)
     rows.quantities(
@@ -151,7 +158,8 @@ def _buttons(layout: UILayout, context: Context) -> None:
     rows.button(buttons, context, "object.body_moments_measure", "PHYSICS", **measure)
     row = buttons.row(align=True)
     followed = any(is_live(subject) for subject in armatures.subjects([context.object]))
-    rows.button(row, context, "object.body_moments_live", "REC", depress=followed)
+    short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
+    rows.button(row, context, "object.body_moments_live", "REC", depress=followed, **short)
     row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
 
 
@@ -191,6 +199,10 @@ class ApplyPanel:
 
     bl_label = "Apply to Object"
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and measurable(context.object)
+
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
         column = layout.column(align=True)
@@ -198,14 +210,11 @@ class ApplyPanel:
         rows.button(column, context, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
         rows.button(column, context, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
         column = layout.column(align=True)
-        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY", text="Add Empty")
+        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
         rows.button(column, context, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
-        rows.button(
-            column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL", text="Transform Orientation"
-        )
+        rows.button(column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
         rows.button(column, context, "object.body_moments_rigid_bodies", "RIGID_BODY")
-        text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
-        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY", text=text)
+        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not obj.rigid_body
         rows.button(layout, context, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")

@@ -23,6 +23,8 @@ ORDER = (
     "selection",
     "assembly",
     "bones",
+    "section",
+    "shape",
     "advanced",
     "refused",
 )  # the order of CAD's mass property dialogs

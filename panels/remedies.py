@@ -22,7 +22,7 @@ from ..core.verdict.sentences import of_severity, severity
 from . import rows
 
 ICONS = {DEFECTS: "ZOOM_SELECTED", SELECT: "RESTRICT_SELECT_OFF"}
-LINE_SHARE = 0.8  # of a row for the text of a line and its button, beside the icons
+LINE_SHARE = 0.6  # of a row for the text of a line and its button, beside the icons
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
 QUESTION_DIGITS = 3

@@ -18,6 +18,7 @@ from ..core.verdict.groups import Group
 from . import remedies, rows
 from .places import in_both_places
 
+FLAT_RTOL = 1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
 ABOUT_LABELS = ("x", "y", "1", "2")
 BOUND_LABELS = {
     "area": ("Area", "area"),
@@ -35,7 +36,10 @@ class SectionPanel:
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = context.object
-        return obj is not None and (obj.type in SECTION_TYPES or record.KEY in obj)
+        if obj is None or obj.type not in SECTION_TYPES:
+            return False
+        is_flat = min(obj.dimensions) <= FLAT_RTOL * max(obj.dimensions)
+        return is_flat or obj.mode == "EDIT" or record.KEY in obj
 
     def draw(self, context: Context) -> None:
         obj, layout = context.object, self.layout
@@ -51,7 +55,7 @@ class SectionPanel:
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)
         remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
-        rows.button(layout, context, "object.body_moments_copy_section", "COPYDOWN", short="Copy")
+        rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "SECTION"
 
 
 def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:
@@ -116,4 +120,4 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
             rows.bounds(column, units, entries)
 
 
-CLASSES = in_both_places(SectionPanel, "section", parent="advanced")
+CLASSES = in_both_places(SectionPanel, "section")

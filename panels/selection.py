@@ -64,6 +64,11 @@ class SelectionPanel:
 
     bl_label = "Selection"
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        others = (obj for obj in context.view_layer.objects if obj != context.object)
+        return len(context.selected_objects) > 1 or any("body_mass" in obj for obj in others)
+
     def draw(self, context: Context) -> None:
         layout = self.layout
         if len(context.selected_objects) > 1:
@@ -84,10 +89,8 @@ def _listed(layout: UILayout, context: Context) -> None:
         rows=LINES,
     )
     column = layout.column(align=True)
-    rows.button(column, context, "object.body_moments_copy_csv", "COPYDOWN")
-    rows.button(
-        column, context, "object.body_moments_save_numbers", "FILE_TICK", text="Save CSV or JSON...", short="Save..."
-    )
+    rows.button(column, context, "object.body_moments_copy", "COPYDOWN").what = "TABLE"
+    rows.button(column, context, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:

@@ -198,6 +198,13 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     if world is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
+    rest = properties.optional(armature, "body_mass")
+    if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
+        factor = rest / world.mass
+        inertia, moments = ([factor * value for value in entries] for entries in (world.inertia, world.moments))
+        world = world._replace(
+            mass=rest, density=factor * world.density, inertia=tuple(inertia), moments=tuple(moments)
+        )
     own = world.in_object(armature.matrix_world, unit)
     worst = max(known, key=lambda part: tuple(Trust).index(part.trust))
     return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)

@@ -12,6 +12,7 @@ from bpy.props import EnumProperty
 
 from ...blender import bodies, session
 from ...blender.session.stored import outcome
+from ...blender.session.tracking import armatures
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import reports
 from ...core.density.materials import BY_NAME
@@ -71,7 +72,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected objects."""
         copy_defaults(context.scene)
-        self._objects = objects = list(context.selected_objects)
+        self._objects = objects = armatures.subjects(context.selected_objects)
         for obj in objects:
             self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Any]] = []

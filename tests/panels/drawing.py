@@ -80,6 +80,10 @@ class Layout:
         assert prop in getattr(getattr(bpy.ops, category), name).get_rna_type().properties
         self.record.append(("menu", idname))
 
+    def operator_enum(self, idname, prop, **options):
+        check("operator_enum", options)
+        self.operator_menu_enum(idname, prop)
+
     def menu(self, idname, **options):
         check("menu", options)
         assert hasattr(bpy.types, idname)

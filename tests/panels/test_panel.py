@@ -67,7 +67,7 @@ def test_total_names_boolean_operands(capfd):
     (caveat,) = displayed.total(bpy.context).findings
     assert caveat.code == "total_doubtful_parts" and "“Cutter” of “Body”" in str(caveat)
     assert shows(shown(), caveat.code, **caveat.values)
-    bpy.ops.object.body_moments_copy_report()
+    bpy.ops.object.body_moments_copy(what="REPORT")
     assert str(caveat) in capfd.readouterr().out
     body.modifiers.clear()
     bpy.context.view_layer.update()

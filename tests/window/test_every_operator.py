@@ -203,23 +203,12 @@ RIG_OBJECT = "bpy.data.objects['Rig']"
 # operator: options, what is there before, what must have happened
 CLICKED = {
     "object.body_moments_copy_value": ({"value": "7.5", "unit": "kg"}, "", f"{CLIPBOARD} == '7.5'"),
-    "object.body_moments_copy_inertial": ({}, MEASURED, f"'inertia' in {CLIPBOARD}"),
+    "object.body_moments_copy": ({"what": "REFERENCE"}, MEASURED, f"'Part, about' in {CLIPBOARD}"),
     "object.body_moments_store_reference": ({}, MEASURED, f"'body_reference' in {PART}"),
-    "object.body_moments_copy_reference": ({}, MEASURED, f"'Part, about' in {CLIPBOARD}"),
     "object.body_moments_axis_from_selection": (
         {},
         "bpy.ops.object.duplicate()\nbpy.context.object.location.x += 9.0\npart.select_set(True)",
         "bpy.context.scene.body_moments_reference.about == 'AXIS'",
-    ),
-    "object.body_moments_copy_moments": (
-        {},
-        MEASURED + "bpy.ops.object.body_moments_compute_moments('EXEC_DEFAULT', True)",
-        f"len({CLIPBOARD}.splitlines()) > 20",
-    ),
-    "object.body_moments_copy_section": (
-        {},
-        ONE_FACE + "bpy.ops.object.body_moments_measure_section('EXEC_DEFAULT', True)",
-        f"'Part' in {CLIPBOARD}",
     ),
     "object.body_moments_measure_as_shell": ({}, "", f"{PART}.body_moments.kind == 'SHELL'"),
     "object.body_moments_equal_inertia": ({}, MEASURED, "len(bpy.data.objects) == 2"),

@@ -45,7 +45,7 @@ def test_undo_takes_the_numbers_away_and_redo_brings_them_back(window):
 
 
 def test_the_report_is_copied(window):
-    window.press("object.body_moments_copy_report")
+    window.ask("bpy.ops.object.body_moments_copy(what='REPORT')")
     window.wait("'Cube' in bpy.context.window_manager.clipboard")
     assert "8000" in window.get("bpy.context.window_manager.clipboard")
 
