@@ -198,7 +198,7 @@ class OBJECT_OT_body_moments_accept(_OnActive, Operator):
 
 
 class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
-    """Select the objects that this line is about"""
+    """Select the objects that this line is about; by default, those that the last action refused"""
 
     bl_idname = SELECT
     bl_label = "Select These Objects"
@@ -208,8 +208,9 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
 
     def execute(self, context: Context) -> set[str]:
         last = outcome.last()
-        groups = (*displayed.total(context).groups, *(last.groups if last is not None else ()))
-        names = {name for group in groups if group.finding.code == self.code for name in group.objects}
+        refused = last.groups if last is not None else ()
+        groups = (*displayed.total(context).groups, *refused) if self.code else refused
+        names = {name for group in groups if self.code in ("", group.finding.code) for name in group.objects}
         objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
         if not objects:
             return {"CANCELLED"}

@@ -44,6 +44,10 @@ class Layout:
     def panel(self, idname, default_closed=False):
         return self.inner(), None if idname in self.closed else self.inner()
 
+    def progress(self, **options):
+        check("progress", options)
+        self.record.append(("label", options["text"], False))
+
     def separator(self, **options):
         check("separator", options)
 

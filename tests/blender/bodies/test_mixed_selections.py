@@ -131,7 +131,7 @@ def test_a_mixed_selection_is_each_measured_by_itself(seed, tmp_path, reported):
     objects = mixed(seed, tmp_path)
     measure()
     together, total = {obj: stored_on(obj) for obj in objects}, displayed.total(bpy.context)
-    shown = outcome.last().findings
+    shown = [group.finding for group in outcome.last().groups]
     warnings = {found.values["object"]: found.values["causes"] for found in shown if found.code == "object_warnings"}
     assert 0 < total.count < len(objects) and total.missing and total.doubtful
     for obj in objects:
