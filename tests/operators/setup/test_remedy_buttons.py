@@ -126,7 +126,7 @@ def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
     elif fault == "copy":
         faces.append(faces[0])
     else:  # one face has corners of its own, a little aside
-        points += [[x + 1e-7, y, z] for x, y, z in (points[corner] for corner in faces[0])]
+        points += [[x + 1e-6, y, z] for x, y, z in (points[corner] for corner in faces[0])]
         faces[0] = (8, 9, 10, 11)
     mesh = bpy.data.meshes.new("Faulty")
     mesh.from_pydata(points, [], faces)
