@@ -29,6 +29,14 @@ def test_measure_button_measures_the_selection(window):
     assert window.get(f"list({CUBE}['body_center_of_mass'])") == pytest.approx([0.0] * 3, abs=1e-12)
 
 
+def test_first_number_is_near_the_top_with_many_warnings(window):
+    _, bottom, _, height = window.region("UI")
+    window.buttons.clear()
+    first = window.place("object.body_moments_copy_value")
+    assert "unit='kg'" in window._command_at(*first).replace('"', "'")
+    assert bottom + height - first[1] < 350 / 2  # so that volume and center are above 350, too
+
+
 def test_fresh_numbers_are_not_called_out_of_date(window):
     window.point_at_view()
     window.redraw()
