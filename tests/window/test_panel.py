@@ -29,7 +29,7 @@ def test_measure_button_measures_the_selection(window):
     assert window.get(f"list({CUBE}['body_center_of_mass'])") == pytest.approx([0.0] * 3, abs=1e-12)
 
 
-def test_first_number_is_near_the_top_with_many_warnings(window):
+def test_first_number_is_near_the_top_of_the_panel(window):
     _, bottom, _, height = window.region("UI")
     window.buttons.clear()
     first = window.place("object.body_moments_copy_value")
