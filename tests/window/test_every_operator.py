@@ -52,10 +52,10 @@ def click_material(window, name):
     """Two clicks: the menu of materials, which is above the Measure button, and its entry; returns their count."""
     x, y, width, height = window.region("UI")
     left, measure = window.place("object.body_moments_measure")
-    window.click(x + (width - 28) * 0.6, measure + 30)
+    window.click(x + (width - 28) * 0.6, measure + 22)
     for down in range(0, 400, 9):
         for way in (-down, down):
-            command = window._command_at(x + (width - 28) * 0.6, measure + 30 + way)
+            command = window._command_at(x + (width - 28) * 0.6, measure + 22 + way)
             if (
                 command
                 and command.startswith("bpy.ops.object.body_moments_set_material")
