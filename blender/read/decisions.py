@@ -114,9 +114,10 @@ def modifier_findings(obj, scene) -> Iterator[Finding]:
 
 
 def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    differences = [difference.as_record() for difference in _render_differences(obj, scene, exact)]
+    differences = list(_render_differences(obj, scene, exact))
     if differences:
-        yield finding(RENDER_DIFFERS, differences=differences)
+        are_levels = all(difference.code == RENDER_LEVELS_DIFFER for difference in differences)  # Blender's default
+        yield finding(RENDER_DIFFERS, slight=are_levels, differences=[found.as_record() for found in differences])
 
 
 def _member_findings(collections) -> Iterator[Finding]:

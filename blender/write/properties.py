@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ... import core
 from ...core.inertia.plain_body import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
 from ...core.measurement.documents import plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
@@ -193,6 +194,21 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
     obj["body_error_bound"] = bounds
     obj["body_mass"], obj["body_density"], obj["body_fingerprint"] = mass, density, fingerprint
     obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
+    retrigger_drivers(obj)
+
+
+def store_body(obj: Owner, body: PlainBody, fingerprint: str) -> None:
+    """Replace the numbers of stored results, in the object frame; method and findings stay."""
+    bounds = [bound[name] for bound in (body.error_bound, body.error_bound["input"]) for name in BOUND_KEYS]
+    turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*body.axes)]).tolist()
+    row = body.mass, body.density, body.volume, body.area, body.center, body.inertia, body.moments, turn, bounds
+    values = dict(zip(LENGTHS, row)) | {
+        "body_inertia_diagonal": body.inertia[:3],
+        "body_inertia_products": body.inertia[3:],
+        "body_fingerprint": fingerprint,
+    }
+    for key, value in values.items():
+        obj[key] = value
     retrigger_drivers(obj)
 
 

@@ -114,11 +114,13 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 def on_density(settings: PropertyGroup, context: Context) -> None:
     """Let stored results follow a density or mass."""
     if context.scene is not None and not tracking_paused.depth:
-        follow_density(settings.id_data, context.scene)
+        with stored.assembly.kept_up_to_date(context, settings.id_data):
+            follow_density(settings.id_data, context.scene)
 
 
-def on_default_density(settings: PropertyGroup, _context: Context) -> None:
+def on_default_density(settings: PropertyGroup, context: Context) -> None:
     """Let the results of objects without a density of their own follow their scene's default density."""
-    for obj in settings.id_data.objects:
-        if not obj.body_moments.is_property_set("density"):
-            follow_density(obj, settings.id_data)
+    with stored.assembly.kept_up_to_date(context):
+        for obj in settings.id_data.objects:
+            if not obj.body_moments.is_property_set("density"):
+                follow_density(obj, settings.id_data)

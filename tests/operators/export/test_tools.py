@@ -31,7 +31,7 @@ def measured(obj):
 @pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf", "usd", "gltf"])
 def test_an_inertial_is_copied_along_the_objects_own_axes(name, capfd):
     body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5))
-    assert bpy.ops.object.body_moments_copy_inertial(format=name) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_copy(what=name) == {"FINISHED"}
     text = capfd.readouterr().out
     assert repr(measured(body).mass_properties.mass) in text or name == "usd"
     if name == "urdf":
