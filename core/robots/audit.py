@@ -240,9 +240,12 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
     geometry = reference.uniform(stated.mass)
     if left:
         entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]  # It adds nothing to errors.
-        repaired, guess = geometry, finding(AUDIT_UNIFORM_INSTEAD)
-        entries += [Entry(one, place, (), guess, "guess", True) for one in left]
-        entries += [Entry(one.finding, place, compares=True) for one in diagnose_density(geometry, reference)]
+        # Geometry that cannot hold the mass shows nothing about its place.
+        light_or_heavy = diagnose_density(geometry, reference)
+        guess = None if light_or_heavy else finding(AUDIT_UNIFORM_INSTEAD)
+        repaired = None if light_or_heavy else geometry
+        entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
+        entries += [Entry(one.finding, place, compares=True) for one in light_or_heavy]
     apart = min(one.compare(stated) for one in references)
     return _Judgment(entries, bool(wrong), repaired, stated.mass / reference.volume, apart, geometry)
 

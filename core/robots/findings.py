@@ -134,7 +134,7 @@ INERTIAL_SPREAD_OUTSIDE = error(
     "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times too large).",
 )
 AUDIT_UNIFORM_INSTEAD = warning(
-    "audit_uniform_instead", "Repaired as an even filling of the geometry with the stated mass."
+    "audit_uniform_instead", "State the inertial of the geometry, filled evenly with the stated mass."
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",

@@ -27,7 +27,7 @@ def _link(node: Node, model: Node, several: bool) -> StatedLink:
     element = node.find("inertial")
     is_auto = element is not None and element.get("auto") in ("true", "1")
     inertial = None if is_auto else attempt(findings, element, _inertial)
-    span = None if element is None or element.start == NOWHERE else (element.start, element.end)
+    span = None if element is None or inertial is None or element.start == NOWHERE else (element.start, element.end)
     shapes = read_shapes(findings, node, _shape)
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
