@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, pi, radians
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -193,9 +194,11 @@ class Auditor:
             return _primitive(shape)
         if stated.points is not None and stated.triangles is not None:
             return _measured(Surface.from_triangles(stated.points, stated.triangles))
-        key = shape.file, shape.size
+        # Meshes of an included SDF model are beside it, those of MJCF beside the file that includes.
+        roots = self.roots.at(Path(stated.place.file).parent) if stated.place.file else self.roots
+        key = shape.file, shape.size, roots.base
         if key not in self._meshes:
-            surface, upright = read_mesh(self.roots.find(shape.file))
+            surface, upright = read_mesh(roots.find(shape.file))
             self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
         return self._meshes[key]
 
