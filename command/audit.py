@@ -5,11 +5,9 @@
 from __future__ import annotations
 
 import argparse
-import multiprocessing
 import os
-import sys
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -71,7 +69,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
         help="findings of links of this mass or less are notes (0)")  # fmt: skip
     add("--baseline", type=Path, metavar="FILE", help="only findings that are not in this file count")
     add("--write-baseline", type=Path, metavar="FILE", help="write the present findings, for --baseline")
-    add("--jobs", type=option_types.count, default=1, metavar="N", help="processes; one in Blender and on Windows (1)")
+    add("--jobs", type=option_types.count, default=1, metavar="N", help="files that are audited at a time (1)")
     add("--force", action="store_true", help="replace any file at --output and in --repair (only results)")
     options = parser.parse_intermixed_args(argv)
     unknown = audit_gate.unknown_codes(options.ignore)
@@ -146,13 +144,12 @@ def answer(options: argparse.Namespace) -> tuple[list[str], int]:
 
 
 def _documents(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
-    """Yield the report document of each file, in order; several processes make them on request."""
+    """Yield the report document of each file, in order; several threads make them on request."""
     tasks = [(path, name, options) for path, name in options.names.items()]
-    jobs = min(options.jobs, len(tasks))
-    if jobs == 1 or "bpy" in sys.modules or "fork" not in multiprocessing.get_all_start_methods():
+    if options.jobs == 1:
         yield from map(_audit_file, tasks)
         return
-    with ProcessPoolExecutor(jobs, multiprocessing.get_context("fork")) as pool:
+    with ThreadPoolExecutor(min(options.jobs, len(tasks))) as pool:
         yield from pool.map(_audit_file, tasks)
 
 

@@ -155,7 +155,7 @@ def test_gate_counts_new_findings_of_its_level_alone(tmp_path):
         assert ended.value.code == 2
 
 
-def test_folders_are_audited_by_several_processes(tmp_path):
+def test_folders_are_audited_several_files_at_a_time(tmp_path):
     (tmp_path / "below").mkdir()
     paths = [description(tmp_path / name, RIGHT) for name in ("a.urdf", "b.urdf", "below/c.urdf")]
     (tmp_path / "package.xml").write_text("<package/>", encoding="utf-8")
