@@ -20,7 +20,7 @@ from typing import Any, NoReturn
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from .measure_parser import DEFAULT_ORDER, measure_parser
 
-TARGETS = ("output", "fourier")  # options whose files are written
+TARGETS = ("output", "fourier", "write_baseline")  # options whose files are written
 
 # These options change no number: two runs that differ in these alone have the same records.
 _OF_RUNS = {

@@ -94,10 +94,7 @@ XML_ENTITIES = error(
 DESCRIPTION_INVALID = error("description_invalid", "The file is not {format}: line {line}, {error}.")
 USD_NOT_TEXT = error("usd_not_text", "Only the text form of USD is read. Convert the file to .usda with usdcat.")
 DESCRIPTION_UNKNOWN = error("description_unknown", "The file is no robot description. Its first element is {tag}.")
-INCLUDE_UNREADABLE = error(
-    "include_unreadable",
-    "A file that it includes cannot be read: {name}. Name its folder with --root, or allow all with --allow-outside.",
-)
+INCLUDE_UNREADABLE = error("include_unreadable", "A file that it includes cannot be read: {name}. {cause}")
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
     "description_number", "Line {line}: <{element}> has “{text}”, which is no usable number. Correct it."
@@ -105,8 +102,12 @@ DESCRIPTION_NUMBER = warning(
 MESH_ON_NETWORK = warning("mesh_on_network", "A mesh is on a network, and was not loaded: {name}. Download it.")
 MESH_MISSING = warning(
     "mesh_missing",
-    "A mesh was not found in the folders that may be read: {name}. Name the folder of it, or of its package, with "
-    "--root, or allow all with --allow-outside.",
+    "A mesh is missing: {name}. If it is in another package, name the folder of the package with --package-path.",
+)
+MESH_OUTSIDE = warning(
+    "mesh_outside",
+    "A mesh is outside of the folders that may be read: {name}. Name its folder with --package-path, or allow all "
+    "with --allow-outside.",
 )
 MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
 INERTIAL_MISSING = warning(
@@ -133,7 +134,7 @@ INERTIAL_SPREAD_OUTSIDE = error(
     "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times too large).",
 )
 AUDIT_UNIFORM_INSTEAD = warning(
-    "audit_uniform_instead", "Repaired as an even filling of the geometry with the stated mass."
+    "audit_uniform_instead", "State the inertial of the geometry, filled evenly with the stated mass."
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
