@@ -71,18 +71,17 @@ GLTF_UNIT_SCALE = note(
 ROBOT_LINKS_BARE = note(
     "robot_links_bare", "{count} link has no geometry: {links}.", "{count} links have no geometry: {links}."
 )
+SDF_FRAMES_ADDED = note(
+    "sdf_frames_added",
+    "SDF has no joint along such axes: {joints}. Added links, with {part:.3g} of the mass, stand between its axes.",
+    "SDF has no joints along such axes: {joints}. Added links, with {part:.3g} of the mass, stand between their axes.",
+)
 MJCF_INERTIA_TOO_SMALL = warning(
     "mjcf_inertia_too_small",
-    "MuJoCo refuses a moving body with a mass or principal moment below {limit:g} kg or kg·m²: {links}, with "
-    "{least:.3g}. Set boundmass and boundinertia of the compiler, fix it to its parent, or model in larger units.",
-    "MuJoCo refuses moving bodies with a mass or principal moment below {limit:g} kg or kg·m²: {count} of them, "
-    "{links}, down to {least:.3g}. Set boundmass and boundinertia of the compiler, fix them to their parents, or "
-    "model in larger units.",
-)
-MJCF_MESH_TOO_LARGE = warning(
-    "mjcf_mesh_too_large",
-    "MuJoCo refuses meshes of more than {limit} triangles: {links}. Reduce them with a Decimate modifier, or leave "
-    "geometry out.",
+    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises that of {links}, {least:.3g}. "
+    "Fix it to its parent, or model in larger units.",
+    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises those of {count} links: {links}, "
+    "down to {least:.3g}. Fix them to their parents, or model in larger units.",
 )
 USD_INERTIA_TOO_SMALL = warning(
     "usd_inertia_too_small",

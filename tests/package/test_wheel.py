@@ -75,3 +75,20 @@ def test_the_command_tells_what_needs_blender(scripts, tmp_path):
     done = run([scripts / "body-moments", "measure", "scene.blend"], cwd=tmp_path)
     assert done.returncode == 2
     assert "--blender" in done.stderr
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the action's shell is bash")
+def test_the_action_and_the_hook_fail_for_an_impossible_robot(scripts, tmp_path):
+    """Their command lines, as they stand in the files, in the environment that both install."""
+    (tmp_path / "cube.urdf").write_text(URDF, encoding="utf-8")
+    action, hook = ((ROOT / name).read_text(encoding="utf-8") for name in ("action.yml", ".pre-commit-hooks.yaml"))
+    inputs = {"PATHS": ".", "FAIL_ON": "error", "OPTIONS": "", "PATH": "{}:/usr/bin:/bin".format(scripts)}
+    step = action.rpartition("run: ")[2]
+    done = subprocess.run(["bash", "-e", "-c", step], env=inputs, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1 and "::error file=cube.urdf" in done.stdout, done.stdout + done.stderr
+    done = subprocess.run(["bash", "-c", step], env={**inputs, "FAIL_ON": "never"}, cwd=tmp_path, capture_output=True)
+    assert done.returncode == 0
+    (entry,) = [line.partition("entry: ")[2] for line in hook.splitlines() if "entry: " in line]
+    command, *options = entry.split()
+    done = run([scripts / command, *options, "cube.urdf"], cwd=tmp_path)
+    assert done.returncode == 1 and "cube.urdf" in done.stdout
