@@ -38,7 +38,8 @@ from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS
 from ..options.arguments import words
 from ..options.density import density_of
 from ..options.file import OF_ARRAYS, body_findings, file_findings, unused
-from ..options.needs_blender import boolean_and_wire, options_of_blender
+from ..options.needs_blender import NEEDS_BLENDER, boolean_and_wire, options_of_blender
+from ..supervisor.processes import has_blender
 from .entries import Contents, failure
 
 BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
@@ -159,6 +160,8 @@ class BareFile:
     def _measure_meshes(self, contents: Contents) -> None:
         """Measure the meshes of a file, each with a name of its own."""
         try:
+            if file_suffix(self._path) == ".obj" and has_surfaces(self._path):
+                raise FileError(FILE_UNREADABLE, error=NEEDS_BLENDER.format("its surfaces need"))
             meshes, upright = read_meshes(self._path)
         except OSError as error:
             raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
@@ -213,7 +216,7 @@ def _with_own_names(meshes: list[FileMesh]) -> list[FileMesh]:
 
 def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
     """Return whether a file is measured without Blender. memory: bytes that measuring it may take, None for any."""
-    if scans.scan_suffix(path):
+    if scans.scan_suffix(path) or not has_blender():
         return True
     suffix = file_suffix(path)
     if suffix not in UNITLESS:

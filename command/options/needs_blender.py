@@ -13,6 +13,7 @@ from ...core.scans.suffixes import scan_suffix
 from ..supervisor.processes import has_blender
 from .arguments import fail, words
 
+NEEDS_BLENDER = "{} Blender: add --blender PATH, or install the bpy module"
 MESHES = (".stl", ".ply", ".obj")  # formats that are measured without an import
 _OF_OBJECTS = ("polynomial", "density_from", "fourier", "flat", "pose", "signature")
 
@@ -38,5 +39,5 @@ def check(options: Namespace, paths: Sequence[str]) -> None:
         is_scan = bool(scan_suffix(path))
         given = words(options_of_blender(options, is_scan))
         if given or not (is_scan or Path(path).suffix.lower() in MESHES):
-            text = "{} needs Blender. Add --blender PATH, or install the bpy module"
-            fail(text.format(" ".join([*given, *([] if given else ["“{}”".format(path)])])))
+            what = ", ".join(given) if given else "“{}”".format(path)
+            fail(NEEDS_BLENDER.format(what + (" need" if len(given) > 1 else " needs")))

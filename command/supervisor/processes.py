@@ -37,7 +37,7 @@ def run_command(blender: str | None, words: Sequence[str]) -> list[str]:
 
 def has_blender() -> bool:
     """Return whether this process is a Blender, or this Python has the bpy module."""
-    return "bpy" in sys.modules or importlib.util.find_spec("bpy") is not None
+    return sys.modules.get("bpy") is not None or importlib.util.find_spec("bpy") is not None
 
 
 def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[bytes]:
