@@ -10,9 +10,9 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import Part, float64_matrix
 from ...core.numerics.rotations import rotation_matrix
 from ...core.rig.dominance import VertexWeights
-from .reading import Part, float64_matrix
 from .visibility import evaluated_geometry
 
 

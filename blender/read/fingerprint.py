@@ -9,25 +9,18 @@ may compare them while it draws, without numpy.
 
 from __future__ import annotations
 
-import hashlib
 import math
 import struct
 
 import bpy
 from mathutils import Matrix
 
-from ...core.measurement.settings import Settings
+from ...core.measurement.settings import Settings, digest
 from ..settings.density import density_key
 from ..settings.resolve import object_settings
 
-VERSION = "v1"
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
-
-
-def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
-    """Return the text stored as `body_fingerprint`: version, then the three digests."""
-    return ":".join([VERSION, digest(geometry), matrix, settings])
 
 
 def matrix_hash(obj: bpy.types.Object) -> str:
@@ -101,8 +94,3 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
     """Return the current settings of the object, with the key of a varying density."""
     return object_settings(obj, scene, varying=density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene))
-
-
-def digest(data: bytes) -> str:
-    """Return a digest of the data as 12 hexadecimal digits."""
-    return hashlib.blake2s(data, digest_size=6).hexdigest()

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from bpy.types import Depsgraph, Object, PoseBone, RigidBodyConstraint, Scene
 
+from ...core.bodies.reading import float64_matrix
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.numerics.rotations import polar_rotation
@@ -20,7 +21,6 @@ from ...core.robots.links import Candidate, Connection, make_candidate
 from ...core.robots.model import VALUES, FreeAxis, Link, Mimic, Pose
 from ...core.verdict.finding import Finding, MeasureError, finding
 from .objects import read_object
-from .reading import float64_matrix
 
 
 def object_candidate(

@@ -15,6 +15,7 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...core.density.grid_values import positions_text
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.formats import read_scan, sample_matrix, scan_suffix
 from ...core.scans.limits import Limits
@@ -23,7 +24,6 @@ from ...core.scans.positions import Positions, place_samples, read_all_positions
 from ...core.scans.scan import Scan
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, system_reason
-from ..settings.grid_values import positions_text
 from .findings import SCAN_NON_FINITE
 
 GRID_NAME = "density"

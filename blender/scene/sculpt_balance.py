@@ -18,6 +18,7 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import Part
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
@@ -29,7 +30,6 @@ from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import measure_object
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.objects import read_object
-from ..read.reading import Part
 from ..read.tracking import tracking_paused
 from .findings import (
     BALANCE_NO_VERTICES,

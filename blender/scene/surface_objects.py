@@ -19,6 +19,7 @@ import numpy as np
 from bpy.types import Context, Curve, Object, Scene
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import SplineReading
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.numerics.float32 import shortest_decimal
@@ -29,7 +30,6 @@ from ...core.scans.limits import Limits
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.nurbs.splines import keep_faces
-from ..read.reading import SplineReading
 from .findings import SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit

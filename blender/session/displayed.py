@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from bpy.types import ID, Context, Object, PoseBone, Scene
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
-from ...core.measurement.trust import Trust, trust_of
+from ...core.measurement.trust import Trust, open_body_caveats, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
 from ...core.verdict.groups import Group, grouped
@@ -256,7 +256,7 @@ def _sum(context: Context) -> Total:
         stale,
         doubtful,
         (
-            *read.total_caveats.open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
+            *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
             *read.total_caveats.total_caveats(parts, context.view_layer),
         ),
         max((shown.trust for shown in parts.values()), key=tuple(Trust).index, default=None),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ...core import density as density_engine
+from ...core.density.grid_options import GridOptions
 from ...core.measurement.findings import DENSITY_FROM_VALUE
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
@@ -20,7 +21,6 @@ from .findings import (
     OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
 from .given import GivenPart
-from .grid import GridOptions
 from .preferences import default_density
 
 if TYPE_CHECKING:

@@ -77,6 +77,11 @@ def fail(reason: str) -> NoReturn:
     measure_parser().error(reason)
 
 
+def words(names: Iterable[str]) -> list[str]:
+    """Return the options as they are written, such as “--unit-scale”."""
+    return ["--" + name.replace("_", "-") for name in names]
+
+
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:
     """Return the options that influence records by name, with paths as text."""
     names = vars(options).keys() - _OF_RUNS | ({"format"} if options.format in ROBOT_FORMATS else set())

@@ -18,6 +18,7 @@ from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
 from ...blender.write.translations import localized
 from ...core import measurement
+from ...core.measurement.trust import open_body_caveats
 from ...core.robots import write as robot_formats
 from ...core.robots.formats import FORMATS
 from ...core.verdict.finding import Finding, Severity
@@ -64,7 +65,7 @@ def selected_document(context: Context) -> dict[str, Any]:
     objects = selection.selected_measurable(context)
     outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]
-    caveats = read.total_caveats.open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     caveats += read.total_caveats.total_caveats(counted, context.view_layer)
     version = ".".join(map(str, bpy.app.version))
     return write.text_report.stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)

@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The wheel in an environment that has numpy alone, once the oldest numpy that it states and once the newest."""
 
+import json
 import os
 import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from tests.core.mesh_files import ply, stl
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 NUMPY = "numpy==1.26.0" if sys.version_info < (3, 12) else "numpy"  # 1.26 is made for no newer Python
@@ -35,6 +39,10 @@ triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 assert 'Moments' in dir(body_moments)
 assert abs(body_moments.mass_properties(points, triangles, density=2.0).mass_properties.mass - 2.0) < 1e-14
 """
+
+POINTS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], np.float32)
+QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+TRIANGLES = np.vstack([QUADS[:, [0, 1, 2]], QUADS[:, [0, 2, 3]]])
 
 
 def run(command: list, **options) -> subprocess.CompletedProcess:
@@ -68,6 +76,23 @@ def test_a_robot_is_audited_without_blender(scripts, tmp_path):
     done = run([scripts / "body-moments", "audit", "cube.urdf"], cwd=tmp_path)
     assert done.returncode == 1, done.stderr
     assert "base" in done.stdout
+
+
+@pytest.mark.parametrize("name", ["cube.stl", "cube.ply", "cube.obj", "cube.npy"])
+def test_a_file_is_measured_without_blender(scripts, tmp_path, name):
+    files = {"cube.stl": stl((POINTS, TRIANGLES)), "cube.ply": ply(POINTS, TRIANGLES)}
+    rows = [("v {} {} {}\n", POINTS.tolist()), ("f {} {} {}\n", (TRIANGLES + 1).tolist())]
+    files["cube.obj"] = "".join(form.format(*row) for form, part in rows for row in part).encode()
+    for each, data in files.items():
+        (tmp_path / each).write_bytes(data)
+    np.save(tmp_path / "cube.npy", np.full((2, 2, 2), 1000.0))
+    words = ["--density", "1000"] if name != "cube.npy" else ["--spacing", "0.5,0.5,0.5"]
+    done = run([scripts / "body-moments", "measure", name, *words], cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    document = json.loads(done.stdout)
+    (found,) = document["objects"]
+    assert document["blender"] is None and abs(found["mass"] - 1000.0) < 1e-9
+    assert max(abs(np.ptp(found["principal_moments"])), abs(found["inertia"][0][0] - 1000.0 / 6.0)) < 1e-9
 
 
 def test_the_command_tells_what_needs_blender(scripts, tmp_path):

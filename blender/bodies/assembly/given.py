@@ -13,18 +13,19 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import Reading, to_si
 from ....core.measurement.body import Body
 from ....core.measurement.builder import find_extent, measure_total
 from ....core.measurement.findings import ZERO_QUANTITY
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.measurement.settings import fingerprint
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import fingerprint, matrix_hash
+from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
-from ...read.reading import Reading, to_si
 from ...settings.given import GivenPart, is_point_mass
 from ..findings import CENTER_GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA_GIVEN
 from ..request import Request

@@ -17,6 +17,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import (
+    SHAPE_FAR_FROM_ORIGIN,
+    SHAPE_OF_GRID,
+    SHAPE_OF_OPEN_SURFACE,
+    SIGNATURE_NEEDS_POLYGONS,
+    WIRE_UNSUPPORTED,
+)
+from ....core.bodies.mesh_body import with_input_error
 from ....core.inertia.axial_harmonics import AxialHarmonics, axial_harmonics, axis_last, turn_by_harmonics
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
@@ -35,14 +43,6 @@ from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
-from ..body import with_input_error
-from ..findings import (
-    SHAPE_FAR_FROM_ORIGIN,
-    SHAPE_OF_GRID,
-    SHAPE_OF_OPEN_SURFACE,
-    SIGNATURE_NEEDS_POLYGONS,
-    WIRE_UNSUPPORTED,
-)
 from ..measure_object import THREADS, Measured, measure_body
 from .surface_distance import EXACT_DISTANCE, SurfaceDistance
 

@@ -22,6 +22,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import float64_matrix
 from ....core.inertia.mass_properties import affine_image
 from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.body import Body
@@ -39,7 +40,6 @@ from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
 from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.objects import read_patches
-from ...read.reading import float64_matrix
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
 from ...settings.resolve import object_settings

@@ -15,6 +15,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import float64_matrix
 from ....core.mesh.hulls import ConvexHull
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Measure, Moments
@@ -25,7 +26,6 @@ from ....core.verdict.method import Method, Verdict
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh.hull import object_hull
 from ...read.objects import read_object
-from ...read.reading import float64_matrix
 from ...scene.findings import OPEN_OBJECT
 from ...settings.resolve import object_settings
 from ..tracking import updates

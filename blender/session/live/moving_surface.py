@@ -14,14 +14,14 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
+from ....core.bodies.mesh_body import MeshBody
+from ....core.bodies.reading import Reading
 from ....core.mesh.surface import Surface
 from ....core.polyhedron.first_order import volume_and_center
 from ....core.verdict.finding import ReadError
 from ....core.verdict.method import Source, Verdict
-from ...bodies.body import MeshBody
 from ...bodies.measure_object import Measured
 from ...read.mesh import mesh_points
-from ...read.reading import Reading
 from ...read.visibility import evaluated_geometry
 
 FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}

@@ -17,6 +17,7 @@ from bpy.types import Context, Object, PropertyGroup
 from mathutils import Matrix
 
 from ....core.inertia.plain_body import PlainBody, add_bodies
+from ....core.measurement.settings import digest
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity
@@ -26,7 +27,6 @@ from ...bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import Stacked
 from ...read.assembly import Member, MemberKind, Root, is_assembly, members_key, members_of, settings_of
-from ...read.fingerprint import digest
 from ...write import properties
 from ..tracking import handlers, staleness, stamps
 from . import reference, results

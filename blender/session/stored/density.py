@@ -15,14 +15,16 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
+from ....core.bodies.findings import DENSITY_DEFAULTED
+from ....core.measurement.settings import VERSION
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
-from ...read.fingerprint import VERSION, current_settings
+from ...read.fingerprint import current_settings
 from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
 from .. import stored
-from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED
+from ..findings import DENSITY_DEFAULT_KEPT
 from ..tracking import staleness, stamps
 
 if TYPE_CHECKING:

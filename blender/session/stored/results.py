@@ -11,11 +11,11 @@ from typing import Any
 
 from bpy.types import Object, Scene
 
+from ....core.bodies.threshold import ThresholdGridBody
+from ....core.bodies.wall import WallBody
 from ....core.numerics.float32 import shortest_decimal
-from ...bodies.grids.threshold import ThresholdGridBody
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
-from ...bodies.wall import WallBody
 from ...settings.density import is_density_unset
 from ...write import properties
 from ..tracking import staleness

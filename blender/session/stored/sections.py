@@ -11,10 +11,11 @@ from bpy.types import Context, Depsgraph, Object
 
 from ....core.flat.section import measure_section
 from ....core.flat.section_properties import Section
+from ....core.measurement.settings import fingerprint
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding
 from ...bodies.flat.flat import area_findings, flat_region
-from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
+from ...read.fingerprint import matrix_hash, settings_hash
 from ...write import section as record
 from ..tracking import staleness, stamps
 

@@ -6,13 +6,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import (
-    POSITIONS_ONLY_AS_DENSITY,
-    VALUES_BY_TABLE,
-    VALUES_SCALED,
-)
+from ..numerics.float32 import shortest_decimal
+from ..verdict.finding import Finding, ReadError, finding
+from .findings import POSITIONS_ONLY_AS_DENSITY, VALUES_BY_TABLE, VALUES_SCALED
 
 
 class GridOptions(NamedTuple):

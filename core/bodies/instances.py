@@ -10,20 +10,20 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.mesh.boxes import boxes_overlap
-from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
-from ....core.moments.images import sum_of_images
-from ....core.moments.moments import Moments
-from ....core.polyhedron.sheared_areas import area_of_images
-from ....core.solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
-from ....core.solid.instance_overlaps import PlaceComparison
-from ....core.solid.solid_verdict import SolidIntegrals
-from ....core.verdict.finding import Finding, finding
-from ....core.verdict.findings import SELF_INTERSECTION
-from ....core.verdict.health import DefectiveElements, Intersection, MeshHealth
-from ...read.reading import Reading
-from ..findings import FLAT_SURFACES
+from ..mesh.boxes import boxes_overlap
+from ..mesh.surface import Surface
+from ..moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ..moments.images import sum_of_images
+from ..moments.moments import Moments
+from ..polyhedron.sheared_areas import area_of_images
+from ..solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
+from ..solid.instance_overlaps import PlaceComparison
+from ..solid.solid_verdict import SolidIntegrals
+from ..verdict.finding import Finding, finding
+from ..verdict.findings import SELF_INTERSECTION
+from ..verdict.health import DefectiveElements, Intersection, MeshHealth
+from .findings import FLAT_SURFACES
+from .reading import Reading
 
 
 def singular_instances_message(reading: Reading) -> Finding:

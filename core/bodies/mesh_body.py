@@ -11,18 +11,23 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.inertia.principal_frames import OwnMoments
-from ...core.measurement.body import Body
-from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import are_similarities
-from ...core.moments.images import sum_of_images
-from ...core.moments.moments import Moments, monomials, stack_moments, sum_moments
-from ...core.moments.symmetric_tensors import invert_through_point
-from ...core.numerics.rotations import polar_rotation
-from ...core.polyhedron import polyhedron_moments
-from ...core.solid.measure import SolidIntegrals
-from ...core.verdict.method import Verdict
-from .mesh.instances import area_of_instances
+from ..inertia.principal_frames import OwnMoments
+from ..measurement.body import Body
+from ..mesh.surface import Surface
+from ..moments.affine_maps import are_similarities
+from ..moments.images import sum_of_images
+from ..moments.moments import (
+    Moments,
+    monomials,
+    stack_moments,
+    sum_moments,
+)
+from ..moments.symmetric_tensors import invert_through_point
+from ..numerics.rotations import polar_rotation
+from ..polyhedron import polyhedron_moments
+from ..solid.measure import SolidIntegrals
+from ..verdict.method import Verdict
+from .instances import area_of_instances
 
 MAX_MASS_MOMENT = 1e100  # kg m^n; squares of much larger moments would overflow
 

@@ -10,12 +10,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.density.findings import DENSITY_NON_FINITE
-from ...core.density.transfer_function import parse_table
-from ...core.scans.positions import AXES, EVEN, Positions
-from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, VALUES_NEGATIVE
-from .grid import GridOptions
+from ..scans.positions import AXES, EVEN, Positions
+from ..verdict.finding import Finding, ReadError, finding
+from .findings import BACKGROUND_EMPTY, DENSITY_NON_FINITE, POSITIONS_DAMAGED, VALUES_NEGATIVE
+from .grid_options import GridOptions
+from .transfer_function import parse_table
 
 
 def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
