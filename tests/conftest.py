@@ -176,7 +176,8 @@ class _Progress:
 
     @pytest.hookimpl(trylast=True)
     def pytest_sessionfinish(self, exitstatus):
-        text = json.dumps({"exit": int(exitstatus), "left_out": self.left_out, "failures": self.failures, **self.counts})
+        names = {"left_out": self.left_out, "failures": self.failures}
+        text = json.dumps({"exit": int(exitstatus), **names, **self.counts})
         partial = self.path.with_suffix(".partial")
         partial.write_text(text, encoding="utf-8")
         partial.replace(self.path)
