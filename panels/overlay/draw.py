@@ -59,6 +59,7 @@ class BodyMomentsOverlayMirror(PropertyGroup):
 
 
 def _keep_settings() -> None:
+    _kept.clear()
     for scene in bpy.data.scenes:
         settings = scene.body_moments
         if settings.is_property_set("overlay"):  # reading a group within a group stores it
@@ -69,7 +70,7 @@ def _keep_settings() -> None:
 
 def _restore_settings() -> None:
     for scene in bpy.data.scenes:
-        for name, value in _kept.pop(scene.name_full, {}).items():
+        for name, value in _kept.get(scene.name_full, {}).items():
             if getattr(scene.body_moments.overlay, name) != value:
                 setattr(scene.body_moments.overlay, name, value)
 
