@@ -29,12 +29,7 @@ from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions
 from ..settings.resolve import object_settings
-from .findings import (
-    DISPLAY_MESH_NEEDED,
-    FOURIER_APPROXIMATE,
-    FOURIER_NO_EXTENT,
-    FOURIER_OF_UNIFORM_DENSITY,
-)
+from .findings import DISPLAY_MESH_NEEDED, FOURIER_APPROXIMATE, FOURIER_NO_EXTENT, FOURIER_OF_UNIFORM_DENSITY
 from .mesh.mesh import mesh_body
 
 

@@ -25,12 +25,7 @@ from ...core.bodies.instances import (
     singular_instances_message,
 )
 from ...core.bodies.mesh_body import MeshBody, extend_input_error
-from ...core.bodies.reading import (
-    Part,
-    Reading,
-    SplineReading,
-    to_si,
-)
+from ...core.bodies.reading import Part, Reading, SplineReading, to_si
 from ...core.measurement.body import Body
 from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.mesh.surface import Surface

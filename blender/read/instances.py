@@ -21,19 +21,10 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.reading import (
-    NO_VALUES,
-    FaceAttributes,
-    Part,
-    SplineReading,
-    float64_matrix,
-)
+from ...core.bodies.reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
-from .findings import (
-    INSTANCES_OF_HIDDEN_OBJECT,
-    NON_FINITE_INSTANCES,
-)
+from .findings import INSTANCES_OF_HIDDEN_OBJECT, NON_FINITE_INSTANCES
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .nurbs.splines import spline_reading
 from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry

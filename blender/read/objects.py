@@ -11,12 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...core.bodies.reading import (
-    Part,
-    Reading,
-    attribute_to_source,
-    float64_matrix,
-)
+from ...core.bodies.reading import Part, Reading, attribute_to_source, float64_matrix
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS

@@ -33,12 +33,7 @@ from ..files.references import Opened, missing_links
 from ..files.saving import Place
 from ..files.scripts import blocked_scripts, scripts_of_open_file
 from ..files.suffixes import BLEND, file_suffix
-from ..findings import (
-    FOURIER_OBJECT_COUNT,
-    PART_UNAVAILABLE,
-    RESULTS_NEED_BLEND,
-    SOLID_OPERAND_MEASURED,
-)
+from ..findings import FOURIER_OBJECT_COUNT, PART_UNAVAILABLE, RESULTS_NEED_BLEND, SOLID_OPERAND_MEASURED
 from ..options import density as density_options
 from ..options.file import body_findings, file_findings, is_unitless
 from . import assets, flat, fourier, robots

@@ -32,12 +32,7 @@ from .findings import (
     SAMPLES_POSITIONED,
 )
 from .measure import measure_reading
-from .threshold import (
-    MAX_SAMPLES,
-    TRILINEAR,
-    ThresholdGrid,
-    threshold_grid_body,
-)
+from .threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
 
 
 @dataclass(frozen=True)

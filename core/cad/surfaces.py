@@ -16,13 +16,7 @@ from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 from ..nurbs.patch import Face, Patch
 from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
-from .findings import (
-    NO_SURFACE_KEPT,
-    SURFACE_DAMAGED,
-    SURFACE_ORDER,
-    SURFACE_POINTS,
-    SURFACE_TOO_LARGE,
-)
+from .findings import NO_SURFACE_KEPT, SURFACE_DAMAGED, SURFACE_ORDER, SURFACE_POINTS, SURFACE_TOO_LARGE
 
 MAX_ORDER = 6  # largest order of the surfaces that are kept
 MAX_POINTS = 1 << 18  # control points of one patch in Bézier form

@@ -48,14 +48,7 @@ from .findings import (
 )
 from .flat_face import FlatFace, split_faces
 from .patch import Face, Patch, patches_center, patches_size
-from .patch_moments import (
-    area_moments,
-    area_slope,
-    sheet_moments,
-    volume_moments,
-    with_area_error,
-    with_swept_error,
-)
+from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments, with_area_error, with_swept_error
 from .patch_topology import PatchTopology, find_topology
 
 SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # For comparing parts, and for parts that seem to cross.

@@ -17,10 +17,7 @@ from ..numerics.graph import connected_components
 from ..verdict.finding import finding
 from ..verdict.tolerances import NEGLIGIBLE
 from .boundary_loops import distinct_vertex_pairs
-from .findings import (
-    DUPLICATE_FACES_COUNTED,
-    DUPLICATE_FACES_IGNORED,
-)
+from .findings import DUPLICATE_FACES_COUNTED, DUPLICATE_FACES_IGNORED
 from .repaired_mesh import RepairedMesh, copy_with
 
 

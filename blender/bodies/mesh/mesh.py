@@ -10,9 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.instances import (
-    singular_instances_message,
-)
+from ....core.bodies.instances import singular_instances_message
 from ....core.bodies.mesh_body import MeshBody, triangle_count
 from ....core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
 from ....core.bodies.reading import Reading
@@ -29,13 +27,7 @@ from ....core.verdict.method import Method, Verdict
 from ...read.union import union_surface
 from ...read.visibility import shows_flat_region
 from ..density.varying_density import weigh
-from ..findings import (
-    DISPLAY_MESH_NEEDED,
-    OPEN_COMPONENTS_UNITED,
-    UNION_BY_BOOLEAN,
-    UNION_FAILED,
-    ZERO_SCALE,
-)
+from ..findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
 from ..request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})

@@ -35,11 +35,7 @@ from ...read.fingerprint import matrix_hash, settings_hash
 from ...read.reference import ReferenceChoice
 from ...settings.options import MeasureOptions
 from ...write.units import number
-from ..findings import (
-    INVARIANTS_ORDER,
-    MASS_MOMENTS_UNKNOWN,
-    MOMENTS_OF_AREA_ONLY,
-)
+from ..findings import INVARIANTS_ORDER, MASS_MOMENTS_UNKNOWN, MOMENTS_OF_AREA_ONLY
 from ..tracking import staleness, stamps, updates
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp

@@ -34,12 +34,7 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from ....core.measurement.settings import VERSION, digest
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
-from ...read.fingerprint import (
-    has_transform,
-    matrix_hash,
-    scale_hash,
-    settings_hash,
-)
+from ...read.fingerprint import has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
 from ...write import properties
 from . import handlers, stamps, updates
