@@ -19,8 +19,7 @@ from ...blender.write.thumbnail import thumbnail
 from ...core.bodies.array_file import ArrayOptions, measure_array
 from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
 from ...core.bodies.measure import measure_reading
-from ...core.bodies.mesh_file import body_of_mesh, read_mesh
-from ...core.bodies.stream import measure_mesh_file
+from ...core.bodies.mesh_file import body_of_mesh, measure_mesh_file, read_mesh
 from ...core.cad.meshes import read_meshes
 from ...core.cad.obj import has_surfaces
 from ...core.measurement import record

@@ -18,10 +18,10 @@ from .misread import SHORT, SHORT_OR_NAN, Data, Fault, find_number_fault, refuse
 BY_COUNT, BY_WORD = "where its number of triangles does", "with “endsolid”"  # words for the end of a file
 SOLID = re.compile(rb"(?<!\S)(?:end)?solid\b(?:(?!\s(?:vertex|facet)\s)[^\n])*+", re.IGNORECASE)
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?[ \t]*solid[^\n]*", re.IGNORECASE)
-_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
+_FACET_NORMAL, _CORNER = ((rb"(?:\s++" + number + rb"){3}") for number in (SHORT_OR_NAN, SHORT))
 _FACETS = re.compile(
     rb"(?:\s*+(?:%b(?!\S)|facet\s++normal%b\s++outer\s++loop(?:\s++vertex%b){3}\s++endloop\s++endfacet(?!\S)))*+\s*+"
-    % (SOLID.pattern, _NORMAL, _CORNER),
+    % (SOLID.pattern, _FACET_NORMAL, _CORNER),
     re.IGNORECASE,
 )
 _WORD = re.compile(rb"\S+")

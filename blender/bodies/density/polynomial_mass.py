@@ -19,8 +19,7 @@ from ....core.bodies.instances import group_by_similarity
 from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Reading, to_si
 from ....core.density.polynomial import Polynomial
-from ....core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
-from ....core.density.positivity import find_negative_point
+from ....core.density.polynomial_mass import find_negative_point, local_coordinates, polynomial_mass_of_images
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import translation_matrices
 from ....core.moments.moments import Moments

@@ -18,8 +18,13 @@ from ....core.bodies.findings import GRID_AS_SHELL, MASS_OVERFLOW
 from ....core.bodies.instances import area_of_instances, findings_by_part
 from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
 from ....core.bodies.reading import Reading, attribute_to_source, to_si
-from ....core.density.part_densities import PartDensities, part_densities
-from ....core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
+from ....core.density.piecewise_mass import (
+    PartDensities,
+    part_densities,
+    sheet_mass_moments,
+    solid_mass_moments,
+    to_mass_moments,
+)
 from ....core.measurement.builder import find_extent
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, distinct_linear_parts
