@@ -27,8 +27,7 @@ from ...core.verdict.method import Verdict
 from ..read.objects import read_object
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
-from ..settings.options import MeasureOptions
-from ..settings.resolve import object_settings
+from ..settings.options import MeasureOptions, object_settings
 from .findings import DISPLAY_MESH_NEEDED, FOURIER_APPROXIMATE, FOURIER_NO_EXTENT, FOURIER_OF_UNIFORM_DENSITY
 from .mesh.mesh import mesh_body
 

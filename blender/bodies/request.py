@@ -16,8 +16,7 @@ from ...core.verdict.finding import Finding
 from ..read.objects import read_object
 from ..settings.accepted import accepted_codes
 from ..settings.density import DensityField, density_field
-from ..settings.options import AS_SET, MeasureOptions
-from ..settings.resolve import object_settings
+from ..settings.options import AS_SET, MeasureOptions, object_settings
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from mathutils import Matrix
 
 from ...core.measurement.settings import Settings, digest
 from ..settings.density import density_key
-from ..settings.resolve import object_settings
+from ..settings.options import object_settings
 
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store

@@ -8,7 +8,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     BalanceGroup="balance_group",
     SimilarSearch="similar",
-    bill_rows="bill",
+    bill_csv="bill",
     check_stability="statics",
     lay_on_ground="statics",
     make_rigid_bodies="rigid_bodies",

@@ -7,19 +7,10 @@ from typing import TYPE_CHECKING
 from ...core.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from . import bill as bill
     from . import properties as properties
     from . import section as section
     from . import spectrum as spectrum
     from . import text_report as text_report
     from . import thumbnail as thumbnail
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    bill="bill",
-    properties="properties",
-    section="section",
-    spectrum="spectrum",
-    text_report="text_report",
-    thumbnail="thumbnail",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

@@ -23,9 +23,8 @@ from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
 from .finite import check_numbers
-from .import_3mf import import_3mf
 from .import_gltf import import_gltf
-from .import_mesh import import_mesh
+from .import_mesh import import_3mf, import_mesh
 from .import_surfaces import import_iges, import_obj
 from .import_usd import import_usd
 from .references import Opened

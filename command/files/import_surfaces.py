@@ -12,11 +12,11 @@ import re
 import bpy
 
 from ...blender.scene.surface_objects import show_bodies
-from ...blender.settings.limits import scan_limits
 from ...core.cad.findings import FACES_NOT_READ
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
+from ...core.scans.limits import scan_limits
 from ...core.verdict.finding import FileError, Finding, finding
 from .references import Opened
 

@@ -13,7 +13,7 @@ from ...blender.bodies.fourier import ObjectTransform, object_transform
 from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...core.verdict.finding import Finding
-from ..files.own_results import guard
+from ..files.output import guard
 
 
 def write(obj: bpy.types.Object, options: Namespace, measure_options: MeasureOptions) -> tuple[Finding, ...]:

@@ -29,9 +29,8 @@ from ...core.measurement.trust import open_body_caveats
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
 from ..files.files import newer_version, open_file, requested_file
-from ..files.references import Opened, missing_links
+from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place
-from ..files.scripts import blocked_scripts, scripts_of_open_file
 from ..files.suffixes import BLEND, file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, PART_UNAVAILABLE, RESULTS_NEED_BLEND, SOLID_OPERAND_MEASURED
 from ..options import density as density_options

@@ -26,12 +26,12 @@ from ...core.measurement.documents import failed_document
 from ...core.measurement.plain_text import PROGRAM, counted, print_message
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
-from ..files import output, own_results
+from ..files import output
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
 from ..options import needs_blender, targets
 from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers, run_of, version
-from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
+from ..options.option_types import FORMATS
 from ..parser import UsageError
 from ..supervisor import listing, processes
 from ..supervisor.journal import Journal, locked, state
@@ -122,11 +122,11 @@ class _Places:
             shutil.rmtree(self.work, ignore_errors=True)  # left behind by a run that was killed
             kept = [self.journal]
             if not options.resume:
-                is_older = target.is_file() and own_results.is_result(target)
+                is_older = target.is_file() and output.is_result(target)
                 self._replaced = [self.journal, *([target] if is_older else [])]
                 kept += map(_old, self._replaced)
             for path in kept:
-                if not (options.force or own_results.is_replaceable(path)):
+                if not (options.force or output.is_replaceable(path)):
                     fail("argument --output: {} is in the way, and no result. Move it, or use --force".format(path))
         except BlockingIOError:
             fail("argument --output: another run is writing {}. Use another name, or wait".format(target))
@@ -257,7 +257,7 @@ class _Supervised:
         options = self._options
         documents = _Documents(journal, self._paths)
         text = FORMATS[options.format](documents)
-        return output.write_result(text, options.output, channel, own_results.guard(options.force))
+        return output.write_result(text, options.output, channel, output.guard(options.force))
 
 
 @dataclass

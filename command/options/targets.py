@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from ...core.verdict.finding import system_reason
-from ..files import output, own_results
+from ..files import output
 from .arguments import TARGETS
 from .arguments import fail as fail_measure
 
@@ -45,6 +45,6 @@ def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:
         return "no file can be written in {}. Use another folder".format(folder)
     if target.exists() and any(os.path.exists(path) and target.samefile(path) for path in read):
         return "{} is a file that is read. Use another name".format(target)
-    if not (force or own_results.is_replaceable(target)):
+    if not (force or output.is_replaceable(target)):
         return "{} is not a result of body_moments and would be lost. Use another name, or --force".format(target)
     return ""

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measurement of a body with the frame and the name of its reading."""
+"""Measurement of a body with the frame and the name of its reading, which may be of a file without any object."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +14,8 @@ from ..measurement.body import Body
 from ..measurement.builder import measure_body
 from ..measurement.measurement import Measurement
 from ..measurement.settings import Settings, fingerprint
+from ..streams.findings import FILE_UNREADABLE
+from ..verdict.finding import MeasureError, ReadError, system_reason
 from .reading import Reading
 
 
@@ -33,3 +37,20 @@ def measure_reading(reading: Reading, body: Body, settings: Settings, transform:
         location=np.asarray(reading.location, np.float64) * settings.unit,
         fingerprint=fingerprint(geometry, transform, settings.digest),
     )
+
+
+def bare_reading(name: str, kind: str) -> Reading:
+    """Return the frame of a file: the world's origin and axes; `kind` is its type in the records."""
+    return Reading(name, kind, np.eye(4), np.eye(3), np.zeros(3))
+
+
+@contextmanager
+def about_file(name: str) -> Iterator[None]:
+    """Add the file's name to errors; errors of the system become a ReadError."""
+    try:
+        yield
+    except MeasureError as error:
+        error.about(name)
+        raise
+    except OSError as error:
+        raise ReadError(FILE_UNREADABLE, subject=name, error=system_reason(error)) from error

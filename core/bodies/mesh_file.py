@@ -26,9 +26,8 @@ from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.findings import SELF_INTERSECTION
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Verdict
-from .bare_file import about_file, bare_reading
 from .findings import MESH_STREAMED, NO_GEOMETRY, STREAMED_OPEN
-from .measure import measure_reading
+from .measure import about_file, bare_reading, measure_reading
 from .mesh_body import MeshBody
 from .polygons import sum_of_instances
 from .reading import Part, Reading

@@ -3,10 +3,10 @@
 """A body of patches that is measured again and again while its control points move.
 
 Orientation and caps are decided anew each time, as in `measure_patches`; only the moments come from tables
-(`IncrementalPatchMoments`). For rational patches the tables' rule is fixed and has no error estimate. Its error depends on the
-weights, so the rule is compared with measured moments: of the body, and of patches with its weights and random points,
-as a flat body says little about later shapes. If the weights change, or the body moves far from the reference point of
-its moments, everything is measured anew.
+(`IncrementalPatchMoments`). For rational patches the tables' rule is fixed and has no error estimate. Its error depends
+on the weights, so the rule is compared with measured moments: of the body, and of patches with its weights and random
+points, as a flat body says little about later shapes. If the weights change, or the body moves far from the reference
+point of its moments, everything is measured anew.
 """
 
 from __future__ import annotations

@@ -19,8 +19,7 @@ from ....core.measurement.builder import MAX_FACES_HIGH_ORDER
 from ....core.measurement.settings import Settings
 from ....core.verdict import internal_error
 from ...read.mesh import mesh_surface, plain_mesh
-from ...settings.options import AS_SET, MeasureOptions
-from ...settings.resolve import object_settings
+from ...settings.options import AS_SET, MeasureOptions, object_settings
 from ..measure_object import Measured, measure_body
 from .stack import MeshShape, Stacked, StackMember, measure_members
 

@@ -40,9 +40,8 @@ from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
 from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.objects import read_patches
-from ...settings.options import MeasureOptions
+from ...settings.options import MeasureOptions, object_settings
 from ...settings.preferences import preferences
-from ...settings.resolve import object_settings
 from ..tracking import handlers, updates
 from .following import Followed, LiveResult, followed
 from .moving_surface import MovingSurface
