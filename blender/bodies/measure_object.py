@@ -26,9 +26,8 @@ from . import nurbs, wire
 from .assembly.given import point_measurement, read_point, with_given
 from .flat import region
 from .grids import grid
-from .measurement import measurement_of
 from .mesh import mesh
-from .request import Request
+from .request import Request, measurement_of
 
 THREADS = os.cpu_count() or 1  # for long measurements
 KINDS = (grid, wire, region, mesh, nurbs)

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The body that B-spline patches bound, measured from their control points instead of their display mesh.
 
-Volumes are measured once for each surface and mapped to its places. Areas, and sheets of real thickness, do not follow
-a map that stretches unevenly: for each different map of this kind, the control points are mapped.
+Volumes map to all places of a surface; areas and sheets of real thickness are found anew for each uneven map.
 """
 
 from __future__ import annotations

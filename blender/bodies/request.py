@@ -5,16 +5,20 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import bpy
 
+from ...core.bodies.measure import measure_reading
 from ...core.bodies.reading import Reading
+from ...core.measurement.body import Body
+from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import Settings
 from ...core.verdict.finding import Finding
+from ..read.fingerprint import transform_key
 from ..read.objects import read_object
-from ..settings.accepted import accepted_codes
+from ..settings.accepted import accepted_codes, with_acceptance
 from ..settings.density import DensityField, density_field
 from ..settings.options import AS_SET, MeasureOptions, object_settings
 
@@ -84,3 +88,11 @@ class Request:
 
 def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
     return bpy.context.scene if depsgraph is None else depsgraph.scene
+
+
+def measurement_of(reading: Reading, body: Body, request: Request) -> Measurement:
+    """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments."""
+    transform = "" if request.obj is None else transform_key(request.obj)
+    measurement = measure_reading(reading, body, request.settings, transform)
+    accepted = request.accepted
+    return replace(measurement, findings=with_acceptance(measurement.findings, accepted)) if accepted else measurement

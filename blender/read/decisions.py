@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The findings about decisions in reading an object, and the reasons if there was nothing to read.
 
-Objects are read as the viewport shows them. If Blender's settings tell that the render would show another body, that is
-a finding; node trees that distinguish viewport and render are not detected.
+Objects are read as the viewport shows them; a finding says if Blender's settings would render another body.
 """
 
 from __future__ import annotations

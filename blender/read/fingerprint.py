@@ -2,15 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inputs of stored numbers, in a text short enough for a property: geometry, transform and settings.
 
-The geometry's part is a digest of the moments themselves: no two shapes that a person would distinguish share twenty
-moments to the last bit, and it costs nothing. Transform and settings can be digested without measuring, so a panel
-may compare them while it draws, without numpy.
+Geometry is digested as the moments themselves; transform and settings can be digested by panels, without numpy.
 """
 
 from __future__ import annotations
 
 import math
 import struct
+from dataclasses import replace
 
 import bpy
 from mathutils import Matrix
@@ -93,4 +92,5 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 
 def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
     """Return the current settings of the object, with the key of a varying density."""
-    return object_settings(obj, scene, varying=density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene))
+    materials = str(obj.get("body_materials", "")).splitlines()
+    return replace(object_settings(obj, scene), varying=density_key(obj, materials, scene))

@@ -2,14 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Everything that an object shows, flattened to surfaces times matrices: its own mesh and all instances under it.
 
-The instances of geometry nodes are two arrays, a transform and a reference for each
-(`GeometrySet.instances_pointcloud`), and a reference is an object, a collection or again a geometry
-set with a mesh and instances of its own. The walk carries all places of one thing at once as a (k,
-4, 4) array, so that ten thousand instances cost one matrix product, in float64 where Blender's own
-list has float32. It mirrors object_dupli.cc; the tests compare the two.
-
-Instancing on vertices and faces and by particles is left to Blender: `depsgraph.object_instances`,
-one by one.
+Instances of geometry nodes are two arrays, transforms and references (`GeometrySet.instances_pointcloud`). The walk
+carries all places of one thing as a (k, 4, 4) array in float64. It mirrors object_dupli.cc; the tests compare the two.
+Instancing on vertices and faces and by particles is left to Blender: `depsgraph.object_instances`, one by one.
 """
 
 from __future__ import annotations

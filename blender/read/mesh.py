@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Mesh and edit mesh to Surface, at the speed of copying arrays.
 
-Blender 4.5 stores a mesh as attributes, and `foreach_get` on an attribute's data is one memory copy
-as long as the buffer has the attribute's own type: float32 for positions, int32 for indices. The
-same numbers through `vertex_values`, `loops` and `loop_triangles` cost 10 to 100 times as much.
-
-The sizes of the faces come from the tessellation (a face of n corners has n - 2 triangles), whose
-`loop_triangle_polygons` is such an attribute too. Triangles and quads are then rows of the corners;
-only n-gons need the slow `loop_triangles`. Quads stay whole: core/mesh/surface.py cuts them as Blender does.
+`foreach_get` on an attribute is one memory copy if the buffer has the attribute's own type; the same numbers through
+`vertex_values`, `loops` and `loop_triangles` cost 10 to 100 times as much. The sizes of the faces follow from the
+attribute `loop_triangle_polygons`. Only n-gons need `loop_triangles`; core/mesh/surface.py cuts quads as Blender does.
 """
 
 from __future__ import annotations

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """An object as a Reading: its surfaces in the viewport, and a finding for each decision.
 
-Reading changes nothing: no mode, no selection, no mesh. An object that Blender has not evaluated is
-refused with the reason, never read without its modifiers (visibility.py). The object frame is
-`matrix_world.decompose()`.
+Reading changes nothing. An object that Blender has not evaluated is refused, never read without its modifiers.
 """
 
 from __future__ import annotations

@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skinned character: the meshes that an armature deforms, and the objects parented to bones.
-
-Panels and handlers ask for them, so numpy is not loaded.
-"""
+"""A skinned character: the meshes that an armature deforms, and the objects parented to bones. Loads no numpy."""
 
 from __future__ import annotations
 

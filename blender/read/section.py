@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inputs of a plane section: selected faces, an object's faces, or the outlines of 2-D curves and text.
 
-Curves and text are read by their outlines, not by their fill: Blender fills outlines that touch, coincide or cross
-wrongly and without a warning (4.5 and 5.2 alike: two squares side by side, one of them lower, lose the larger one). The
-outlines come from a copy of the curve without fill, which Blender turns into edges. Only a text on a curve is read by
-its fill.
+Blender fills outlines that touch, coincide or cross wrongly, without a warning, so edges of a copy without fill are
+read. Only a text on a curve is read by its fill.
 """
 
 from __future__ import annotations

@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Checks that an object can be read and that Blender has evaluated it.
 
-Blender does not evaluate objects that are disabled in viewports, excluded from the view layer or in another scene, and
-then returns the object without its modifiers and at its last place as if nothing were wrong. `evaluated_geometry()` is
-the one test: it refuses such an object, also if only the object's transform was evaluated for another object. Objects
-that are merely hidden (the eye), or evaluated because something shown needs them, are read rightly and reported.
+Blender returns an object that is disabled in viewports, excluded from the view layer or in another scene without its
+modifiers, as if nothing were wrong; `evaluated_geometry()` refuses it. Merely hidden objects are read and reported.
 """
 
 from __future__ import annotations

@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here.
-
-Panels of stored numbers are drawn without numpy; live numbers are computed by other modules.
-"""
+"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here. Loads no numpy."""
 
 from __future__ import annotations
 

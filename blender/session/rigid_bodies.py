@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rigid bodies as Blender's physics engine takes them to be, for one object or a thousand.
 
-Bullet takes an object's origin as its center of mass and its axes as principal axes; Blender's own Calculate Mass
-weighs the collision shape. So mass, origin and axes belong together.
+Bullet takes an object's origin as its center of mass and its axes as principal axes, so these belong together.
 """
 
 from __future__ import annotations

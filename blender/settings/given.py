@@ -1,21 +1,32 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The given center and inertia of a part with a given mass.
+"""Settings of masses and densities that objects, materials, assemblies and bones share; given centers and inertia.
 
-Objects and assemblies have the same settings for them, which count only if the mass is given.
+A given center and inertia count only if the mass is given.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from bpy.props import BoolProperty, FloatVectorProperty
+from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty
 from bpy.types import Object, PropertyGroup
 
 from ...core.measurement.documents import plain
 from ...core.numerics.float32 import shortest_decimal
-from .hooks import changed
+from .hooks import Hook, changed
 
 GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_diagonal", "given_inertia_products")
 Row = tuple[float, ...]
+
+
+def mass_property(description: str, update: Hook, name: str = "Mass") -> Any:
+    """Return a property of a given mass."""
+    return FloatProperty(name=name, description=description, default=1.0, min=0.0, step=10, precision=6, update=update)
+
+
+def density_property(description: str, update: Hook, **special: Any) -> Any:
+    """Return a property of a density in kg/m³; `special` arguments replace the usual ones."""
+    usual = {"name": "Density", "default": 1000.0, "min": 0.0, "soft_max": 25000.0, "step": 1000, "precision": 3}
+    return FloatProperty(description=description, update=update, **{**usual, **special})
 
 
 class GivenPartProperties:

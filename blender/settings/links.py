@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Links to the manual and to the reporting of a bug, for the preferences and the panel.
-
-They lead to the website that the manifest names; until it names one, to the manual that the build puts beside the
-add-on's code. A checkout has neither, and so no links.
-"""
+"""Links to the manual and to the reporting of a bug: on the manifest's website, else in the manual beside the code."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: initial settings of a scene.
+"""The add-on's preferences: initial settings of a scene, copied into it when it is first used (`copy_defaults`).
 
-They are copied into a scene when it is first used (`copy_defaults`), and from then on the scene decides: a file gives
-the same numbers on every machine, and in batch, which never reads preferences.
+So a file gives the same numbers on every machine, and in batch, which never reads preferences.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from bpy.types import AddonPreferences, Context, Scene
 
 from ...core.density.materials import BY_NAME, MATERIALS
 from ...core.numerics.float32 import shortest_decimal
+from .given import density_property
 from .hooks import default_density_changed
 from .links import draw_links
 
@@ -76,15 +76,11 @@ class SceneDefaults:
         default="NONE",
         update=default_density_changed,
     )
-    default_density: FloatProperty(
+    default_density: density_property(
+        "Density in kg/m³ of objects whose density has not been set",
+        default_density_changed,
         name="Default Density",
-        description="Density in kg/m³ of objects whose density has not been set",
-        default=1000.0,
         min=0.01,
-        soft_max=25000.0,
-        step=1000,
-        precision=3,
-        update=default_density_changed,
     )
 
 

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A report that a person reads, in the order of CAD dialogs: verdict, mass, volume, center, principal axes, tensor.
 
-It is made from a document (`documents.document`) alone, and results stored on objects become a document first, so
-that the report can state everything that JSON states. Entries missing in a document are left out.
+It is made from a document (`documents.document`); results stored on objects become a document first.
 """
 
 from __future__ import annotations

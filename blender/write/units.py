@@ -1,11 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""SI numbers in the scene's units, with their units.
+"""SI numbers in the scene's units, with their units, digits and grouping.
 
-Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". So all
-quantities are formatted here, from the scene's system, length unit and mass unit, and from its number format: how many
-significant digits, how they are grouped, in which unit densities are. Areas, volumes and inertias follow the two chosen
-units; an adaptive unit is chosen for each column of numbers, which share it and their decimals.
+Blender's own formatter has no density and no inertia, and shows a microgram as "0 kg". Areas, volumes and inertias
+follow the scene's length and mass unit; the numbers of a column share an adaptive unit and their decimals.
 """
 
 from __future__ import annotations

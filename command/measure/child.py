@@ -17,8 +17,7 @@ from ...core.scans.limits import scan_limits
 from ...core.scans.nrrd import data_file, read_header
 from ...core.streams.misread import map_file
 from ...core.verdict.finding import MeasureError
-from ..files.finite import Buffers, unquote
-from ..files.finite.numbers import MALFORMED
+from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress
 from ..options.arguments import parse
 from ..options.checks import prepare

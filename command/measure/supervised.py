@@ -28,7 +28,7 @@ from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
 from ..files import output
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
-from ..options import needs_blender, targets
+from ..options import needs_blender
 from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers, run_of, version
 from ..options.measure_parser import DEFAULT_TIMEOUT
 from ..options.option_types import FORMATS
@@ -50,7 +50,7 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
     if options.blender is None:
         needs_blender.check(options, paths)
     command = processes.run_command(_blender(options), ["child"])
-    targets.check_targets(options, files_of_options(options, paths, opened))
+    output.check_targets(options, files_of_options(options, paths, opened))
     with ExitStack() as ends:
         places = _Places(options, ends)
         run = _Supervised(options, paths, command, places)

@@ -15,7 +15,7 @@ from ..mesh.surface import Surface
 from ..moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
 from ..moments.images import sum_of_images
 from ..moments.moments import Moments
-from ..polyhedron.sheared_areas import area_of_images
+from ..polyhedron.integration import area_of_images
 from ..solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
 from ..solid.instance_overlaps import PlaceComparison
 from ..solid.solid_verdict import SolidIntegrals

@@ -20,8 +20,7 @@ from ..moments.moments import Moments
 from ..solid.findings import INVERTED_COMPONENTS
 from ..streams.boxes import box_of_blocks
 from ..streams.file_mesh import FileMesh
-from ..streams.measure import StreamIntegrals, measure_stream
-from ..streams.mesh_file import MeshFile, open_mesh_file
+from ..streams.measure import MeshFile, StreamIntegrals, measure_stream, open_mesh_file
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.findings import SELF_INTERSECTION
 from ..verdict.health import MeshHealth

@@ -20,7 +20,6 @@ import numpy as np
 from ..mesh.surface import Surface
 from ..verdict.method import Verdict
 from .closedness import CheckedSurface, GivenIntegrals, check_surface, integrate_and_prove
-from .duplicate_faces import copied_faces, drop_duplicate_faces, without_faces
 from .hole_caps import (
     cap_holes,
     close_gaps,
@@ -35,7 +34,15 @@ from .repaired_mesh import UNKNOWN, RepairedMesh, copy_with
 from .self_intersection import find_self_intersection
 from .solid_stack import SolidStack
 from .solid_verdict import SolidIntegrals, judge
-from .weld_open_parts import drop_collapsed_triangles, split_into_triangles, weld_equal_positions, weld_near_positions
+from .weld_open_parts import (
+    copied_faces,
+    drop_collapsed_triangles,
+    drop_duplicate_faces,
+    split_into_triangles,
+    weld_equal_positions,
+    weld_near_positions,
+    without_faces,
+)
 
 MAX_WELDED_SHARE = 0.1  # Share of the volume: a weld that may change more closes no gap left by rounding.
 STEPS: tuple[Callable[[RepairedMesh, float], RepairedMesh], ...] = (

@@ -20,15 +20,47 @@ from __future__ import annotations
 
 import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache
+from importlib import import_module
 from typing import Any
 
-from .catalog import declared
-from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
+from .finding import MAX_STORED_ELEMENTS, Code, Elements, Finding, Severity, truncate
 from .findings import AND_MORE
 from .method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
 ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its value `accepted`
+ROOT = __name__.removesuffix(".core.verdict.sentences")
+# The packages that declare findings, each in a module `findings` that imports `core.verdict` alone.
+PACKAGES = (
+    "blender.bodies",
+    "blender.read",
+    "blender.scene",
+    "blender.session",
+    "blender.settings",
+    "blender.write",
+    "command",
+    "core.bodies",
+    "core.cad",
+    "core.density",
+    "core.flat",
+    "core.fourier",
+    "core.inertia",
+    "core.measurement",
+    "core.mesh",
+    "core.moments",
+    "core.nurbs",
+    "core.polyhedron",
+    "core.robots",
+    "core.scans",
+    "core.shape",
+    "core.solid",
+    "core.statics",
+    "core.streams",
+    "core.verdict",
+    "core.wall",
+    "operators",
+)
 
 
 def _item(item: Any, translate: Callable[[str], str]) -> str:
@@ -169,3 +201,16 @@ SIMILARITY = {
     "similar": "similar",
     "different": "different",
 }
+
+
+@cache
+def declared(code: str) -> Code:
+    """Return the declaration of a code. KeyError if no package declares it: it may be of another version."""
+    if isinstance(code, Code):
+        return code
+    for package in PACKAGES:
+        module = import_module(".".join((ROOT, package, "findings")))
+        value = getattr(module, str(code).upper(), None)
+        if isinstance(value, Code):
+            return value
+    raise KeyError(code)

@@ -152,7 +152,8 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
     if isinstance(data, bpy.types.Object):
         at = locate(data, depsgraph)
         rotation, location, place = at.rotation, at.location * unit, matrix_hash(data)
-    measured = [part.measurement for part in whole.walk() if part.measurement is not None]
+    measured = [(part.member.data, part.measurement) for part in whole.walk() if part.measurement is not None]
+    fingerprints = {obj: measurement.fingerprint for obj, measurement in measured}
     given = settings_of(data).mass_from == "MASS"
     return measure_total(
         mass,
@@ -163,12 +164,10 @@ def assembly_measurement(whole: MemberBody, depsgraph: Depsgraph, unit: float) -
         area=whole.area,
         rotation=rotation,
         location=location,
-        fingerprint=fingerprint(
-            members_key(whole.member, _fingerprints(whole)).encode(), place, structure_hash(whole.member)
-        ),
+        fingerprint=fingerprint(members_key(whole.member, fingerprints).encode(), place, structure_hash(whole.member)),
         findings=tuple(findings_of(whole, depsgraph.scene)),
         density_from=DENSITY_FROM_MASS if given else finding(DENSITY_FROM_MEMBERS),
-        health=merge_health((measurement.health, 1, measurement.area) for measurement in measured)
+        health=merge_health((measurement.health, 1, measurement.area) for _, measurement in measured)
         if measured
         else None,
     )
@@ -188,7 +187,11 @@ def findings_of(whole: MemberBody, scene: bpy.types.Scene) -> Iterator[Finding]:
     for code, names in left_out.items():
         yield finding(code, count=len(names), names=names)
     objects = [(part.member, part.measurement) for part in members if part.measurement is not None]
-    hidden = [member.name for member, measured in objects if _has_code(measured.findings, HIDDEN_OBJECT_MEASURED)]
+    hidden = [
+        member.name
+        for member, measured in objects
+        if any(each.code == HIDDEN_OBJECT_MEASURED for each in measured.findings)
+    ]
     if hidden:
         yield finding(MEMBERS_HIDDEN, count=len(hidden), names=hidden)
     unset = [member.name for member, measured in objects if unset_density(member.data, measured, scene) is not None]
@@ -204,14 +207,6 @@ _LEFT_OUT: dict[str, str] = {
     BOOLEAN_OPERAND: MEMBERS_LEFT_OUT,
     NOT_RENDERED: MEMBERS_LEFT_OUT,
 }
-
-
-def _has_code(findings: Iterable[Finding], code: str) -> bool:
-    return any(each.code == code for each in findings)
-
-
-def _fingerprints(whole: MemberBody) -> dict[Object, str]:
-    return {part.member.data: part.measurement.fingerprint for part in whole.walk() if part.measurement is not None}
 
 
 def _object_body(member: Member, result: Measured | Stacked | Finding) -> MemberBody:

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Parts with a given mass: their given center and inertia, and point masses, which have no geometry.
 
-Given values replace the mass moments of a body: the mass, zero first moments about the given center, and the second
-moments of the given tensor. Volume and area stay as measured.
+Given values replace a body's mass moments: mass, center and second moments. Volume and area stay as measured.
 """
 
 from __future__ import annotations

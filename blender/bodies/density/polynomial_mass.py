@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mass moments of a body whose density is a polynomial, and a check that no density in the body is negative.
-
-The density's coordinates are meters along the world's axes, or along each surface's own: then the density follows the
-object and each instance, including turns and mirroring.
-"""
+"""The mass moments of a body whose density is a polynomial, and a check that no density in the body is negative."""
 
 from __future__ import annotations
 

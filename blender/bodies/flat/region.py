@@ -16,7 +16,7 @@ from ....core.measurement.body import Body
 from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.nurbs.curve import Curve
 from ....core.nurbs.curve_moments import length_moments, plane_moments
-from ....core.nurbs.planar_regions import planar_region
+from ....core.nurbs.flat_face import planar_region
 from ....core.verdict.finding import MeasureError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict

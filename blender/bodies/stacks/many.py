@@ -1,11 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Many objects at once: solids that show one mesh each are measured as stacks, all others one by one.
+"""Many objects at once: solids that show one mesh each are measured as stacks, all others by `measure_body`.
 
-Both ways give the same numbers.
-
-An object joins no stack if it shows more than one mesh in one place, is no solid, is large, or has a varying density:
-`measure_body` measures it. Objects that a stack refuses go to `measure_body`, too, which finds the reason.
+Both ways give the same numbers. Large solids and varying densities join no stack.
 """
 
 from __future__ import annotations

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The measurements of many objects, each a solid of one shape in one place, computed together.
 
-A shape is a mesh in its own coordinates, however many objects show it. Small shapes that are closed or can be capped
-are measured together, all others are repaired and measured alone. An object is a shape, a place and a density or mass.
+Small shapes that are closed or can be capped are measured together, all others are repaired and measured alone.
 """
 
 from __future__ import annotations
@@ -28,7 +27,7 @@ from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, join_moments
 from ....core.numerics.rotations import rotation_matrix
 from ....core.polyhedron import polyhedron_moments
-from ....core.polyhedron.sheared_areas import area_of_images
+from ....core.polyhedron.integration import area_of_images
 from ....core.solid.measure import SolidIntegrals, measure_left_over, measure_solid
 from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, measure_stack, small_moments_to_order
 from ....core.verdict.finding import Finding

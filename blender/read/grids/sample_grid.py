@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grid of a volume, read by the node Sample Grid if Blender has no openvdb module.
 
-A mesh has a vertex at the center of each voxel, and a node tree stores the value of the nearest voxel at each vertex:
-the same values to the bit. Mesh, tree and the scene that evaluates them exist for this reading only, so that nothing in
-the user's scene is changed or evaluated anew. The extent is Blender's bounding box; empty space is not known before it
-is sampled.
+A node tree stores the value of the nearest voxel at the vertices of a mesh, in a scene made for this reading only, so
+that nothing in the user's scene is changed or evaluated anew.
 """
 
 from __future__ import annotations

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grid of a volume, read by Blender's openvdb module in blocks, without the empty space.
 
-An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side. The depth of a value shows whether its node of 128 exists at
-all, so the empty rest of a sparse grid costs nothing.
+An OpenVDB tree has nodes of 4096, 128 and 8 voxels a side; the depth of a value shows if its node of 128 exists.
 """
 
 from __future__ import annotations

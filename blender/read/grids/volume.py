@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The grid of voxels that an object shows: a Volume object, or an object that nodes turn into a volume.
 
-Blender gives voxels only as a file or through nodes. With its openvdb module, grids that Blender has read from a .vdb
-file and not changed are read from that file; other grids are written to Blender's temporary folder for as long as the
-reading lasts. Without the module, all grids are sampled by nodes.
+With Blender's openvdb module, unchanged grids are read from their .vdb file and others from a temporary one; without
+it, all grids are sampled by nodes.
 """
 
 from __future__ import annotations

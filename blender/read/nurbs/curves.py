@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a curve object as B-spline curves: Bézier, NURBS, Catmull-Rom and straight splines.
 
-Blender's geometry set has the curves that are shown without a surface, after modifiers and shape keys. For beveled
-curves it has the mesh alone, so that they are read from the splines.
+Blender gives evaluated curves without a surface; of beveled curves it gives the mesh, so that the splines are read.
 """
 
 from __future__ import annotations

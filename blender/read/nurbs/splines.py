@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The splines of a surface object as patches, checked against the mesh that Blender displays.
 
-The patches that are read may differ from the displayed ones if shape keys and hooks move control points, or if a spline
-has knots that Blender's interface does not show (as from its OBJ importer). So the patches are evaluated at the
-parameters of the display mesh's vertices and compared with them. If they differ, the control points are recovered from
-these vertices, a linear problem in each direction; if a difference remains, the display mesh is measured.
-
-The splines of an object that was read from a file for a measurement are a picture of the faces of the file, which
-`keep_faces` keeps beside it.
+Shape keys, hooks, and knots that Blender's interface does not show can make patches differ from this mesh. Then control
+points are recovered from its vertices, a linear problem in each direction; if a difference remains, the mesh is
+measured. Splines of an object read from a file are a picture of the file's faces, which `keep_faces` keeps.
 """
 
 from __future__ import annotations

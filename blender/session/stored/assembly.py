@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The stored results of an assembly.
-
-Results are stored on the assembly, on the assemblies in it, and on the measured objects; the rows of its tree are kept
-with its settings.
-"""
+"""The stored results of an assembly: on it, on all assemblies in it, on measured objects; its tree."""
 
 from __future__ import annotations
 

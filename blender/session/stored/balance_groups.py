@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balance groups: objects whose center of mass was followed over frames, as keys of an empty.
 
-The path is drawn from the empty's keys, so that it is the same when the file is opened again. The support polygons are
-remembered while the file is open.
+The path is drawn from these keys. The support polygons are remembered while the file is open.
 """
 
 from __future__ import annotations

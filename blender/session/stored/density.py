@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Density as a multiplication: if it is one number, stored results follow it at once, without being measured again.
 
-The stamp of the stored results shows that nothing but density or mass is different: its digest is that of the current
-settings with the stored density, or the stored mass, in place of the given one. So nothing has to be remembered, undo
-restores settings and results together, and an animated or driven setting, for which Blender calls no update function,
-leaves the results out of date.
+The stamp must be that of the present settings with the stored density or mass. So nothing has to be remembered, undo
+restores both together, and an animated setting leaves the results out of date.
 """
 
 from __future__ import annotations

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Moments to a chosen order, kept in memory, and their display in a panel and on the clipboard.
 
-Nothing is written to the object: a thousand numbers would burden the file, and no undo step is needed. The last few
-objects' moments are kept while the file is open; their keys show when they are out of date.
+The last few objects' moments are kept while the file is open; their keys show when they are out of date.
 """
 
 from __future__ import annotations

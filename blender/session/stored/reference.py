@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inertia about the reference that the scene has chosen, from stored results: shown, and stored on request.
-
-The stored inertia remembers its reference, and follows when its owner is measured again.
-"""
+"""Inertia about the scene's reference, from stored results; a stored one follows when its owner is measured again."""
 
 from __future__ import annotations
 

@@ -11,15 +11,12 @@ from typing import Any
 
 from bpy.types import Object, Scene
 
-from ....core.bodies.threshold import ThresholdGridBody
-from ....core.bodies.wall import WallBody
-from ....core.numerics.float32 import shortest_decimal
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
 from ...settings.density import is_density_unset
 from ...write import properties
 from ..tracking import staleness
-from . import density, faults, reference, threshold, walls
+from . import density, faults, reference, sliders
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
@@ -30,10 +27,7 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
     properties.store(obj, measured.measurement)
     faults.remember(obj, measured)
     reference.follow(obj, scene, about)
-    if isinstance(measured.body, WallBody):
-        walls.cache_walls(obj, measured, shortest_decimal(scene.unit_settings.scale_length))
-    elif isinstance(measured.body, ThresholdGridBody):
-        threshold.cache_grid(obj, measured, shortest_decimal(scene.unit_settings.scale_length))
+    sliders.remember(obj, measured, scene)
 
 
 def store_many(

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Stability of objects: their convex hulls are remembered, so that the support polygon follows every move.
 
-A hull is computed when stability is asked for, and holds until the geometry changes. Its support and poses are computed
-again after changes of the hull, of the center of mass, or of the object's place.
+A hull is computed on request, and holds until the geometry changes; support and poses follow its place and center.
 """
 
 from __future__ import annotations

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Armatures and their meshes: meshes of posed armatures, and edits of measured characters.
 
-In Pose Mode an armature stands for the meshes that it deforms: they are posed, but not selected. A skinned mesh is
-evaluated anew whenever its armature moves, which changes nothing: the rest pose is measured. So an edit is noted if
-Blender reports a new shape of a mesh and nothing new of its armature.
+A skinned mesh is evaluated anew whenever its armature moves, but the rest pose is measured: an edit is a new shape of a
+mesh without an update of its armature.
 """
 
 from __future__ import annotations

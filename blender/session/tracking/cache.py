@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Data about objects while a file is open: in memory only, by session uid, gone with the file.
+"""Data about objects while a file is open: in memory only, by session uid, which survives renaming, undo and redo.
 
-Blender gives every data-block a uid that stays the same through renaming, undo and redo, and that no later data-block
-gets. All caches are emptied together, by `handlers`, when a file is loaded and when the add-on is unregistered.
+`handlers` empties all caches together when a file is loaded and when the add-on is unregistered.
 """
 
 from __future__ import annotations

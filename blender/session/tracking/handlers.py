@@ -1,10 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's reports while a file is open, heard once, and passed on to all of the session.
+"""Blender's reports while a file is open, heard once, and passed on to the functions in the lists below.
 
-These are the add-on's application handlers, except that of `blender/write/translations.py`. A subscriber appends a
-plain function to one of the lists below (`subscriptions`). A subscriber never writes data while Blender evaluates: that
-would be reported as the next change. Only before a file is saved may it write, and the written data are saved.
+A subscriber never writes data while Blender evaluates, which would be the next change; before a file is saved it may.
 """
 
 from __future__ import annotations

@@ -1,25 +1,17 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Staleness of stored numbers.
+"""Staleness of stored numbers: transform and settings are compared by the digests in stamps; edits are noted.
 
-Transform and settings are compared, by the digests in the stamps of stored data (`stamps`).
-
-Edits of the geometry are noted, as a digest of the geometry would need a measurement. A note is a stamp that the object
-carried when Blender evaluated its geometry anew, in memory only. When a file is saved, the notes become part of the
-stamps (`stamps.write_edited`), because opening the file again reports no updates.
+A note is a stamp that the object carried when Blender evaluated its geometry anew. When a file is saved, the notes
+become part of the stamps (`stamps.write_edited`), because opening the file again reports no updates.
 
 Not every update is an edit: Blender also evaluates an object that is copied, shown again or gets a material slot. So
-the surfaces of small meshes are kept as digests when their numbers are stored, and a note is made, or taken back, by
-comparing the current surface. For all other objects every update is an edit, except
+the surfaces of small meshes are kept as digests, which are compared. For all other objects every update is an edit,
+except that of a setting and the one after undo, which restores numbers and shape together (in Edit Mode and Sculpt Mode
+the shape alone). Notes are kept, because undo may restore the numbers before the edit, too.
 
-- the update of a setting, which Blender reports as one of the geometry;
-- the update that follows undo, which restores numbers and shape together. An edit that undo restores was noted when it
-  was made, and notes are kept, because undo may restore the numbers before it, too. In Edit Mode and Sculpt Mode undo
-  restores the shape alone, and its update is an edit.
-
-A handler only writes down the updated objects, because a frame of an animation may have thousands. Their effects are
-noted on request (`note_edits`), and at the latest before results are replaced, before undo, and before the file is
-saved.
+A handler only writes down the updated objects; their effects are noted on request (`note_edits`), and at the latest
+before results are replaced, before undo, and before the file is saved.
 """
 
 from __future__ import annotations

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Updates: data-blocks that Blender has evaluated anew, written down with the number of their last update.
 
-A frame of an animation may have thousands of updates, of which a panel shows one, so the handler does nothing but
-write down session uids. An update of an object's geometry may be an edit, but not if it follows a changed setting or
-undo.
+An update of an object's geometry may be an edit, but not if it follows a changed setting or undo.
 """
 
 from __future__ import annotations
