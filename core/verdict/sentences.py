@@ -20,47 +20,17 @@ from __future__ import annotations
 
 import string
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
-from importlib import import_module
+from dataclasses import dataclass, replace
 from typing import Any
 
-from .finding import MAX_STORED_ELEMENTS, Code, Elements, Finding, Severity, truncate
+from .catalog import declared
+from .finding import MAX_STORED_ELEMENTS, Elements, Finding, Severity, truncate
 from .findings import AND_MORE
 from .method import Method, Verdict
 
 MAX_LISTED = MAX_STORED_ELEMENTS
 ACCEPTED = "Accepted: {}"  # before a finding that a user has judged, by its value `accepted`
-ROOT = __name__.removesuffix(".core.verdict.sentences")
-# The packages that declare findings, each in a module `findings` that imports `core.verdict` alone.
-PACKAGES = (
-    "blender.bodies",
-    "blender.read",
-    "blender.scene",
-    "blender.session",
-    "blender.settings",
-    "blender.write",
-    "command",
-    "core.bodies",
-    "core.cad",
-    "core.density",
-    "core.flat",
-    "core.fourier",
-    "core.inertia",
-    "core.measurement",
-    "core.mesh",
-    "core.moments",
-    "core.nurbs",
-    "core.polyhedron",
-    "core.robots",
-    "core.scans",
-    "core.shape",
-    "core.solid",
-    "core.statics",
-    "core.streams",
-    "core.verdict",
-    "core.wall",
-    "operators",
-)
+JOINED = (("count", sum), ("share", max))  # values of several findings in one
 
 
 def _item(item: Any, translate: Callable[[str], str]) -> str:
@@ -203,14 +173,28 @@ SIMILARITY = {
 }
 
 
-@cache
-def declared(code: str) -> Code:
-    """Return the declaration of a code. KeyError if no package declares it: it may be of another version."""
-    if isinstance(code, Code):
-        return code
-    for package in PACKAGES:
-        module = import_module(".".join((ROOT, package, "findings")))
-        value = getattr(module, str(code).upper(), None)
-        if isinstance(value, Code):
-            return value
-    raise KeyError(code)
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Findings with one code, of one or several objects.
+
+    finding: the first one, with the sum of all counts and the largest share. objects: full names.
+    """
+
+    finding: Finding
+    objects: tuple[str, ...] = ()
+
+
+def grouped(findings: Iterable[tuple[str, Finding]]) -> list[Group]:
+    """Return groups of the findings of objects, given with their full names; the most severe first."""
+    together: dict[tuple[Severity, str], list[tuple[str, Finding]]] = {}
+    for name, found in findings:
+        together.setdefault((severity(found), found.code), []).append((name, found))
+    groups = []
+    for members in together.values():
+        values = dict(members[0][1].values)
+        for key, join in JOINED if len(members) > 1 else ():
+            numbers = [found.values[key] for _, found in members if found.values.get(key) is not None]
+            values |= {key: join(numbers)} if numbers else {}
+        names = dict.fromkeys(name for name, _ in members)
+        groups.append(Group(replace(members[0][1], values=values), tuple(filter(None, names))))
+    return sorted(groups, key=lambda group: -tuple(Severity).index(severity(group.finding)))

@@ -7,13 +7,13 @@ from contextlib import contextmanager
 from importlib import import_module
 
 import pytest
-from body_moments.core.verdict import sentences
+from body_moments.core.verdict import catalog
 from body_moments.core.verdict.finding import Code, Finding, MeasureError
 
 
 def declarations() -> dict[str, Code]:
     """Return every declared code by its name."""
-    modules = [import_module(".".join((sentences.ROOT, package, "findings"))) for package in sentences.PACKAGES]
+    modules = [import_module(".".join((catalog.ROOT, package, "findings"))) for package in catalog.PACKAGES]
     return {code: code for module in modules for code in vars(module).values() if isinstance(code, Code)}
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body_moments.core.verdict import sentences
+from body_moments.core.verdict import catalog
 from body_moments.core.verdict.finding import (
     Finding,
     MeasureError,
@@ -124,7 +124,7 @@ FILLED_IN_LATER = {"axes_made_principal": {"count"}, "origins_moved": {"count"}}
 
 def test_declarations_need_no_numpy_and_stand_in_the_catalog():
     found = {path.parent.relative_to(ROOT).as_posix().replace("/", ".") for path in ROOT.glob("*/**/findings.py")}
-    assert {place for place in found if not place.startswith("tests")} == set(sentences.PACKAGES)
+    assert {place for place in found if not place.startswith("tests")} == set(catalog.PACKAGES)
     code = (
         "import importlib, importlib.util, sys\n"
         "spec = importlib.util.spec_from_file_location('body_moments', sys.argv[1] + '/__init__.py', "
@@ -135,7 +135,7 @@ def test_declarations_need_no_numpy_and_stand_in_the_catalog():
         "    importlib.import_module('body_moments.' + package + '.findings')\n"
         "assert not {'numpy', 'bpy'} & set(sys.modules)\n"
     )
-    subprocess.run([sys.executable, "-P", "-c", code, str(ROOT), *sentences.PACKAGES], check=True, timeout=480)
+    subprocess.run([sys.executable, "-P", "-c", code, str(ROOT), *catalog.PACKAGES], check=True, timeout=480)
 
 
 def test_every_placeholder_of_a_sentence_is_given():
