@@ -320,7 +320,7 @@ class _Measuring:
 
 
 def _area(sheet: Surface, metric: NDArray[np.float64], order: int) -> Moments:
-    """Return the area's moments of a sheet in its place."""
+    """Return the area moments of a sheet mapped to its place in the world."""
     if are_similarities(metric[None, :3, :3])[0]:
         area = polyhedron_moments(sheet, 0, area_order=order, allow_open=True)[1]
         return area.transform(metric)

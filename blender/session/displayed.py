@@ -136,7 +136,7 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
 
 
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
-    """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
+    """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers before it moved."""
     if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose

@@ -221,7 +221,7 @@ class Scene:
             yield finding(DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³")
 
     def _open(self, path: str | None, file: str | None) -> Opened:
-        """Open `path`, if given, and return what was found. FileError if there is none and `file` is not loaded."""
+        """Open `path`, if given, and return the findings. FileError if no path is given and `file` is not loaded."""
         if path is not None:
             unresolved = open_file(path)
             self.has_opened = True

@@ -87,7 +87,7 @@ def instances_overlap(reading: Reading) -> bool:
 
 
 def instances_size(reading: Reading) -> float:
-    """Return the diagonal of the box around all places, in Blender units."""
+    """Return the diagonal of the box around all instances, in Blender units."""
     centers, extents = _boxes(reading)
     return float(np.linalg.norm((centers + extents).max(axis=0) - (centers - extents).min(axis=0)))
 

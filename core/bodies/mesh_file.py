@@ -68,7 +68,7 @@ class StreamHealth(MeshHealth):
 
 @dataclass(frozen=True, eq=False)
 class StreamBody(Body):
-    """A body bounded by the faces of a file, or their sheet; `unit` is in meters per unit of the file."""
+    """The solid or the sheet of the faces in a file; unit: meters per unit of the file."""
 
     any_order: ClassVar[bool] = True
 

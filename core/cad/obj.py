@@ -243,7 +243,7 @@ def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], NDA
 
 
 def _split(points: NDArray, corners: NDArray, sides: NDArray, starts: list[tuple[int, int, str]]) -> list[FileMesh]:
-    """Return a mesh of each object. starts: the first face and the first vertex of each object, and its name."""
+    """Return one mesh for each object. starts: the first face and the first vertex of each object, and its name."""
     ends = np.append(0, np.cumsum(sides))
     meshes = []
     for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):

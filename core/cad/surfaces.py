@@ -101,7 +101,7 @@ class Refusals:
     def file(
         self, bodies: Sequence[SurfaceBody], unit: float | None = None, notes: Sequence[Finding] = ()
     ) -> SurfaceFile:
-        """Return a SurfaceFile of the bodies with patches, and the refusals. FileError if no body has any."""
+        """Return the file's bodies with patches, and its refusals. FileError if no body has patches."""
         refused, kept = self.findings(), tuple(body for body in bodies if body.patches)
         if not kept and refused:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]

@@ -345,7 +345,7 @@ def _sampled(face: Face, each: int) -> tuple[NDArray, NDArray[np.intp], float]:
 
 
 def _sagitta(grid: NDArray, each: int) -> float:
-    """Return how far a surface may be from the chords of its samples along the first axis, ignoring bends at knots."""
+    """Return the largest distance of a surface from the chords of its samples along the first axis, bends ignored."""
     bend = np.linalg.norm(np.diff(grid, 2, axis=0), axis=2) / 8.0
     bend[each - 1 :: each] = 0.0
     return float(bend.max())

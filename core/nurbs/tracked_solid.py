@@ -88,7 +88,7 @@ class TrackedSolid:
         return True
 
     def _assess(self, patches: Sequence[Patch], topology: PatchTopology, stored: float) -> PatchIntegrals:
-        """Return the measurement that the stored fluxes give, with the decisions of `measure_patches`."""
+        """Return the measurement of the present fluxes of all patches, with the decisions of `measure_patches`."""
         about = self.measure.volume.about
         total = sum(evaluator.area for evaluator in self._evaluators)
         area = Moments(np.array([total]), about, Measure.AREA, self._area_error * total)

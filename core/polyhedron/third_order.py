@@ -117,7 +117,7 @@ def integrate(
 
 
 def nothing(order: int, about: NDArray | None) -> tuple[Moments, Moments]:
-    """Return the volume and the area of no faces."""
+    """Return zero moments of the volume and the area, for a surface without faces."""
     zeros, about = np.zeros(monomial_count(order)), np.zeros(3) if about is None else about
     return Moments(zeros, about, Measure.VOLUME), Moments(zeros, about, Measure.AREA)
 

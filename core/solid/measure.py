@@ -125,7 +125,7 @@ def _measure_repaired(
 
 
 def _judge(checked: CheckedSurface, given: GivenIntegrals, oriented: OrientedSolid, shell: bool) -> SolidIntegrals:
-    """Judge the body. A shell is not searched for self-intersections, and all its copies of faces are reported."""
+    """Return the judged body. A shell is not searched for self-intersections; its copies of faces are reported."""
     if not shell:
         return judge(checked, given, oriented, find_self_intersection(checked, given, oriented))
     solid = judge(checked, given, oriented, None)

@@ -60,7 +60,7 @@ class RegionBody(Body):
 
 
 def read(request: Request) -> RegionReading | None:
-    """Return the region that curves bound; None if it is no thin shell of one density, or only Blender can fill it."""
+    """Return the flat region that a curve object bounds as a thin shell of one density, or None for other objects."""
     obj, options = request.obj, request.settings
     if obj.type != "CURVE" or options.wall != "thin":
         return None

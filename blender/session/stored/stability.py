@@ -91,7 +91,7 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
 
 
 def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
-    """Return the tolerance of contacts, relative to the extent; the body may exceed its simplified hull by the gap."""
+    """Return the height, relative to the extent, up to which points touch the ground; it exceeds the hull's gap."""
     gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
     return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
 
