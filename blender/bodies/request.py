@@ -10,8 +10,7 @@ from functools import cached_property
 
 import bpy
 
-from ...core.bodies.measure import measure_reading
-from ...core.bodies.reading import Reading
+from ...core.bodies.reading import Reading, measure_reading
 from ...core.measurement.body import Body
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import Settings

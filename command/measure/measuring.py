@@ -25,8 +25,7 @@ from ...blender.write.thumbnail import thumbnail
 from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
 from ...core.measurement.flat_record import flat_record
 from ...core.measurement.measurement import Measurement
-from ...core.moments.complex_form import flusser_invariants, hu_invariants
-from ...core.moments.normalized import normalize
+from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, finding
 from ...core.verdict.method import Source

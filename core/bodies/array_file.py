@@ -30,7 +30,7 @@ from .findings import (
     GRID_TOO_LARGE,
     SAMPLES_POSITIONED,
 )
-from .measure import about_file, bare_reading, measure_reading
+from .reading import about_file, bare_reading, measure_reading
 from .threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
 
 

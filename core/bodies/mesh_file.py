@@ -26,10 +26,9 @@ from ..verdict.findings import SELF_INTERSECTION
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Verdict
 from .findings import MESH_STREAMED, NO_GEOMETRY, STREAMED_OPEN
-from .measure import about_file, bare_reading, measure_reading
 from .mesh_body import MeshBody
 from .polygons import sum_of_instances
-from .reading import Part, Reading
+from .reading import Part, Reading, about_file, bare_reading, measure_reading
 from .wall import WallBody, find_walls
 
 COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "components"

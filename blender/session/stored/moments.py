@@ -23,9 +23,8 @@ from ....core.flat.section_properties import Plane
 from ....core.inertia.findings import MOMENTS_OVERFLOW
 from ....core.inertia.reference import Reference
 from ....core.measurement.plain_text import visible
-from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants
+from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials
-from ....core.moments.normalized import normalize
 from ....core.polyhedron.n_dimensions import multi_indices
 from ....core.verdict.finding import Finding, MeasureError, ReadError
 from ...bodies.flat.flat import area_findings, clearer_refusal, flat_region
