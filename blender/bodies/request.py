@@ -24,7 +24,7 @@ from ..settings.options import AS_SET, MeasureOptions, object_settings
 
 @dataclass(frozen=True, eq=False)
 class Request:
-    """The request to measure one object, or the content of a file.
+    """A request to measure an object or the content of a file.
 
     `settings`: the options `given`, completed by the object's own. `obj`, `depsgraph`: None for the content of a file.
     `opened`: closes opened resources at the end of the measurement.
@@ -64,7 +64,7 @@ class Request:
 
     @cached_property
     def density(self) -> DensityField | None:
-        """Source of a varying density, None for a density that is one number; may raise MeasureError."""
+        """The varying density, None for a uniform one; may raise MeasureError."""
         settings, properties = self.settings, self.obj.body_moments
         is_given = self.given.density is not None or settings.mass is not None
         if is_given or settings.kind == "wire" or properties.density_from == "VALUE":

@@ -75,7 +75,7 @@ def why_empty(obj, gathered: InstanceCollector, depsgraph) -> Finding:
 
 
 def reading_findings(obj, gathered: InstanceCollector, depsgraph) -> Iterator[Finding]:
-    """Yield a finding for each decision that was taken while reading."""
+    """Yield a finding for each decision of the reading."""
     hidden = hidden_reason(obj, depsgraph)
     if hidden:
         yield finding(HIDDEN_OBJECT_MEASURED, cause=hidden.as_record())
@@ -169,7 +169,7 @@ def _mode_findings(obj) -> Iterator[Finding]:
 
 
 def _spline_findings(evaluated, splines) -> Iterator[Finding]:
-    """Yield the findings about a surface object, which is the object that is read, or one of its instances."""
+    """Yield the findings about a surface object, which is the read object or one of its instances."""
     if splines is not None:
         yield from splines.findings
         return

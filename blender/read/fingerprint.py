@@ -42,7 +42,7 @@ def transform_key(obj: bpy.types.Object) -> str:
 
 
 def has_transform(obj: bpy.types.Object, key: str) -> bool:
-    """Return whether the object's transform matches a key, as far as its numbers depend on it."""
+    """Return whether the object's transform agrees with a key in all parts that affect its numbers."""
     if key[:1] not in {"+", "-"}:
         return key == matrix_hash(obj)
     scale = _scale(obj) if _moves_along(obj) else None
@@ -68,7 +68,7 @@ def _scale(obj: bpy.types.Object) -> tuple[str, list[float]] | None:
 
 
 def _moves_along(obj: bpy.types.Object) -> bool:
-    """Return whether the body is the same in the object's frame at every place of the object."""
+    """Return whether the body in the object's frame is independent of the object's place."""
     if obj.type == "META" or len(obj.particle_systems):
         return False
     settings = obj.body_moments
@@ -86,7 +86,7 @@ def scale_hash(obj: bpy.types.Object) -> str:
 
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
-    """Return a digest of the settings that the numbers of this object depend on."""
+    """Return a digest of the settings that affect the numbers of this object."""
     return current_settings(obj, scene).digest
 
 

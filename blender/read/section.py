@@ -69,7 +69,7 @@ class SectionReading:
 
 
 def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | None = None) -> SectionReading:
-    """Read the faces, in Edit Mode only the `selected` ones, or the outlines of an object, or raise ReadError."""
+    """Read an object's faces (in Edit Mode only the `selected` ones) or its outlines, or raise ReadError."""
     obj = obj.original
     if obj.type not in SECTION_TYPES:
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Session state while a file is open: staleness, results, live numbers, walls, moments."""
+"""The session's state while a file is open: staleness, results, live numbers, walls, moments."""
 
 from ...core.lazy import lazy_names
 

@@ -49,7 +49,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Write the notes of edits, as the file may outlive the add-on; then forget them and clear all subscriptions."""
+    """Write the notes of edits, because the file may outlive the add-on; then drop them and all subscriptions."""
     staleness.write_notes()
     for forget in (updates.forget_file, staleness.forget_file, outcome.forget, displayed.forget_drawn):
         forget()

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of the masses of assemblies and of pose bones.
+"""The settings of the mass of an assembly, and of a pose bone.
 
 An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its settings.
 """
@@ -55,7 +55,7 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
 
 
 def is_assembly(data: Root) -> bool:
-    """Return whether `data` is a collection, or an empty that stands for its children."""
+    """Return whether `data` is a collection, or an empty that is measured with its children."""
     return isinstance(data, Collection) or data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
 
 

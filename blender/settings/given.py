@@ -71,7 +71,7 @@ class GivenPartProperties:
 
 
 class GivenPart(NamedTuple):
-    """Given values of a part beside its mass, SI, in its own frame; a value is None if it follows from the geometry.
+    """Given values of a part besides its mass, SI, in its own frame; None for values that follow from the geometry.
 
     center: (3,) center of mass, m. inertia: (3, 3) rows of the tensor about the center, kg·m².
     """
@@ -96,16 +96,16 @@ class GivenPart(NamedTuple):
 
     @property
     def key(self) -> str:
-        """Text that changes with the given values, "" if there are none."""
+        """A text that changes with the given values, "" if there are none."""
         return repr(plain([self.center, self.inertia])) if self else ""
 
 
 def shows_collection(obj: Object) -> bool:
-    """Return whether the object instances a collection; it may keep a chosen collection with instancing off."""
+    """Return whether the object instances a collection; a chosen collection may have its instancing off."""
     return obj.instance_type == "COLLECTION" and obj.instance_collection is not None
 
 
 def is_point_mass(obj: Object) -> bool:
-    """Return whether an object without any geometry stands for a part of given mass."""
+    """Return whether an object without geometry is a part of given mass."""
     settings = getattr(obj, "body_moments", None)  # None if the add-on is not registered
     return obj.type == "EMPTY" and not shows_collection(obj) and settings is not None and settings.mass_from == "MASS"

@@ -162,7 +162,7 @@ def copy_defaults(scene: Scene) -> None:
 
 
 def default_density(scene: Scene) -> float | None:
-    """Return the density in kg/m³ of the scene's objects that have none of their own, None if the scene has none."""
+    """Return the density in kg/m³ of the scene's objects without their own, None if the scene has none."""
     settings = scene.body_moments
     if settings.default_material == "CUSTOM":
         return shortest_decimal(settings.default_density)

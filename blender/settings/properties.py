@@ -39,7 +39,7 @@ def _forget_material(settings: PropertyGroup, _context: Context | None = None) -
 
 
 def _density_in(unit: str, description: str):
-    """Return a property that shows and sets the setting `density` in another unit, for fields of a panel."""
+    """Return a property that gets and sets the setting `density` in another unit."""
     factor, name = DENSITY_UNITS[unit]
     return FloatProperty(
         name="Density ({:s})".format(name),
@@ -321,7 +321,7 @@ def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
 
 
 def _comparable(value):
-    """Return the value in a form that can be compared: an array as its numbers."""
+    """Return the value in a form that can be compared: an array as a tuple of its numbers."""
     return value[:] if hasattr(value, "foreach_get") else value
 
 

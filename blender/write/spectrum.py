@@ -28,7 +28,7 @@ def save(
     check: Callable[[Path], None] | None = None,
     plane: Mapping[str, Any] | None = None,
 ) -> None:
-    """Write a spectrum as an .npz file, whole or not at all.
+    """Write a spectrum as an .npz file, complete or not at all.
 
     The arrays are q, (M, 3) in rad/m; F, (M,) complex in m³ or m²; error, (M,) bounds of the rounding; input, a bound
     of the error by float32 coordinates; method; frame. check: as in `whole_file`. plane: the further

@@ -166,7 +166,7 @@ def _bounds(bounds: dict[str, Any]) -> Iterable[str]:
 
 
 def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any]:
-    """Return the record of an object's stored results; its health is empty, because it is not stored."""
+    """Return the record of an object's stored results, with an empty health, which is not stored."""
     method, findings = properties.method(obj), properties.findings(obj)
     kinds = {Verdict.SHELL: "shell", Verdict.WIRE: "wire"}
     source = properties.density_from(obj)

@@ -74,7 +74,7 @@ def register_language(*_: Any) -> None:
 
 
 def localized(text: str) -> str:
-    """Return an interface text in the user's language, before it is filled."""
+    """Return an interface text in the user's language, not yet filled with values."""
     return bpy.app.translations.pgettext_iface(text, CONTEXT)
 
 

@@ -111,7 +111,7 @@ class Units(NamedTuple):
         return text
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
-        """Return SI values of one quantity as a column, all in one unit with equally many decimals.
+        """Return SI values of one quantity as a column of texts, in one unit and with equally many decimals.
 
         The largest value decides the unit. size: of the body that they belong to; rounding beside it is shown as 0.
         """
@@ -188,7 +188,7 @@ def _fitting_unit(units: Sequence[tuple[float, str]], value: float, base: tuple[
 
 
 def rounded_up(bound: float) -> float:
-    """Return a bound rounded up to two digits, as rounding down would make it wrong."""
+    """Return a bound rounded up to two digits, so that it stays a bound."""
     text = "{:.1e}".format(bound)
     if not float(text) < bound:
         return float(text)
@@ -248,6 +248,6 @@ def report_vector(values: Sequence[float | None], size: float = 0.0) -> str:
 
 
 def clean(values: Sequence[float | None], size: float = 0.0) -> list[float | None]:
-    """Return the values, with 0.0 for those that are only rounding beside the largest value or the body's size."""
+    """Return the values, with 0.0 for values within rounding of the largest one or of the body's size."""
     largest = max([size, *(abs(value) for value in values if value is not None)])
     return [0.0 if value is not None and abs(value) <= ZERO_DISPLAY_RTOL * largest else value for value in values]

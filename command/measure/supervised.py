@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`measure` over files: children measure them; this process gathers the answers, and opens no file.
+"""`measure` over files in children; with --resume it asks the journal's entries which files to measure again.
 
 Standard library only: it runs in Blender, in a Python with the bpy module, and in any other with --blender PATH.
 """

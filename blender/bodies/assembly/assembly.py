@@ -86,7 +86,7 @@ class MemberBody:
 
     @property
     def mass(self) -> Moments | None:
-        """Sum of the mass moments of all powers, None if there are none."""
+        """The sum of the mass moments, None if there are none."""
         return sum_moments(list(self.masses.values())) if self.masses else None
 
     def walk(self) -> Iterator[MemberBody]:
@@ -227,7 +227,7 @@ def _object_body(member: Member, result: Measured | Stacked | Finding) -> Member
 
 
 def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody, ...]) -> MemberBody:
-    """Return `like` with `parts` and the summed masses, volumes and areas of the bodies that have a mass."""
+    """Return a copy of `like` with `parts`, and the sums of the masses, volumes and areas of bodies with a mass."""
     bodies = [body for body in bodies if body.masses]
     masses: dict[int, list[Moments]] = {}
     for body in bodies:
@@ -243,7 +243,7 @@ def _sum(like: MemberBody, bodies: Iterable[MemberBody], parts: tuple[MemberBody
 
 
 def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
-    """Return the body of a collection, or an empty with children, with the given mass if its settings give one."""
+    """Return the body of a collection or an empty with children, with its given mass if the settings have one."""
     data = whole.member.data
     settings = settings_of(data)
     if settings.mass_from != "MASS":
@@ -264,7 +264,7 @@ def _with_given_mass(whole: MemberBody, unit: float) -> MemberBody:
 
 
 def _is_sheared(member: Member) -> bool:
-    """Return whether an instance stretches its members unevenly, so that no single factor scales their areas."""
+    """Return whether an instance stretches its members unevenly, so that their areas have no common factor."""
     return member.matrix is not None and not are_similarities(np.array([member.matrix])[:, :3, :3])[0]
 
 

@@ -31,7 +31,7 @@ MAX_CHECKED_INSTANCES = 50  # different places of a surface in which the sign of
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A surface with (k, 4, 4) `matrices` to the world and `fields` to the density's coordinates, in meters.
+    """A surface with (k, 4, 4) `matrices` to the world, and `fields` to the coordinates of the density, in meters.
 
     about: the point that an open surface is closed to.
     """
@@ -73,7 +73,7 @@ def polynomial_mass_result(
 
 
 def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
-    """Yield the repaired surfaces that enclose the body."""
+    """Yield the repaired surfaces around the body."""
     if body.method.verdict == Verdict.UNION:
         if reading.instance_count > 1 and not in_world:
             raise ReadError(UNION_LACKS, data="object coordinates")

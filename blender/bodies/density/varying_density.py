@@ -106,13 +106,13 @@ def _weigh(reading: Reading, body: MeshBody, request: Request, order: int) -> _W
 
 
 def _field(request: Request) -> DensityField:
-    """Return the varying density of the requested body; a uniform density does not come here."""
+    """Return the density of the requested body, which must not be uniform, as a function of place or face."""
     assert request.density is not None
     return request.density
 
 
 def _thickness(request: Request) -> float:
-    """Return the thickness of a shell, in m, which is the factor of its area moments; 1 for solids."""
+    """Return the factor of a body's area moments: the thickness of a shell, in m; 1 for solids."""
     return request.settings.thickness if request.settings.kind == "shell" else 1.0
 
 
@@ -211,7 +211,7 @@ class _FaceDensities:
         return len({value for values in self.values for value in np.unique(values).tolist()}) > 1
 
     def missing_note(self) -> Iterator[Finding]:
-        """Yield a finding about faces that take the object's density."""
+        """Yield a finding about faces without a material density, which have the object's density."""
         if not self.faces_without_density:
             return
         names = [material.name for material in self.materials if material_density(material) is None]

@@ -169,7 +169,7 @@ def _region_of(reading: SectionReading, kind: str, unit: float) -> FlatRegion:
 
 
 def area_findings(found: FlatRegion, area: float) -> list[Finding]:
-    """Return findings that need a region's area: about points off the plane, and about a wrong fill by Blender."""
+    """Return findings that need a region's area: points off the plane, and faces that Blender fills wrongly."""
     findings = []
     off = found.plane.out_of_plane
     if off > 4.0 * found.stored:

@@ -83,7 +83,7 @@ def read(request: Request) -> RegionReading | None:
 
 
 def body(reading: RegionReading, request: Request) -> Body:
-    """Return the flat region, holes left out, as a sheet."""
+    """Return the flat region, without its holes, as a sheet."""
     curves = list(reading.boundary)
     area = plane_moments(curves, reading.normal)
     boundary_length = length_moments(curves, 0).total

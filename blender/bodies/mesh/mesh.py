@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body that polygons bound, with all its instances: each surface is measured once and mapped to its places."""
+"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # reported of bodi
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows, or None if it has patches of one density, which are better."""
+    """Return the polygons that an object shows, or None if it has NURBS patches of one density (see `nurbs.py`)."""
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
         if density is None:
@@ -60,7 +60,7 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
-    """Return the body that an object's surfaces bound, united first if `union`, or with `shell` their sheets."""
+    """Return the body bounded by an object's surfaces, united first if `union`, or with `shell` their sheets."""
     if shell:
         return sum_of_instances(reading, unit, True, threads)
     flat = reading.singular_instance_count
@@ -95,7 +95,7 @@ def _single_surface_body(
 
 
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
-    """Return the body of all parts in their places, united by Blender's exact Boolean if they have a volume."""
+    """Return the body of all parts in their places; parts with a volume are united by Blender's exact Boolean."""
     before = sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before

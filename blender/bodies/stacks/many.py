@@ -44,7 +44,7 @@ def measure_many(
 def measured_in_turn(
     objects: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, options: MeasureOptions = AS_SET
 ) -> Callable[[bpy.types.Object], Measured | Stacked]:
-    """Return a function that measures in batches and, called with each object in order, returns its measurement."""
+    """Return a function from each object, in the given order, to its measurement; it measures ahead in batches."""
     waiting: dict[bpy.types.Object, Outcome] = {}
     slices = measure_many(objects, depsgraph, options)
 
@@ -62,7 +62,7 @@ def measured_in_turn(
 def _outcomes(
     pending: list[tuple[bpy.types.Object, StackMember | None]], collector: _Collector
 ) -> Iterator[list[tuple[bpy.types.Object, Outcome]]]:
-    """Yield the outcomes of the collected objects: stacked ones together, others one by one."""
+    """Yield the outcomes of the collected objects: stacked objects together, others one by one."""
     stacked = collector.measure()
     together: list[tuple[bpy.types.Object, Outcome]] = []
     for obj, member in pending:
@@ -148,7 +148,7 @@ class _Collector:
         return self._digests[settings]
 
     def _read(self, mesh: bpy.types.Mesh) -> MeshShape | None:
-        """Return the shape of a mesh; None if it has to be measured by itself."""
+        """Return the shape of a mesh; None if it has to be measured alone."""
         if not len(mesh.polygons) or len(mesh.polygons) > MAX_FACES_HIGH_ORDER:
             return None
         surface = mesh_surface(mesh)
@@ -164,7 +164,7 @@ class _Collector:
         return shape
 
     def measure(self) -> dict[int, Stacked]:
-        """Return stacked measurements by member number; none if the stack fails, so that objects are measured alone."""
+        """Return the stacked measurements by member number; none if the stack fails and all must be measured alone."""
         try:
             stack = measure_members(self.members, self.shapes) if self.members else None
         except Exception as error:

@@ -33,7 +33,7 @@ KINDS = {
 
 
 class SampledGrid:
-    """Grid with the interface of `vdb.VdbGrid`; level sets are not recognized here."""
+    """A grid with the interface of `vdb.VdbGrid`; level sets are not recognized here."""
 
     level_set = None
 
@@ -110,7 +110,7 @@ class SampledGrid:
 
 
 def _layer_at_frame_of(shown, scene):
-    """Set an empty scene to the frame of the displayed scene, and return a new view layer of it.
+    """Set an empty scene to the frame of the displayed scene; return a new view layer of the empty scene.
 
     Setting `frame_current` makes Blender evaluate the animation of every scene, and so revert unkeyed changes;
     `frame_set` evaluates this scene alone, but calls handlers, so they are removed meanwhile. The layer is new because

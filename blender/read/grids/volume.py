@@ -132,7 +132,7 @@ def _volume(obj, depsgraph):
 
 @dataclass
 class _OwnedVolume:
-    """A volume with the geometry set that may own it."""
+    """A volume, together with the geometry set that may own it."""
 
     geometry: bpy.types.GeometrySet
     data: bpy.types.Volume
@@ -181,7 +181,7 @@ def _open_grid(obj, volume: _OwnedVolume, grid, depsgraph, findings: list[Findin
 
 
 def _unchanged_file(obj, volume: _OwnedVolume) -> str | None:
-    """Return the file that the grids are read from, if nothing has changed them since."""
+    """Return the file of the grids, if they were not changed after loading."""
     if any(modifier.show_viewport for modifier in obj.modifiers) or obj.data.packed_file is not None:
         return None
     path = volume.data.grids.frame_filepath

@@ -33,13 +33,13 @@ _faces_of_file: dict[int, SplineReading] = {}  # by the identifier of the data i
 
 
 def keep_faces(readings: dict[Curve, SplineReading]) -> None:
-    """Measure objects by readings of their data from a file, instead of the splines that show them; forget others."""
+    """Register the faces of a file, by which objects are measured instead of by their splines; forget other files."""
     _faces_of_file.clear()
     _faces_of_file.update({data.session_uid: reading for data, reading in readings.items()})
 
 
 def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
-    """Return the patches of a surface object, checked against `mesh` if given; None if its mesh has to be measured."""
+    """Return the patches of a surface object, checked against `mesh` if given; None if the mesh must be measured."""
     original = evaluated.original
     if original.data.session_uid in _faces_of_file:
         return _faces_of_file[original.data.session_uid]
@@ -102,7 +102,7 @@ def spline_reading(evaluated, depsgraph, mesh) -> SplineReading | None:
 
 
 def nonpositive_weights(splines) -> int:
-    """Return the number of control points with nonpositive weights, for which the display mesh is measured."""
+    """Return the number of control points with nonpositive weights, which make a patch unusable."""
     return sum(int((~(weighted_points(spline)[:, 3] > 0.0)).sum()) for spline in splines if spline.type == "NURBS")
 
 
@@ -129,7 +129,7 @@ def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
 def _verified(
     patches: list[Patch], samples: list[tuple[NDArray, NDArray]], shown: NDArray, tolerance: float
 ) -> list[Patch] | None:
-    """Return the patches if they agree with the display mesh, else patches recovered from it, or None."""
+    """Return the patches if they agree with the display mesh, else patches computed from the mesh, or None."""
     counts = [len(v) * len(u) for v, u in samples]
     if sum(counts) != len(shown):
         return None
@@ -152,7 +152,7 @@ def _agrees(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray, toler
 
 
 def _interpolating_patch(patch: Patch, sample: tuple[NDArray, NDArray], piece: NDArray) -> Patch | None:
-    """Return the patch of the same spaces and weights through the samples; None if they do not determine it."""
+    """Return the patch with the same spaces and weights that interpolates the samples; None if singular."""
     inverses = []
     for table in sample:
         acting = table.any(axis=0)

@@ -164,7 +164,7 @@ def _write_rows(assembly: Assembly) -> None:
 
 
 def _tree(part: MemberBody, depth: int, factor: float, counted: bool) -> Iterator[tuple[int, MemberBody, float, bool]]:
-    """Yield each member's depth, the member, the factor of its mass by instances, and whether its mass counts."""
+    """Yield for each member its depth, itself, the factor of its mass by instances, and whether its mass counts."""
     yield depth, part, factor, counted
     below = sum([_own_mass(member) for member in part.parts], 0.0)
     if part.member.kind == MemberKind.INSTANCE and below > 0.0:

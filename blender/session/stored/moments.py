@@ -47,7 +47,7 @@ SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True, eq=False)
 class FlatMoments:
-    """A flat shape's moments, SI, along the axes of its plane from its origin."""
+    """The moments of a flat shape, SI, along the axes of its plane about the plane's origin."""
 
     moments: Moments
     plane: Plane
@@ -94,7 +94,7 @@ class ComputedMoments:
 
 @dataclass(frozen=True)
 class Degree:
-    """The moments of one degree as a panel shows them: rows of (label, text, exact value), and their unit."""
+    """The moments of one degree in a panel: rows of (label, text, exact value), and their unit."""
 
     degree: int
     unit: str
@@ -134,7 +134,7 @@ def compute_moments(context: Context, obj: Object, order: int) -> tuple[Computed
 
 
 def cache_moments(obj: Object, computed: ComputedMoments, depsgraph: Depsgraph) -> None:
-    """Keep an object's freshly computed moments."""
+    """Cache an object's freshly computed moments."""
     _computed[obj] = computed
     settings = settings_hash(obj, depsgraph.scene)
     stamp = stamps.carry(obj, Kind.MOMENTS, updates.count(), matrix_hash(obj), settings)
@@ -152,7 +152,7 @@ def stamp_of(obj: Object) -> Stamp | None:
 
 
 def current_numbers(obj: Object, scene: Scene) -> Display:
-    """Return the moments that a panel shows by the scene's settings, and the reason if there are none."""
+    """Return the moments displayed by the scene's settings, and the reason if there are none."""
     settings, computed = scene.body_moments, computed_moments(obj)
     if computed is None:
         return (), None
@@ -186,7 +186,7 @@ def _displayed_degrees(moments: Moments, of: str, about: str) -> Iterator[Degree
 
 
 def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree]:
-    """Yield the invariants by degree: Hu's as numbers, the higher ones by real and imaginary parts."""
+    """Yield the invariants by degree: Hu's as numbers, higher ones as real and imaginary parts."""
     for degree in range(2, order + 1):
         rows = []
         for one in found:

@@ -62,7 +62,7 @@ def stored_choice(owner: Object | Collection) -> ReferenceChoice | None:
 
 
 def follow(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None) -> None:
-    """Store the inertia about a reference again after new results; skip it if the reference is gone."""
+    """Store the inertia about the stored reference again after new results, unless the reference is gone."""
     if choice is not None:
         with suppress(MeasureError):
             store(owner, scene, choice)

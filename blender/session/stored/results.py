@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Storing of measurements on objects, with the data for their sliders."""
+"""Storing of measurements on objects; also caches what the panel's sliders need."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def store(obj: Object, measured: Measured, scene: Scene) -> None:
 def store_many(
     measured: Sequence[tuple[Object, Measured | Stacked]], scene: Scene
 ) -> Iterator[tuple[Object, Exception | None]]:
-    """Store the results of many objects like `store`; yield each with None, or the error that it cannot hold them."""
+    """Store the results of many objects like `store`; yield each with None, or the error that prevented it."""
     for stack, run in groupby(measured, key=lambda item: getattr(item[1], "stack", None)):
         items: list[tuple[Object, Any]] = list(run)
         if stack is None:

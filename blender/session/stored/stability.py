@@ -54,7 +54,7 @@ def down(scene: Scene) -> NDArray[np.float64]:
 
 
 def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
-    """Compute and remember the hull of an object as it is evaluated, or raise MeasureError if it has none."""
+    """Compute and cache the hull of an evaluated object, or raise MeasureError if it has none."""
     hull = object_hull(obj, depsgraph)
     _remembered[obj] = _Remembered(hull)
     staleness.mark_stamp(obj, stamps.carry(obj, Kind.HULL, updates.count()), depsgraph)
@@ -63,12 +63,12 @@ def compute(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
 
 
 def is_known(obj: Object) -> bool:
-    """Return whether a hull of the object is remembered, because its stability was checked."""
+    """Return whether a hull of the object is cached, because its stability was checked."""
     return obj in _remembered
 
 
 def stamp_of(obj: Object) -> Stamp | None:
-    """Return the stamp of the remembered hull."""
+    """Return the stamp of the cached hull."""
     return stamps.carried(obj, Kind.HULL)
 
 

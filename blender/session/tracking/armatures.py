@@ -25,7 +25,7 @@ _watched: dict[int, Object] = {}  # by the session uids of skinned meshes, the a
 
 
 def stands_for_meshes(obj: Object) -> bool:
-    """Return whether an original object is an armature that is being posed."""
+    """Return whether an original object is an armature in Pose Mode, whose meshes count in its place."""
     return obj.type == "ARMATURE" and obj.mode == "POSE"
 
 
@@ -49,7 +49,7 @@ def subjects(objects: Iterable[Object]) -> list[Object]:
 
 
 def watch(armature: Object, objects: Iterable[Object]) -> None:
-    """Begin to note edits of the meshes among `objects` that an armature deforms."""
+    """Begin to note edits of the meshes among `objects` that an armature deforms, in the name of the armature."""
     for obj in read.rig.skinned_objects(armature, objects):
         _watched[obj.session_uid] = armature
 

@@ -55,7 +55,7 @@ class SessionCache(Generic[Value]):
         return len(self._values)
 
     def forget(self, data: ID) -> None:
-        """Forget the value of a data-block, if any."""
+        """Drop the value of a data-block, if any."""
         self._values.pop(data.session_uid, None)
 
     def clear(self) -> None:
@@ -64,7 +64,7 @@ class SessionCache(Generic[Value]):
 
 
 def current_value(cache: SessionCache[tuple[Any, Value]], data: ID, key: object, compute: Callable[[], Value]) -> Value:
-    """Return the value of a data-block that is kept for this key, or compute and keep it."""
+    """Return the cached value of a data-block if it has this key; otherwise compute and cache it."""
     known = cache.get(data)
     if known is None or known[0] != key:
         known = cache[data] = (key, compute())

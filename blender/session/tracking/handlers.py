@@ -20,7 +20,7 @@ from . import cache
 
 @dataclass(frozen=True, eq=False)
 class Updates:
-    """Data-blocks that the window's dependency graph has evaluated anew, as session uids: a frame may have thousands.
+    """Session uids of data-blocks that the window's dependency graph has evaluated again; there may be thousands.
 
     depsgraph: its `updates` are valid until the handlers return.
     reshaped, moved, others: objects with new geometry, with a new transform only, and with neither.
@@ -49,12 +49,12 @@ _generation = 0
 
 
 def generation() -> int:
-    """Return the number of changes since Blender was started: results of an older generation may be wrong."""
+    """Return the number of changes since Blender's start; results of an older generation may be wrong."""
     return _generation
 
 
 def count_change(data: ID | None = None) -> None:
-    """Count a change that Blender does not report, such as a new note about an object; by default, of any object."""
+    """Count a change that Blender does not report, such as a new note about an object; by default of any object."""
     global _generation
     _generation += 1
     _call(on_note, data)

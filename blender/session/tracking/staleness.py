@@ -147,7 +147,7 @@ def is_edited(obj: Object) -> bool:
 def mark_up_to_date(
     context: Context, objects: Iterable[Object], shapes: Mapping[Object, bytes | None] = NO_SHAPES
 ) -> None:
-    """Mark freshly stored results of objects as up to date; evaluate the data that Blender tagged at storing.
+    """Mark freshly stored results of objects as up to date, after evaluating what storing has tagged.
 
     objects: objects of the context's view layer with results stored or removed.
     shapes: the `surface_digest` of freshly read objects.
@@ -169,7 +169,7 @@ def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None
 
 
 def mark_stamp(obj: Object, stamp: Stamp, depsgraph: Depsgraph) -> None:
-    """Mark the data with a stamp as up to date with the evaluated state of an original object."""
+    """Mark the data with a stamp as up to date with an evaluated original object."""
     note_edits(obj)
     set_edited(obj, stamp.text, False)
     _remember_shape(obj, stamp, depsgraph)
@@ -199,7 +199,7 @@ def pin(obj: Object) -> None:
 
 
 def mark_axes_changed(objects: Iterable[Object]) -> None:
-    """Note that objects have new axes, in which stored directions no longer hold."""
+    """Note that objects have new axes, so that stored directions are wrong."""
     for obj in objects:
         if (stamp := stamps.of_symmetry(obj)) is not None:
             set_edited(obj, stamp.text, True)
@@ -246,7 +246,7 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
 
 
 def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: bytes | None = None) -> None:
-    """Keep the digest of the surface behind a stamp, if the data have no other inputs but settings and transform."""
+    """Keep the digest of the surface behind a stamp, if the data only depend on it, the settings and the transform."""
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
@@ -262,7 +262,7 @@ def note_all_edits() -> None:
 
 
 def forget_file() -> None:
-    """Forget the digests of surfaces and the numbers of noted updates."""
+    """Drop the digests of surfaces and the numbers of noted updates."""
     _resolved.clear()
     _shapes.clear()
 
