@@ -85,8 +85,9 @@ def max_thickness(obj: Object) -> float | None:
 def is_too_thick(obj: Object) -> bool:
     """Return whether the current thickness is known to be too large."""
     limit, kept = max_thickness(obj), _walls.get(obj)
-    known = limit is not None and kept is not None
-    return known and not shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
+    if limit is None or kept is None:
+        return False
+    return not shortest_decimal(obj.body_moments.thickness) * kept.unit < limit
 
 
 def on_wall_setting(settings: PropertyGroup, context: Context) -> None:
