@@ -25,7 +25,8 @@ from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
 from . import audit_gate
-from .options import option_types, targets
+from .files import output
+from .options import option_types
 from .parser import COMMANDS, Parser
 from .supervisor.progress import Progress
 
@@ -87,7 +88,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
             parser.error("--baseline: {} cannot be read: {}".format(options.baseline, error))
     if options.repair is not None:
         _check_repair(options, parser)
-    targets.check_targets(options, [*options.names], parser.error)
+    output.check_targets(options, [*options.names], parser.error)
     return options
 
 

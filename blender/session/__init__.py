@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Session state while a file is open: staleness, results, live numbers, walls, moments."""
+"""The session's state while a file is open: staleness, results, live numbers, walls, moments."""
 
 from ...core.lazy import lazy_names
 
@@ -8,7 +8,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     BalanceGroup="balance_group",
     SimilarSearch="similar",
-    bill_rows="bill",
+    bill_csv="bill",
     check_stability="statics",
     lay_on_ground="statics",
     make_rigid_bodies="rigid_bodies",
