@@ -1,0 +1,140 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Linking of copies: equal objects come to share one mesh, and their transforms change so that nothing moves.
+
+If M lays the shared mesh onto an object's own one, its matrix W becomes W · M. `reframe` makes that change and keeps it
+only if neither the object nor anything that refers to it looks different. It compares the present frame, without
+shading: an object that would look different at another time, or in a render, is left out before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from bpy.types import Context, Mesh, NodeTree, Object
+
+from ....core.mesh.correspondence import Correspondence
+from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
+from ....core.verdict.findings import LINKED_OBJECT
+from .. import reframe
+from ..dependents import SAME_SHAPE_RTOL
+from ..findings import CHANNEL_LOCKED, MODIFIERS_CHANGE_SHAPE, OWN_AXES_USED, TRANSFORM_CONSTRAINED
+from ..transforms import driven_channels, world
+from .find import Copies
+
+CHANNELS = ("location", "rotation", "scale", "delta")  # beginnings of animated data paths
+# Nodes that show a mesh's own axes, by their types: outputs, or a setting and its values.
+# Nodes that show a mesh's own axes: outputs, by the node's type, or values of a setting.
+OWN_AXES_OUTPUTS = {"TEX_COORD": {"Object", "Generated", "Normal"}, "OBJECT_INFO": {"Location"}}
+OWN_AXES_VALUES = {"OBJECT", "BLENDER_OBJECT", "RADIAL"}
+GENERATED = {"NOISE", "VORONOI", "WAVE", "MAGIC", "CHECKER", "BRICK", "GRADIENT", "GABOR"}  # if nothing is linked
+
+
+@dataclass(eq=False)
+class Linked:
+    """The result: linked objects, reasons for those left out, the farthest move of a vertex, and the memory saved."""
+
+    objects: list[Object] = field(default_factory=list)
+    meshes: set[Mesh] = field(default_factory=set)
+    left_out: list[tuple[Object, Finding]] = field(default_factory=list)
+    farthest: float = 0.0
+    saved: int = 0
+
+
+def link_copies(
+    context: Context,
+    kinds: Sequence[Copies],
+    tolerance: float,
+    keep_materials: bool,
+    progress: Callable[[float], None] = lambda done: None,
+) -> Linked:
+    """Let the members of each kind share its mesh; no vertex moves by more than the tolerance, relative to the size."""
+    apart = [kind for kind in kinds if kind.reason is not None and not kind.members]
+    done = Linked(left_out=[(obj, kind.reason) for kind in apart for obj in kind.objects])
+    plans: list[reframe.Plan] = []
+    members: dict[Object, tuple] = {}  # own and shared mesh, places of the vertices, materials
+    for kind in kinds:
+        for obj, data, found in kind.members:
+            try:
+                _check(obj, found)
+            except MeasureError as error:
+                done.left_out.append((obj, error.finding))
+                continue
+            matrix, change = world(obj), np.eye(4)
+            change[:3, :3], change[:3, 3] = found.linear, found.offset
+            points = data.elements.points[found.vertices] @ matrix[:3, :3].T + matrix[:3, 3]
+            members[obj] = data, kind.data, points, [slot.material for slot in obj.material_slots]
+            if not _is_mere_exchange(found):
+                size = np.linalg.norm(points - points.mean(axis=0), axis=1).max() * tolerance / SAME_SHAPE_RTOL
+                order = None if found.is_ordered else found.vertices
+                plans.append(reframe.Plan(obj, matrix @ change, float(size), False, mesh=kind.data.mesh, order=order))
+    refused = dict(reframe.reframe(context, plans, progress)[1])
+    done.left_out += refused.items()
+    for obj, (_, shared, points, materials) in members.items():
+        if obj in refused:
+            continue
+        obj.data = shared.mesh
+        for slot, material in zip(obj.material_slots, materials):
+            if keep_materials and slot.material != material:
+                slot.link, slot.material = "OBJECT", material
+        now = world(obj)
+        off = shared.elements.points @ now[:3, :3].T + now[:3, 3] - points
+        done.farthest = max(done.farthest, float(np.linalg.norm(off, axis=1).max()))
+        done.objects.append(obj)
+        done.meshes.add(shared.mesh)
+    unused = {data for data, *_ in members.values() if data.mesh.users == 0}
+    done.saved = sum(data.bytes for data in unused)
+    bpy.data.batch_remove([data.mesh for data in unused])
+    context.view_layer.update()
+    return done
+
+
+def _is_mere_exchange(found: Correspondence) -> bool:
+    """Return whether neither the transform nor the number of any element changes."""
+    return found.is_still and found.is_ordered
+
+
+def _check(obj: Object, found: Correspondence) -> None:
+    """Raise MeasureError if something of the object shows its own axes or numbering, perhaps at another time."""
+    if not (obj.is_editable and obj.data.is_editable) or obj.override_library or obj.data.override_library:
+        raise EditRefusedError(LINKED_OBJECT)
+    if _is_mere_exchange(found):
+        return
+    reframe.check(obj)
+    own = [each.name for each in obj.modifiers if each.type not in reframe.FRAME_INDEPENDENT_MODIFIERS]
+    if own:
+        raise EditRefusedError(MODIFIERS_CHANGE_SHAPE, modifiers=own)
+    if any(not constraint.mute for constraint in obj.constraints):
+        raise EditRefusedError(TRANSFORM_CONSTRAINED, channel="location")
+    channel = next((name for name in CHANNELS if any(path.startswith(name) for path in driven_channels(obj))), None)
+    if channel is not None:
+        raise EditRefusedError(CHANNEL_LOCKED, channel=channel)
+    if obj.rigid_body is not None or obj.rigid_body_constraint is not None:
+        raise EditRefusedError(OWN_AXES_USED, cause="Rigid Body")
+    if obj.field is not None and obj.field.type != "NONE":
+        raise EditRefusedError(OWN_AXES_USED, cause="Force Field")
+    for material in [slot.material for slot in obj.material_slots if not found.is_still]:
+        if material is not None and material.node_tree is not None and _uses_own_axes(material.node_tree, set()):
+            raise EditRefusedError(OWN_AXES_USED, cause=material.name)
+
+
+def _uses_own_axes(tree: NodeTree, seen: set[NodeTree]) -> bool:
+    """Return whether a material's nodes show the object's own origin or axes."""
+    seen.add(tree)
+    for node in tree.nodes:
+        inner = node.node_tree if node.type == "GROUP" else None
+        if inner is not None and inner not in seen and _uses_own_axes(inner, seen):
+            return True
+        outputs = OWN_AXES_OUTPUTS.get(node.type, ())
+        if getattr(node, "object", None) is None and any(out.is_linked and out.name in outputs for out in node.outputs):
+            return True
+        settings = [each.identifier for each in node.bl_rna.properties if each.type == "ENUM" and not each.is_enum_flag]
+        if any(getattr(node, name) in OWN_AXES_VALUES for name in settings):
+            return True
+        vector = node.inputs.get("Vector") if node.type.removeprefix("TEX_") in GENERATED else None
+        if vector is not None and not vector.is_linked:
+            return True
+    return False
