@@ -16,8 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .welding import first_at_near_position
-
+DIRECTION = np.array([0.7071, 0.5477, 0.4472])  # along which the points of hardly any mesh coincide
 MAX_CANDIDATES = 500  # similarities that are compared in full
 PROBES = 6  # vertices that are compared first
 RESEMBLANCE = 20.0  # tolerances within which the scores of equal vertices lie
@@ -68,17 +67,21 @@ class Correspondence:
         return all(np.array_equal(indices, np.arange(len(indices))) for indices in maps)
 
 
-def correspondences(first: Elements, second: Elements, tolerance: float) -> Iterator[Correspondence]:
+def correspondences(
+    first: Elements, second: Elements, tolerance: float, labels: tuple[NDArray, NDArray] | None = None
+) -> Iterator[Correspondence]:
     """Yield the correspondences of two meshes with equal counts; tolerance: relative to the second mesh's radius.
 
-    The one that keeps the numbers of all vertices comes first, if there is one; then those that turn least.
+    labels: (n,) numbers that equal vertices have in common. The correspondence that keeps the numbers of all vertices
+    comes first, if there is one; then those that turn least.
     """
     count, loose = len(first.points), 4.0 * tolerance
     if not count or not first.radius or not second.radius:
         return
     if not np.array_equal(np.sort(first.sizes), np.sort(second.sizes)):
         return
-    if np.abs(np.sort(first.scores) - np.sort(second.scores)).max() > RESEMBLANCE * loose:
+    scores = [mesh.scores + label for mesh, label in zip((first, second), labels or (0.0, 0.0))]
+    if np.abs(np.sort(scores[0]) - np.sort(scores[1])).max() > RESEMBLANCE * loose:
         return
     for mirrored in (False, True):
         linear, offset = _similarity(first.points, second.points, mirrored)
@@ -86,52 +89,66 @@ def correspondences(first: Elements, second: Elements, tolerance: float) -> Iter
             same = np.arange(count)
             if (found := _prove(first, second, same, same, mirrored, tolerance)) is not None:
                 yield found
-    for turn in _candidate_turns(first, second, loose):
-        both = np.concatenate([first.unit_points @ turn.T, second.unit_points])
-        places = first_at_near_position(both, np.full(2 * count, loose))
-        found = _prove(first, second, places[:count], places[count:], bool(np.linalg.det(turn) < 0.0), tolerance)
+    targets = second.unit_points
+    others = _first_near(targets, targets, loose)
+    for turn in _candidate_turns(first.unit_points, targets, scores, loose):
+        places = _first_near(first.unit_points @ turn.T, targets, loose)
+        found = _prove(first, second, places, others, bool(np.linalg.det(turn) < 0.0), tolerance)
         if found is not None:
             yield found
 
 
-def _candidate_turns(first: Elements, second: Elements, tolerance: float) -> Iterator[NDArray[np.float64]]:
-    """Yield orthogonal (3, 3) maps that may lay the first mesh's unit points onto the second's: turns, least first."""
-    near, targets = RESEMBLANCE * tolerance, second.unit_points
-    pair = _anchors(first, near)
+def _first_near(points: NDArray, targets: NDArray, tolerance: float) -> Indices:
+    """Return for each of (n, 3) points the first of the (m, 3) targets within the tolerance, or m."""
+    along, places, reach = targets @ DIRECTION, points @ DIRECTION, 2.0 * tolerance
+    order = np.argsort(along, kind="stable")
+    low = np.searchsorted(along[order], places - reach)
+    high = np.searchsorted(along[order], places + reach, side="right")
+    found = np.full(len(points), len(targets))
+    for k in range((high - low).max()):
+        rows = np.flatnonzero(low + k < high)
+        near = order[low[rows] + k]
+        is_near = np.abs(points[rows] - targets[near]).max(axis=1) <= tolerance
+        found[rows[is_near]] = np.minimum(found[rows[is_near]], near[is_near])
+    return found
+
+
+def _candidate_turns(
+    points: NDArray, targets: NDArray, scores: list[NDArray], tolerance: float
+) -> Iterator[NDArray[np.float64]]:
+    """Yield orthogonal (3, 3) maps that may lay points onto targets with the same scores: turns first, least first."""
+    near = RESEMBLANCE * tolerance
+    pair = _anchors(points, scores[0], near)
     if pair is None:
         return
-    (a, b), scores = first.unit_points[list(pair)], second.scores
-    frame = _frames(a[None], b[None])[0]
-    turns = []
-    for image in targets[np.abs(scores - first.scores[pair[0]]) <= near]:
-        alike = np.abs(scores - first.scores[pair[1]]) <= near
-        others = targets[alike & (np.abs(targets @ image - a @ b) <= near)]
+    a, b = points[list(pair)]
+    alike = [np.abs(scores[1] - scores[0][anchor]) <= near for anchor in pair]
+    frame, turns = _frames(a[None], b[None])[0], [np.empty((0, 3, 3))]
+    for image in targets[alike[0]]:
+        others = targets[alike[1] & (np.abs(targets @ image - a @ b) <= near)]
         frames = _frames(np.broadcast_to(image, others.shape), others)
         turns += [(frames * (1.0, 1.0, hand)) @ frame.T for hand in (1.0, -1.0)]
-    maps = np.concatenate(turns) if turns else np.empty((0, 3, 3))
-    for probe in np.argsort(first.scores)[:: -(-len(targets) // PROBES)]:
-        alike = targets[np.abs(scores - first.scores[probe]) <= near]
-        images = maps @ first.unit_points[probe]
-        hits = [len(alike) and np.abs(alike - image).max(axis=1).min() <= near for image in images]
+    maps = np.concatenate(turns)
+    for probe in np.argsort(scores[0])[:: -(-len(targets) // PROBES)]:
+        ends = targets[np.abs(scores[1] - scores[0][probe]) <= near]
+        hits = [len(ends) and np.abs(ends - image).max(axis=1).min() <= near for image in maps @ points[probe]]
         maps = maps[np.array(hits, bool)]
     order = np.lexsort((-np.trace(maps, axis1=1, axis2=2), np.linalg.det(maps) < 0.0))
     yield from maps[order[:MAX_CANDIDATES]]
 
 
-def _anchors(mesh: Elements, near: float) -> tuple[int, int] | None:
+def _anchors(points: NDArray, scores: NDArray, near: float) -> tuple[int, int] | None:
     """Return two vertices, not in line with the middle, that as few others as possible resemble."""
 
     def count_alike(scores: NDArray) -> Indices:
         ordered = np.sort(scores)
         return np.searchsorted(ordered, scores + near, side="right") - np.searchsorted(ordered, scores - near)
 
-    points = mesh.unit_points
-    distances = np.linalg.norm(points, axis=1)
-    a = int(np.where(distances >= 0.3, count_alike(mesh.scores), len(points) + 1).argmin())
+    a = int(np.where(np.linalg.norm(points, axis=1) >= 0.3, count_alike(scores), len(points) + 1).argmin())
     across = np.linalg.norm(np.cross(points, points[a]), axis=1)
     if across.max() <= near:
         return None
-    count = count_alike(mesh.scores + 1.32 * (points @ points[a]))
+    count = count_alike(scores + 1.32 * (points @ points[a]))
     return a, int(np.where(across >= min(0.1, across.max()), count, len(points) + 1).argmin())
 
 
@@ -158,7 +175,9 @@ def _prove(
     vertices[first.corners] = second.corners[corners]
     if not np.array_equal(vertices[first.corners], second.corners[corners]):
         return None
-    loose, free = np.flatnonzero(vertices < 0), np.setdiff1d(np.arange(len(vertices)), vertices)
+    loose, is_free = np.flatnonzero(vertices < 0), np.ones(len(vertices), bool)
+    is_free[vertices[vertices >= 0]] = False
+    free = np.flatnonzero(is_free)
     if len(loose) != len(free):
         return None
     vertices[loose[np.argsort(places[loose], kind="stable")]] = free[np.argsort(others[free], kind="stable")]

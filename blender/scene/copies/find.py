@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain, islice
 
 import numpy as np
 from bpy.types import Mesh, Object, bpy_prop_collection
@@ -21,7 +22,7 @@ from ....core.verdict.finding import Finding, finding
 from ..findings import COPY_DIFFERS
 from ..transforms import FLOAT32
 
-MAX_TURNS = 120  # similarities of one pair whose layers are compared
+MAX_TURNS = 48  # similarities of one pair whose layers are compared
 NORMAL_TOLERANCE = 1e-3
 # Attributes that are compared otherwise, or are the interface's state.
 UNSEEN = ("position", "custom_normal", ".select", ".hide", ".corner_", ".edge_verts", ".vs.", ".es.", ".pn.")
@@ -35,8 +36,8 @@ class MeshData:
     user's own. keys: the (n, 3) points of the shape keys. traits: all else that has to be equal, by aspect.
     """
 
-    def __init__(self, mesh: Mesh):
-        self.mesh, keys = mesh, mesh.shape_keys
+    def __init__(self, mesh: Mesh, may_differ: set[str]):
+        self.mesh, self.may_differ, keys = mesh, may_differ, mesh.shape_keys
         points = _read(mesh.attributes["position"].data if mesh.vertices else ())
         corners = _read(mesh.loops, "vertex_index")[:, 0]
         starts = np.append(_read(mesh.polygons, "loop_start")[:, 0], len(corners))
@@ -62,6 +63,24 @@ class MeshData:
     def weights(self) -> list[dict[int, float]]:
         """The weights of each vertex by the number of the group; Blender gives them one by one only."""
         return [{entry.group: entry.weight for entry in vertex.groups} for vertex in self.mesh.vertices]
+
+    @cached_property
+    def labels(self) -> NDArray[np.float64]:
+        """The (n,) numbers of the vertices, by the layers that have to agree."""
+        found, elements = np.zeros(len(self.mesh.vertices)), self.elements
+        sizes = np.diff(elements.starts)
+        for name, (data_type, domain, values) in self.layers.items():
+            if _aspect(name, data_type, domain) in self.may_differ or values.dtype == object:
+                continue
+            number = values @ np.cos(np.arange(values.shape[1])) / max(np.abs(values).max(initial=0), 1.0)
+            if domain == "POINT":
+                found += number
+            elif domain == "EDGE":
+                found += np.bincount(elements.edges.ravel(), number.repeat(2), len(found))
+            elif domain in ("FACE", "CORNER"):
+                number = number if domain == "CORNER" else number.repeat(sizes)
+                found += np.bincount(elements.corners, number, len(found))
+        return found
 
     @property
     def bytes(self) -> int:
@@ -95,8 +114,7 @@ def _differing_aspects(
         *kind, values = first.layers.get(name, (None, None, None))
         *other_kind, others = second.layers.get(name, (None, None, None))
         if kind != other_kind or kind[1] not in maps or not _agree(values, others[maps[kind[1]]]):
-            is_uv = ["FLOAT2", "CORNER"] in (kind, other_kind)
-            differing.add("MATERIALS" if name == "material_index" else "UV" if is_uv else "ATTRIBUTES")
+            differing.add(_aspect(name, *(kind if kind[0] else other_kind)))
     if first.normals is not None and second.normals is not None:
         turned = first.normals @ (found.linear / np.cbrt(abs(np.linalg.det(found.linear)))).T
         if np.abs(turned - second.normals[found.corners]).max(initial=0.0) > NORMAL_TOLERANCE:
@@ -108,6 +126,12 @@ def _differing_aspects(
         if np.abs(off).max(initial=0.0) > tolerance * second.elements.radius:
             differing.add("SHAPE_KEYS")
     return differing
+
+
+def _aspect(name: str, data_type: str, domain: str) -> str:
+    if name == "material_index":
+        return "MATERIALS"
+    return "UV" if (data_type, domain) == ("FLOAT2", "CORNER") else "ATTRIBUTES"
 
 
 def _agree(values: NDArray, others: NDArray) -> bool:
@@ -152,16 +176,19 @@ def find_copies(
     for mesh, own in sorted(users.items(), key=lambda item: (-len(item[1]), item[0].name_full)):
         counts = len(mesh.vertices), len(mesh.edges), len(mesh.loops), len(mesh.polygons)
         same_counts = by_counts.setdefault(counts, [])
-        new = Copies(MeshData(mesh), own)
+        new = Copies(MeshData(mesh, may_differ), own)
         for kind in same_counts:
             groups = [[group.name for group in each.objects[0].vertex_groups] for each in (kind, new)]
+            labels = kind.data.labels, new.data.labels
+            pair = kind.data.elements, new.data.elements
+            # If the layers do not agree, the turn counts with the fewest differences.
+            found_turns = chain(correspondences(*pair, tolerance, labels), correspondences(*pair, tolerance))
             best: tuple[set[str], Correspondence] | None = None
-            for turn, found in enumerate(correspondences(kind.data.elements, new.data.elements, tolerance)):
-                differing = _differing_aspects(kind.data, new.data, groups, found, tolerance)
-                differing -= may_differ
+            for found in islice(found_turns, MAX_TURNS):
+                differing = _differing_aspects(kind.data, new.data, groups, found, tolerance) - may_differ
                 if best is None or len(differing) < len(best[0]):
                     best = differing, found
-                if not differing or turn == MAX_TURNS:
+                if not differing:
                     break
             if best is not None and not best[0]:
                 kind.members += [(obj, new.data, best[1]) for obj in own]
