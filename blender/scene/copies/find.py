@@ -111,10 +111,14 @@ def _differing_aspects(
         differing.add("ANIMATION")
     maps = {"POINT": found.vertices, "EDGE": found.edges, "FACE": found.faces, "CORNER": found.corners}
     for name in first.layers.keys() | second.layers.keys():
-        *kind, values = first.layers.get(name, (None, None, None))
-        *other_kind, others = second.layers.get(name, (None, None, None))
-        if kind != other_kind or kind[1] not in maps or not _agree(values, others[maps[kind[1]]]):
-            differing.add(_aspect(name, *(kind if kind[0] else other_kind)))
+        one, other = first.layers.get(name), second.layers.get(name)
+        data_type, domain, values = one or other
+        if one is None or other is None:
+            is_alike = not values.any()  # a layer that is missing has zeros
+        else:
+            is_alike = one[:2] == other[:2] and domain in maps and _agree(values, other[2][maps[domain]])
+        if not is_alike:
+            differing.add(_aspect(name, data_type, domain))
     if first.normals is not None and second.normals is not None:
         turned = first.normals @ (found.linear / np.cbrt(abs(np.linalg.det(found.linear)))).T
         if np.abs(turned - second.normals[found.corners]).max(initial=0.0) > NORMAL_TOLERANCE:

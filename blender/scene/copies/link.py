@@ -14,19 +14,19 @@ from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
-from bpy.types import Context, Mesh, NodeTree, Object
+from bpy.types import ID, Context, Mesh, NodeTree, Object
 
 from ....core.mesh.correspondence import Correspondence
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ....core.verdict.findings import LINKED_OBJECT
 from .. import reframe
 from ..dependents import SAME_SHAPE_RTOL
-from ..findings import CHANNEL_LOCKED, MODIFIERS_CHANGE_SHAPE, OWN_AXES_USED, TRANSFORM_CONSTRAINED
+from ..findings import CHANNEL_LOCKED, FOLLOWS_MOVED, MODIFIERS_CHANGE_SHAPE, OWN_AXES_USED, TRANSFORM_CONSTRAINED
 from ..transforms import driven_channels, world
 from .find import Copies
 
+PLACES = (bpy.types.Collection, bpy.types.Scene, bpy.types.WindowManager, bpy.types.Screen, bpy.types.WorkSpace)
 CHANNELS = ("location", "rotation", "scale", "delta")  # beginnings of animated data paths
-# Nodes that show a mesh's own axes, by their types: outputs, or a setting and its values.
 # Nodes that show a mesh's own axes: outputs, by the node's type, or values of a setting.
 OWN_AXES_OUTPUTS = {"TEX_COORD": {"Object", "Generated", "Normal"}, "OBJECT_INFO": {"Location"}}
 OWN_AXES_VALUES = {"OBJECT", "BLENDER_OBJECT", "RADIAL"}
@@ -56,10 +56,11 @@ def link_copies(
     done = Linked(left_out=[(obj, kind.reason) for kind in apart for obj in kind.objects])
     plans: list[reframe.Plan] = []
     members: dict[Object, tuple] = {}  # own and shared mesh, places of the vertices, materials
+    followers = _followers({obj for kind in kinds for obj, _, found in kind.members if not _is_mere_exchange(found)})
     for kind in kinds:
         for obj, data, found in kind.members:
             try:
-                _check(obj, found)
+                _check(obj, found, followers.get(obj))
             except MeasureError as error:
                 done.left_out.append((obj, error.finding))
                 continue
@@ -97,13 +98,31 @@ def _is_mere_exchange(found: Correspondence) -> bool:
     return found.is_still and found.is_ordered
 
 
-def _check(obj: Object, found: Correspondence) -> None:
+def _followers(objects: set[Object]) -> dict[Object, ID]:
+    """Return, by object, data that may show its transform at another time, as by a driver or a constraint."""
+    found: dict[Object, ID] = {}
+    for obj, users in (bpy.data.user_map(subset=objects) if objects else {}).items():
+        for user in users:
+            targets: list[ID | None] = []
+            if isinstance(user, Object):
+                curves = user.animation_data.drivers if user.animation_data is not None else ()
+                variables = [variable for curve in curves for variable in curve.driver.variables]
+                targets += [target.id for variable in variables for target in variable.targets]
+                targets += [getattr(constraint, "target", None) for constraint in user.constraints]
+            if obj in targets or not isinstance(user, (Object, *PLACES)):
+                found[obj] = user
+    return found
+
+
+def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
     """Raise MeasureError if something of the object shows its own axes or numbering, perhaps at another time."""
     if not (obj.is_editable and obj.data.is_editable) or obj.override_library or obj.data.override_library:
         raise EditRefusedError(LINKED_OBJECT)
     if _is_mere_exchange(found):
         return
     reframe.check(obj)
+    if follower is not None:
+        raise EditRefusedError(FOLLOWS_MOVED, follower=follower.name, target=obj.name)
     own = [each.name for each in obj.modifiers if each.type not in reframe.FRAME_INDEPENDENT_MODIFIERS]
     if own:
         raise EditRefusedError(MODIFIERS_CHANGE_SHAPE, modifiers=own)
@@ -112,10 +131,8 @@ def _check(obj: Object, found: Correspondence) -> None:
     channel = next((name for name in CHANNELS if any(path.startswith(name) for path in driven_channels(obj))), None)
     if channel is not None:
         raise EditRefusedError(CHANNEL_LOCKED, channel=channel)
-    if obj.rigid_body is not None or obj.rigid_body_constraint is not None:
-        raise EditRefusedError(OWN_AXES_USED, cause="Rigid Body")
-    if obj.field is not None and obj.field.type != "NONE":
-        raise EditRefusedError(OWN_AXES_USED, cause="Force Field")
+    if obj.rigid_body or obj.rigid_body_constraint or obj.field is not None and obj.field.type != "NONE":
+        raise EditRefusedError(OWN_AXES_USED, cause="Physics")
     for material in [slot.material for slot in obj.material_slots if not found.is_still]:
         if material is not None and material.node_tree is not None and _uses_own_axes(material.node_tree, set()):
             raise EditRefusedError(OWN_AXES_USED, cause=material.name)
