@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,16 +54,15 @@ class Correspondence:
     faces: Indices
     corners: Indices
 
-    @cached_property
+    @property
     def is_still(self) -> bool:
         """Whether the similarity is the identity."""
         return bool((self.linear == np.eye(3)).all() and not self.offset.any())
 
-    @cached_property
+    @property
     def is_ordered(self) -> bool:
-        """Whether all elements have the same numbers in both meshes."""
-        maps = self.vertices, self.edges, self.faces, self.corners
-        return all(np.array_equal(indices, np.arange(len(indices))) for indices in maps)
+        """Whether vertices and corners have the same numbers in both meshes."""
+        return all((indices == np.arange(len(indices))).all() for indices in (self.vertices, self.corners))
 
 
 def correspondences(
@@ -83,18 +81,15 @@ def correspondences(
     scores = [mesh.scores + label for mesh, label in zip((first, second), labels or (0.0, 0.0))]
     if np.abs(np.sort(scores[0]) - np.sort(scores[1])).max() > RESEMBLANCE * loose:
         return
+    same = np.arange(count)
     for mirrored in (False, True):
-        linear, offset = _similarity(first.points, second.points, mirrored)
-        if _farthest(first.points, second.points, linear, offset) <= tolerance * second.radius:
-            same = np.arange(count)
-            if (found := _prove(first, second, same, same, mirrored, tolerance)) is not None:
-                yield found
+        if found := _prove(first, second, same, same, mirrored, tolerance):
+            yield found
     targets = second.unit_points
     others = _first_near(targets, targets, loose)
     for turn in _candidate_turns(first.unit_points, targets, scores, loose):
         places = _first_near(first.unit_points @ turn.T, targets, loose)
-        found = _prove(first, second, places, others, bool(np.linalg.det(turn) < 0.0), tolerance)
-        if found is not None:
+        if found := _prove(first, second, places, others, bool(np.linalg.det(turn) < 0.0), tolerance):
             yield found
 
 
@@ -184,15 +179,15 @@ def _prove(
     edges = _match_rows(np.sort(vertices[first.edges], axis=1), np.sort(second.edges, axis=1))
     if edges is None:
         return None
-    met, limit = second.points[vertices], tolerance * second.radius
-    linear, offset = _similarity(first.points, met, mirrored)
-    error = _farthest(first.points, met, linear, offset)
+    points, met, limit = first.points, second.points[vertices], tolerance * second.radius
+    linear, offset = _similarity(points, met, mirrored)
+    error = np.linalg.norm(points @ linear.T + offset - met, axis=1).max()
     if error > limit:
         return None
     # Of maps that are as good but for rounding, the one that changes least counts.
-    rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(first.points).max(), np.abs(met).max())
+    rounding = 4.0 * np.finfo(np.float32).eps * max(np.abs(points).max(), np.abs(met).max())
     for simple in [] if mirrored else [np.zeros(3), met.mean(axis=0) - first.middle]:
-        if _farthest(first.points, met, np.eye(3), simple) <= min(2.0 * error + rounding, limit):
+        if np.linalg.norm(points + simple - met, axis=1).max() <= min(2.0 * error + rounding, limit):
             linear, offset = np.eye(3), simple
             break
     found = Correspondence(linear, offset, vertices, edges, faces, corners)
@@ -207,11 +202,6 @@ def _similarity(source: NDArray, target: NDArray, mirrored: bool) -> tuple[NDArr
     hand = (-1.0 if mirrored else 1.0) * np.sign(np.linalg.det(u @ vt))
     linear = np.sqrt((b * b).sum() / (a * a).sum()) * ((u * (1.0, 1.0, hand)) @ vt)
     return linear, other - linear @ middle
-
-
-def _farthest(source: NDArray, target: NDArray, linear: NDArray, offset: NDArray) -> float:
-    """Return the largest distance of (n, 3) mapped points from others."""
-    return float(np.linalg.norm(source @ linear.T + offset - target, axis=1).max())
 
 
 def _match_faces(

@@ -78,16 +78,14 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         if self._found is None:  # the redo panel
             return
         kinds = sorted((kind for kind in self._found[1] if kind.members), key=lambda kind: -len(kind.members))
-        sizes = {"count": sum(len(kind.members) for kind in kinds), "groups": len(kinds)}
-        size = _megabytes(sum(kind.saved_bytes for kind in kinds))
-        text = "{count} object in {groups} groups, {size} less", "{count} objects in {groups} groups, {size} less"
-        summary = reports.phrase(*text, **sizes, size=size) if kinds else reports.phrase(NOTHING)
-        column.label(text=summary, icon="LINKED", translate=False)
+        count, size = sum(len(kind.members) for kind in kinds), _size(sum(kind.saved_bytes for kind in kinds))
+        summary = reports.phrase("Groups: {groups}. Objects to link: {count}", groups=len(kinds), count=count)
+        column.label(text="{:s}. {:s}".format(summary, size), icon="LINKED", translate=False)
         for kind in kinds[:MAX_LISTED]:
             row = self.layout.row(align=True)
             members = [*kind.objects, *(obj for obj, *_ in kind.members)]
             text = reports.phrase("{count} objects as {object}", count=len(members), object=kind.data.mesh.name)
-            row.label(text="{:s}, {:s}".format(text, _megabytes(kind.saved_bytes)), translate=False)
+            row.label(text="{:s}, {:s}".format(text, _size(kind.saved_bytes)), translate=False)
             button = row.operator("object.body_moments_select_found", text="", icon="RESTRICT_SELECT_OFF")
             button.name = "\n".join(obj.name_full for obj in members)
         if len(kinds) > MAX_LISTED:
@@ -103,19 +101,18 @@ class OBJECT_OT_body_moments_link_copies(selection.InObjectMode, Operator):
         session.tracking.staleness.mark_axes_changed(linked.objects)
         left_out = [reports.failure(obj.name_full, reason) for obj, reason in linked.left_out]
         done = reports.phrase(
-            "{count} object linked to {meshes} meshes, {size} saved, vertices moved by up to {maximum:length}",
-            "{count} objects linked to {meshes} meshes, {size} saved, vertices moved by up to {maximum:length}",
+            "{count} object linked, {size} saved, vertices moved by up to {maximum:length}",
+            "{count} objects linked, {size} saved, vertices moved by up to {maximum:length}",
             count=len(linked.objects),
-            meshes=len(linked.meshes),
-            size=_megabytes(linked.saved),
+            size=_size(linked.saved),
             maximum=linked.farthest * context.scene.unit_settings.scale_length,
         )
         total = len(linked.objects) + len(left_out)
         return selection.summarize(self, len(linked.objects), total, done, left_out, nothing=NOTHING)
 
 
-def _megabytes(size: int) -> str:
-    return "{:.3g} MB".format(size / 1e6)
+def _size(size: int) -> str:
+    return "{:.3g} MB".format(size / 1e6) if size >= 1e6 else "{:.3g} kB".format(size / 1e3)
 
 
 CLASSES = (OBJECT_OT_body_moments_link_copies,)

@@ -33,7 +33,8 @@ class MeshData:
     """A mesh as arrays.
 
     layers: types, domains and (n, k) values of the attributes, by name. normals: (c, 3) of the corners, if they are the
-    user's own. keys: the (n, 3) points of the shape keys. traits: all else that has to be equal, by aspect.
+    user's own. keys: the (n, 3) points of the shape keys. traits: all else that has to be equal, by
+    aspect. bytes: the memory that the mesh takes, about.
     """
 
     def __init__(self, mesh: Mesh, may_differ: set[str]):
@@ -47,6 +48,8 @@ class MeshData:
         self.normals = _read(mesh.corner_normals) if mesh.has_custom_normals else None
         blocks = () if keys is None else keys.key_blocks
         self.keys = [_read(block.data, "co") for block in blocks]
+        arrays = [corners, starts, self.elements.edges, *self.keys, *(values for _, _, values in self.layers.values())]
+        self.bytes = points.nbytes + sum(array.nbytes for array in arrays)
         self.is_animated = any(data is not None and data.animation_data for data in (mesh, keys))
         names = ("name", "value", "mute", "interpolation", "vertex_group")
         relations = [(block.relative_key.name, *(getattr(block, name) for name in names)) for block in blocks]
@@ -81,13 +84,6 @@ class MeshData:
                 number = number if domain == "CORNER" else number.repeat(sizes)
                 found += np.bincount(elements.corners, number, len(found))
         return found
-
-    @property
-    def bytes(self) -> int:
-        """The memory that the mesh takes, about."""
-        mesh, arrays = self.mesh, [*self.keys, *(values for _, _, values in self.layers.values())]
-        elements = 12 * len(mesh.vertices) + 8 * (len(mesh.edges) + len(mesh.loops)) + 4 * len(mesh.polygons)
-        return elements + sum(array.nbytes for array in arrays)
 
 
 def _read(items: bpy_prop_collection, name: str | int = 1) -> NDArray:

@@ -10,11 +10,11 @@ shading: an object that would look different at another time, or in a render, is
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import bpy
 import numpy as np
-from bpy.types import ID, Context, Mesh, NodeTree, Object
+from bpy.types import ID, Context, Node, NodeTree, Object
 
 from ....core.mesh.correspondence import Correspondence
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
@@ -33,15 +33,13 @@ OWN_AXES_VALUES = {"OBJECT", "BLENDER_OBJECT", "RADIAL"}
 GENERATED = {"NOISE", "VORONOI", "WAVE", "MAGIC", "CHECKER", "BRICK", "GRADIENT", "GABOR"}  # if nothing is linked
 
 
-@dataclass(eq=False)
-class Linked:
-    """The result: linked objects, reasons for those left out, the farthest move of a vertex, and the memory saved."""
+class Linked(NamedTuple):
+    """The linked objects, reasons for those left out, the farthest move of a vertex, and the bytes saved."""
 
-    objects: list[Object] = field(default_factory=list)
-    meshes: set[Mesh] = field(default_factory=set)
-    left_out: list[tuple[Object, Finding]] = field(default_factory=list)
-    farthest: float = 0.0
-    saved: int = 0
+    objects: list[Object]
+    left_out: list[tuple[Object, Finding]]
+    farthest: float
+    saved: int
 
 
 def link_copies(
@@ -52,8 +50,7 @@ def link_copies(
     progress: Callable[[float], None] = lambda done: None,
 ) -> Linked:
     """Let the members of each kind share its mesh; no vertex moves by more than the tolerance, relative to the size."""
-    apart = [kind for kind in kinds if kind.reason is not None and not kind.members]
-    done = Linked(left_out=[(obj, kind.reason) for kind in apart for obj in kind.objects])
+    left_out = [(obj, kind.reason) for kind in kinds if kind.reason and not kind.members for obj in kind.objects]
     plans: list[reframe.Plan] = []
     members: dict[Object, tuple] = {}  # own and shared mesh, places of the vertices, materials
     followers = _followers({obj for kind in kinds for obj, _, found in kind.members if not _is_mere_exchange(found)})
@@ -62,7 +59,7 @@ def link_copies(
             try:
                 _check(obj, found, followers.get(obj))
             except MeasureError as error:
-                done.left_out.append((obj, error.finding))
+                left_out.append((obj, error.finding))
                 continue
             matrix, change = world(obj), np.eye(4)
             change[:3, :3], change[:3, 3] = found.linear, found.offset
@@ -72,25 +69,21 @@ def link_copies(
                 size = np.linalg.norm(points - points.mean(axis=0), axis=1).max() * tolerance / SAME_SHAPE_RTOL
                 order = None if found.is_ordered else found.vertices
                 plans.append(reframe.Plan(obj, matrix @ change, float(size), False, mesh=kind.data.mesh, order=order))
-    refused = dict(reframe.reframe(context, plans, progress)[1])
-    done.left_out += refused.items()
-    for obj, (_, shared, points, materials) in members.items():
-        if obj in refused:
-            continue
+    refused, farthest = dict(reframe.reframe(context, plans, progress)[1]), 0.0
+    linked = [obj for obj in members if obj not in refused]
+    for obj in linked:
+        _, shared, points, materials = members[obj]
         obj.data = shared.mesh
         for slot, material in zip(obj.material_slots, materials):
             if keep_materials and slot.material != material:
                 slot.link, slot.material = "OBJECT", material
-        now = world(obj)
-        off = shared.elements.points @ now[:3, :3].T + now[:3, 3] - points
-        done.farthest = max(done.farthest, float(np.linalg.norm(off, axis=1).max()))
-        done.objects.append(obj)
-        done.meshes.add(shared.mesh)
+        matrix = world(obj)
+        off = shared.elements.points @ matrix[:3, :3].T + matrix[:3, 3] - points
+        farthest = max(farthest, float(np.linalg.norm(off, axis=1).max()))
     unused = {data for data, *_ in members.values() if data.mesh.users == 0}
-    done.saved = sum(data.bytes for data in unused)
     bpy.data.batch_remove([data.mesh for data in unused])
     context.view_layer.update()
-    return done
+    return Linked(linked, left_out + [*refused.items()], farthest, sum(data.bytes for data in unused))
 
 
 def _is_mere_exchange(found: Correspondence) -> bool:
@@ -141,17 +134,18 @@ def _check(obj: Object, found: Correspondence, follower: ID | None) -> None:
 def _uses_own_axes(tree: NodeTree, seen: set[NodeTree]) -> bool:
     """Return whether a material's nodes show the object's own origin or axes."""
     seen.add(tree)
-    for node in tree.nodes:
-        inner = node.node_tree if node.type == "GROUP" else None
-        if inner is not None and inner not in seen and _uses_own_axes(inner, seen):
-            return True
-        outputs = OWN_AXES_OUTPUTS.get(node.type, ())
-        if getattr(node, "object", None) is None and any(out.is_linked and out.name in outputs for out in node.outputs):
-            return True
-        settings = [each.identifier for each in node.bl_rna.properties if each.type == "ENUM" and not each.is_enum_flag]
-        if any(getattr(node, name) in OWN_AXES_VALUES for name in settings):
-            return True
-        vector = node.inputs.get("Vector") if node.type.removeprefix("TEX_") in GENERATED else None
-        if vector is not None and not vector.is_linked:
-            return True
-    return False
+    return any(_shows_own_axes(node) for node in tree.nodes) or any(
+        _uses_own_axes(node.node_tree, seen)
+        for node in tree.nodes
+        if node.type == "GROUP" and node.node_tree is not None and node.node_tree not in seen
+    )
+
+
+def _shows_own_axes(node: Node) -> bool:
+    outputs, vector = OWN_AXES_OUTPUTS.get(node.type, ()), node.inputs.get("Vector")
+    if getattr(node, "object", None) is None and any(out.is_linked and out.name in outputs for out in node.outputs):
+        return True
+    if node.type.removeprefix("TEX_") in GENERATED and vector is not None and not vector.is_linked:
+        return True
+    choices = [each.identifier for each in node.bl_rna.properties if each.type == "ENUM" and not each.is_enum_flag]
+    return any(getattr(node, name) in OWN_AXES_VALUES for name in choices)
