@@ -1,0 +1,298 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Posed characters: mass, center and inertia of every part, and what touches the ground, as evaluated.
+
+The parts are those of Measure Bones. Each keeps its mass, and its moments follow the matrix of its bone. Objects that a
+constraint holds to a bone are parts, too, at their own place. All lengths are in Blender's units, in the world.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from bpy.types import Context, Depsgraph, Object
+from mathutils import Matrix
+from numpy.typing import NDArray
+
+from ....core.bodies.reading import float64_matrix
+from ....core.inertia.plain_body import PlainBody, tensor_rows
+from ....core.numerics.float32 import shortest_decimal
+from ....core.statics.support import Support, support_of_contacts
+from ....core.verdict.finding import EditRefusedError, MeasureError
+from ...bodies.rig import Rig, measure_rig
+from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
+from ...write import properties
+from .. import stored
+from ..tracking import handlers
+from ..tracking.cache import SessionCache, current_value
+from .motion import Motion
+
+REACH = 0.01  # contact with the ground within this height, relative to the character's size
+UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a weight
+
+
+@dataclass(frozen=True, eq=False)
+class Parts:
+    """The p parts of one or several characters.
+
+    names: of bones and held objects. masses: (p,) kg. centers: (p, 3). spreads: (p, 3, 3) integrals of r rᵀ dm about
+    each part's center. matrices: (p, 4, 4) of bones and objects in the world.
+    """
+
+    names: tuple[str, ...]
+    masses: NDArray[np.float64]
+    centers: NDArray[np.float64]
+    spreads: NDArray[np.float64]
+    matrices: NDArray[np.float64]
+
+    @property
+    def mass(self) -> float:
+        """The total mass, kg."""
+        return float(self.masses.sum())
+
+    @property
+    def center(self) -> NDArray[np.float64]:
+        """(3,) center of the total."""
+        return self.centers[0] + (self.masses / self.mass) @ (self.centers - self.centers[0])
+
+    @property
+    def inertias(self) -> NDArray[np.float64]:
+        """(p, 3, 3) inertia tensors of the parts, each about its center, in kg and Blender's units."""
+        return np.trace(self.spreads, axis1=1, axis2=2)[:, None, None] * np.eye(3) - self.spreads
+
+    @property
+    def inertia(self) -> NDArray[np.float64]:
+        """(3, 3) inertia tensor of the total about its center, in kg and Blender's units."""
+        arms = self.centers - self.center
+        spread = self.spreads.sum(axis=0) + np.einsum("p,pi,pj->ij", self.masses, arms, arms)
+        return np.trace(spread) * np.eye(3) - spread
+
+    @classmethod
+    def joined(cls, several: Sequence[Parts]) -> Parts:
+        """Return the parts of several characters as one."""
+        arrays = ("masses", "centers", "spreads", "matrices")
+        names = tuple(name for parts in several for name in parts.names)
+        return cls(names, *(np.concatenate([getattr(parts, name) for parts in several]) for name in arrays))
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """What touches the ground. points: (k, 3). bones: (k,) indices into `names`, the names of bones that carry.
+
+    lifted: names of bones that should carry and do not. height: of the lowest point above the ground; None if there is
+    no point. tolerance: the height up to which points touch.
+    """
+
+    points: NDArray[np.float64]
+    bones: NDArray[np.intp]
+    names: tuple[str, ...]
+    lifted: tuple[str, ...]
+    height: float | None
+    tolerance: float
+
+
+@dataclass(frozen=True, eq=False)
+class Weight:
+    """A character as it is posed: its parts, contacts, and the support below its center, None if nothing touches."""
+
+    parts: Parts
+    contacts: Contacts
+    support: Support | None
+
+
+@dataclass(frozen=True, eq=False)
+class Character:
+    """A measured character, whose parts follow its pose.
+
+    names: (p) of the bones with parts. masses: (p,) kg. centers: (p, 3), spreads: (p, 3, 3) in the bones' own spaces.
+    size: largest extent of these bones at rest.
+    """
+
+    names: tuple[str, ...]
+    masses: NDArray[np.float64]
+    centers: NDArray[np.float64]
+    spreads: NDArray[np.float64]
+    size: float
+    _motion: Motion = field(default_factory=lambda: Motion(1))  # of held objects
+    _vertex_bones: dict[int, NDArray[np.intp]] = field(default_factory=dict)  # by session uid of a mesh object
+
+    @classmethod
+    def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody], unit: float) -> Character | None:
+        """Return the character with these bodies of bones, each in its rest frame and SI; None if there is no mass."""
+        bodies = {name: body for name, body in bodies.items() if body.mass > 0.0 and name in armature.data.bones}
+        if not bodies:
+            return None
+        place, centers, spreads, ends = armature.matrix_world, [], [], []
+        for name, body in bodies.items():
+            bone = armature.data.bones[name]
+            rest = place @ bone.matrix_local
+            location, turn, _scale = rest.decompose()
+            frame = np.array(Matrix.LocRotScale(location, turn, None), np.float64)
+            to_bone = np.linalg.inv(np.array(rest, np.float64)) @ frame
+            tensor = np.array(tensor_rows(body.inertia))
+            spread = np.trace(tensor) / 2.0 * np.eye(3) - tensor
+            centers.append(to_bone[:3, :3] @ body.center / unit + to_bone[:3, 3])
+            spreads.append(to_bone[:3, :3] @ spread @ to_bone[:3, :3].T / unit**2)
+            ends += [place @ bone.head_local, place @ bone.tail_local]
+        masses = np.array([body.mass for body in bodies.values()])
+        size = float(np.ptp(np.array(ends), axis=0).max())
+        return cls(tuple(bodies), masses, np.array(centers), np.array(spreads), size)
+
+    def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
+        """Return the parts as evaluated, held objects included."""
+        evaluated = armature.evaluated_get(depsgraph)
+        bones = evaluated.pose.bones
+        posed = np.empty((len(bones), 4, 4), np.float32)
+        bones.foreach_get("matrix", posed.ravel())
+        row = {bone.name: index for index, bone in enumerate(bones)}
+        rows = [row[name] for name in self.names]
+        matrices = float64_matrix(evaluated.matrix_world) @ posed[rows].transpose(0, 2, 1)
+        linear = matrices[:, :3, :3]
+        centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
+        parts = Parts(self.names, self.masses, centers, linear @ self.spreads @ linear.transpose(0, 2, 1), matrices)
+        held = [self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph)]
+        return Parts.joined([parts, *(part for part in held if part is not None)]) if held else parts
+
+    def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts | None:
+        """Return a held object as a part at its own place, or None if it has no mass."""
+        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        try:
+            moments = self._motion.mass_moments(obj, depsgraph)
+        except MeasureError:
+            return None
+        mass, spread = np.array([moments.total]), moments.about_center().second[None] / unit**2
+        matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
+        return Parts((obj.name,), mass, moments.center[None] / unit, spread, matrix[None])
+
+    def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float, down: NDArray) -> Contacts:
+        """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
+        named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
+        names = [bone.name for bone in armature.data.bones]
+        allowed = np.array([not named or name in named for name in names])
+        reach, lowest, touching = REACH * self.size, np.inf, []
+        for obj, bone in contact_objects(armature, depsgraph):
+            points, matrix = _points(obj, depsgraph)
+            heights = points @ (-down @ matrix[:3, :3]).astype(np.float32) - (down @ matrix[:3, 3] + ground)
+            if named:
+                heights = np.where(allowed[self._bones_of(obj, bone, names, depsgraph)], heights, np.inf)
+            lowest = min(lowest, float(heights.min(initial=np.inf)))
+            near = np.flatnonzero(heights <= reach)
+            if len(near):
+                world = points[near] @ matrix[:3, :3].T + matrix[:3, 3]
+                touching.append((world, self._bones_of(obj, bone, names, depsgraph, near)))
+        height = lowest if np.isfinite(lowest) else None
+        if not touching:
+            return Contacts(np.zeros((0, 3)), np.zeros(0, np.intp), (), tuple(sorted(named)), height, reach)
+        points, bones = (np.concatenate(arrays) for arrays in zip(*touching))
+        found, bones = np.unique(bones, return_inverse=True)
+        carrying = tuple(names[bone] for bone in found.tolist())
+        return Contacts(points, bones, carrying, tuple(sorted(named.difference(carrying))), height, reach)
+
+    def _bones_of(
+        self, obj: Object, bone: str | None, names: Sequence[str], depsgraph: Depsgraph, rows: NDArray | None = None
+    ) -> NDArray[np.intp]:
+        """Return the indices of the bones of an object's vertices, of all without `rows`; those of most weight."""
+        mesh = obj.evaluated_get(depsgraph).data
+        count = len(mesh.vertices)
+        rows = np.arange(count) if rows is None else rows
+        if bone is not None:
+            return np.full(len(rows), names.index(bone))
+        known = self._vertex_bones.get(obj.session_uid)
+        if known is None or len(known) != count:
+            known = self._vertex_bones[obj.session_uid] = np.full(count, UNKNOWN)
+        index = {name: number for number, name in enumerate(names)}
+        group_bones = [index.get(group.name, NO_BONE) for group in obj.vertex_groups]
+        for row in rows[known[rows] == UNKNOWN].tolist():
+            weights = [(entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups]
+            known[row] = max([pair for pair in weights if pair[1] != NO_BONE], default=(0.0, NO_BONE))[1]
+        return known[rows]
+
+
+_characters: SessionCache[tuple[str, Character | None]] = SessionCache()  # with the stamp of the results
+_weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
+
+
+def measure(context: Context, armature: Object) -> Rig:
+    """Measure the bones of a character, and keep or, on a linked one, only remember the results."""
+    rig, unit = measure_rig(context, armature), shortest_decimal(context.scene.unit_settings.scale_length)
+    try:
+        stored.rig.store(rig)
+    except EditRefusedError:
+        bodies = {
+            part.name: PlainBody.of_body(part.measurement.in_object_frame(), 0.0, 0.0, 0.0, {})
+            for part in rig.parts
+            if part.measurement is not None
+        }
+        _characters[armature] = properties.fingerprint(armature), Character.from_bodies(armature, bodies, unit)
+        handlers.count_change(armature)
+    return rig
+
+
+def character(armature: Object, unit: float) -> Character | None:
+    """Return a measured character, None if its bones have not been measured."""
+
+    def read() -> Character | None:
+        bodies = {bone.name: properties.stored(bone) for bone in armature.pose.bones}
+        bodies = {name: body for name, body in bodies.items() if body is not None}
+        return Character.from_bodies(armature, bodies, unit)
+
+    return current_value(_characters, armature, properties.fingerprint(armature), read)
+
+
+def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
+    """Return a character as the dependency graph shows it, None if its bones have not been measured."""
+
+    def stand() -> Weight | None:
+        known = character(armature, shortest_decimal(depsgraph.scene.unit_settings.scale_length))
+        if known is None:
+            return None
+        down = stored.stability.down(depsgraph.scene)
+        parts = known.pose(armature, depsgraph)
+        contacts = known.contacts(armature, depsgraph, armature.body_moments_weight.ground, down)
+        support = support_of_contacts(contacts.points, parts.center, down) if len(contacts.points) else None
+        return Weight(parts, contacts, support)
+
+    return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
+
+
+def find_ground(context: Context, armature: Object) -> float:
+    """Return the height of the ground: the world's origin, or the lowest point at rest or as posed.
+
+    A character that stands on one of them stands there; one in the air is above the higher of the first two.
+    """
+    known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
+    down = stored.stability.down(context.scene)
+    reach = 0.0 if known is None else REACH * known.size
+    with rest_pose(context, armature) as depsgraph:
+        rest = _lowest(armature, depsgraph, down)
+    posed = _lowest(armature, context.evaluated_depsgraph_get(), down)
+    below = [height for height in (0.0, rest) if height <= posed + reach]
+    return max(below, default=posed)
+
+
+def _lowest(armature: Object, depsgraph: Depsgraph, down: NDArray) -> float:
+    """Return the lowest height of what may touch the ground; infinity if there is nothing."""
+    heights = [np.inf]
+    for obj, _bone in contact_objects(armature, depsgraph):
+        points, matrix = _points(obj, depsgraph)
+        heights.append(float((points @ (-down @ matrix[:3, :3])).min(initial=np.inf) - down @ matrix[:3, 3]))
+    return min(heights)
+
+
+def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
+    """Return (object, bone) of the meshes that may touch the ground; None as the bone of skinned ones."""
+    objects = list(depsgraph.view_layer.objects)
+    skinned = skinned_objects(armature, objects)
+    hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
+    several = [*((obj, None) for obj in skinned), *((obj, bone) for obj, bone in hanging if obj.type == "MESH")]
+    return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get()]
+
+
+def _points(obj: Object, depsgraph: Depsgraph) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
+    """Return the evaluated (n, 3) points of a mesh object in its own coordinates, and its matrix in the world."""
+    evaluated = obj.evaluated_get(depsgraph)
+    points = np.empty((len(evaluated.data.vertices), 3), np.float32)
+    evaluated.data.vertices.foreach_get("co", points.ravel())
+    return points, float64_matrix(evaluated.matrix_world)
