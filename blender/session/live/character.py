@@ -22,6 +22,7 @@ from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.support import Support, support_of_contacts
 from ....core.verdict.finding import EditRefusedError, MeasureError
 from ...bodies.rig import Rig, measure_rig
+from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
 from ...write import properties
 from .. import stored
@@ -293,6 +294,4 @@ def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object
 def _points(obj: Object, depsgraph: Depsgraph) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
     """Return the evaluated (n, 3) points of a mesh object in its own coordinates, and its matrix in the world."""
     evaluated = obj.evaluated_get(depsgraph)
-    points = np.empty((len(evaluated.data.vertices), 3), np.float32)
-    evaluated.data.vertices.foreach_get("co", points.ravel())
-    return points, float64_matrix(evaluated.matrix_world)
+    return vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
