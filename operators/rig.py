@@ -1,18 +1,22 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators on characters: the parts of their bones, rigid bodies for them, and their center of mass."""
+"""Operators on characters: the parts of their bones, rigid bodies for them, their center of mass and balance."""
 
-from bpy.types import Context, Operator
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy.types import Context, Operator, Scene
 
-from ..blender import bodies, read, scene
+from ..blender import bodies, read, scene, session
 from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
 from ..blender.read.tracking import tracking_paused
-from ..blender.session import stored
+from ..blender.session import live, stored
+from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.write import reports
 from ..core.verdict.finding import Severity, finding
 from ..core.verdict.sentences import of_severity
 from . import selection
 from .assembly import report_cleared
+
+NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
 
 
 class OnArmature:
@@ -22,6 +26,20 @@ class OnArmature:
     def poll(cls, context: Context) -> bool:
         is_armature = context.object is not None and context.object.type == "ARMATURE"
         return is_armature or reports.unavailable(cls, "The active object is not an armature. Select one.")
+
+
+class InPoseMode:
+    """Base of operators that need an armature in Pose Mode."""
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        is_posed = context.object is not None and stands_for_meshes(context.object)
+        return is_posed or reports.unavailable(cls, "Select an armature, and switch to Pose Mode")
+
+
+def has_gravity(scene: Scene) -> bool:
+    """Return whether anything weighs something in a scene."""
+    return scene.use_gravity and any(scene.gravity)
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
@@ -107,7 +125,120 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
         return {"FINISHED"}
 
 
+class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
+    """Measure the posed characters, and show what they weigh and how they stand."""
+
+    bl_idname = "pose.body_moments_show_weight"
+    bl_label = "Show Weight"
+    bl_description = (
+        "Show the center of mass of the selected characters while they are posed, the support polygon below it, and "
+        "the margin to its edge. Bones are measured, and the ground is found; press again to hide"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    @selection.report_refusals
+    def execute(self, context: Context) -> set[str]:
+        armatures = [obj for obj in context.selected_objects if stands_for_meshes(obj)] or [context.object]
+        shown = not context.object.body_moments_weight.show
+        if shown and not has_gravity(context.scene):
+            return selection.refuse(self, NO_GRAVITY)
+        findings = []
+        for armature in armatures:
+            if shown:
+                rig = live.character.measure(context, armature)
+                findings += of_severity(rig.measurement.findings, Severity.WARNING, Severity.ERROR)
+        for armature in armatures:
+            settings = armature.body_moments_weight
+            if shown:
+                settings.ground = live.character.find_ground(context, armature)
+            settings.show = shown
+        names = ", ".join(armature.name for armature in armatures)
+        text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
+        selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
+        selection.redraw(context)
+        return {"FINISHED"}
+
+
+class POSE_OT_body_moments_set_contacts(InPoseMode, Operator):
+    """Name the bones that may touch the ground."""
+
+    bl_idname = "pose.body_moments_set_contacts"
+    bl_label = "Set Contacts"
+    bl_description = "Let only the selected bones touch the ground, or with Any Bone again all of them"
+    bl_options = {"REGISTER", "UNDO"}
+
+    clear: BoolProperty(name="Any Bone", description="Any bone may touch the ground", default=False)
+
+    def execute(self, context: Context) -> set[str]:
+        chosen = {bone.name for bone in context.selected_pose_bones if bone.id_data == context.object}
+        if not chosen and not self.clear:
+            return selection.refuse(self, "No bone is selected. Select those that may touch the ground.")
+        for bone in context.object.pose.bones:
+            bone.body_moments.is_contact = bone.name in chosen and not self.clear
+        selection.redraw(context)
+        return {"FINISHED"}
+
+
+class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
+    """Move a bone least, so that the center of mass is over the support."""
+
+    bl_idname = "pose.body_moments_balance_pose"
+    bl_label = "Balance Pose"
+    bl_description = (
+        "Move the hips or the root, or turn the chosen bone, by the least amount that brings the center of mass over "
+        "the support. Feet held by inverse kinematics stay in place"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    bone: StringProperty(
+        name="Bone",
+        description="Bone to move. If empty, the active one or the first one that leaves the contacts in place",
+    )
+    target: EnumProperty(
+        name="Target",
+        description="Where the center of mass shall be",
+        items=(
+            ("MIDDLE", "Middle", "Over the middle of the support polygon"),
+            ("INSIDE", "Inside", "Over the nearest point with the margin from the edge"),
+        ),
+        default="MIDDLE",
+    )
+    margin: FloatProperty(
+        name="Margin", description="Distance from the edge of the support polygon", default=0.05, min=0.0, unit="LENGTH"
+    )
+
+    def draw(self, context: Context) -> None:
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop_search(self, "bone", context.object.pose, "bones")
+        layout.prop(self, "target")
+        if self.target == "INSIDE":
+            layout.prop(self, "margin")
+
+    @selection.report_refusals
+    def execute(self, context: Context) -> set[str]:
+        armature, scene_ = context.object, context.scene
+        if not has_gravity(scene_):
+            return selection.refuse(self, NO_GRAVITY)
+        if self.bone and self.bone not in armature.pose.bones:
+            return selection.refuse(self, "There is no bone “{name}”. Choose another one.", name=self.bone)
+        margin = self.margin if self.target == "INSIDE" else None
+        result = session.balance_pose(context, armature, self.bone, margin)
+        if result.problem == session.BALANCED:
+            selection.report(self, reports.phrase("Nothing to do: {cause}", cause=reports.phrase(result.problem)))
+            return {"CANCELLED"}
+        if result.problem:
+            return selection.refuse(self, result.problem, **result.values)
+        text = "Moved “{bone}”: the center is {residual:length} from its target, {margin:length} inside the support"
+        selection.report(self, reports.phrase(text, **result.values))
+        selection.redraw(context)
+        return {"FINISHED"}
+
+
 CLASSES = (
+    POSE_OT_body_moments_show_weight,
+    POSE_OT_body_moments_set_contacts,
+    POSE_OT_body_moments_balance_pose,
     OBJECT_OT_body_moments_measure_bones,
     OBJECT_OT_body_moments_clear_bones,
     OBJECT_OT_body_moments_physics_rig,

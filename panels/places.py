@@ -22,6 +22,7 @@ ORDER = (
     "stability",
     "selection",
     "assembly",
+    "weight",
     "bones",
     "section",
     "shape",

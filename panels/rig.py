@@ -1,16 +1,26 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bones: the part of the active bone among the bone's properties, and the sub-panel of a whole character."""
+"""Bones: the part of the active bone among the bone's properties, and the sub-panels of a whole character."""
 
 from __future__ import annotations
 
-from bpy.types import Context, Panel, PoseBone, UILayout
+from typing import TYPE_CHECKING
 
+from bpy.types import Context, Panel, PoseBone, Scene, UILayout
+
+from ..blender.session import live
+from ..blender.session.tracking.armatures import stands_for_meshes
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write import properties
+from ..blender.write.translations import localized
 from ..blender.write.units import Units
+from ..core.lazy import loaded_module
+from ..core.numerics.float32 import shortest_decimal
 from . import rows
 from .places import in_both_places
+
+if TYPE_CHECKING:
+    from ..blender.session.live.character import Weight
 
 LISTED = 60  # bones that the sub-panel lists
 
@@ -51,6 +61,83 @@ class BonesPanel:
         rows.button(column, context, "object.body_moments_physics_rig", "RIGID_BODY")
         rows.button(column, context, "object.body_moments_rig_center", "EMPTY_AXIS")
         rows.button(column, context, "object.body_moments_clear_bones", "TRASH")
+
+
+class WeightPanel:
+    """Center of mass, support and contacts of a character as it is posed"""
+
+    bl_label = "Weight"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and stands_for_meshes(context.object)
+
+    def draw(self, context: Context) -> None:
+        layout, armature = self.layout, context.object
+        layout.use_property_decorate = False
+        settings, unit = armature.body_moments_weight, shortest_decimal(context.scene.unit_settings.scale_length)
+        row = layout.row()
+        row.scale_y = 1.4
+        row.operator("pose.body_moments_show_weight", icon="CON_FLOOR", depress=settings.show)
+        if not settings.show:
+            return
+        character, depsgraph = loaded_module(live, "character"), context.view_layer.depsgraph
+        weight = None if character is None or depsgraph is None else character.weight(armature, depsgraph)
+        rows.stale_row(layout, context, stale_reason(armature, context.scene))
+        if weight is None:
+            rows.remark(layout, context, "The bones have not been measured. Show the weight again.")
+        else:
+            _standing(layout, context, weight, unit)
+        button = layout.row()
+        button.scale_y = 1.4
+        button.operator("pose.body_moments_balance_pose", icon="PIVOT_CURSOR")
+        column = layout.column()
+        rows.setting(column, settings, "mass", text="Total Mass (kg)")
+        rows.setting(column, settings, "ground")
+        row = layout.row(align=True)
+        row.operator("pose.body_moments_set_contacts", text="Contacts from Selected").clear = False
+        row.operator("pose.body_moments_set_contacts", text="", icon="X").clear = True
+
+
+def standing(weight: Weight) -> tuple[str, str]:
+    """Return the English text on how a character stands, for the values of `standing_values`, and its icon."""
+    support = weight.support
+    if support is None:
+        known = weight.contacts.height is not None
+        return "In the air: {height:length} above the ground" if known else "No mesh can touch the ground", "INFO"
+    if not support.stands:
+        return "Falls: {margin:length} outside the support", "CANCEL"
+    if support.is_near_edge:
+        return "Near the edge: {margin:length} inside the support", "ERROR"
+    return "Balanced: {margin:length} inside the support", "CHECKMARK"
+
+
+def standing_values(weight: Weight, scene: Scene) -> dict[str, float]:
+    """Return the lengths in the texts of `standing`, in meters."""
+    unit, support = shortest_decimal(scene.unit_settings.scale_length), weight.support
+    margin = 0.0 if support is None else abs(support.margin)
+    return {"margin": unit * margin, "height": unit * (weight.contacts.height or 0.0)}
+
+
+def _standing(layout: UILayout, context: Context, weight: Weight, unit: float) -> None:
+    """Draw margin and color of a character's stand, its mass and center, and the contacts that carry it."""
+    text, icon = standing(weight)
+    box = layout.box()
+    box.alert = icon == "CANCEL"
+    rows.remark(box, context, text, icon=icon, boxed=True, **standing_values(weight, context.scene))
+    units, support = Units.from_settings(context.scene.unit_settings), weight.support
+    column = layout.column(align=True)
+    rows.quantities(column, units, [("Mass", "mass", weight.parts.mass)])
+    if support is not None:
+        lengths = [("Margin", "length", support.margin * unit), ("Height", "length", support.height * unit)]
+        rows.quantities(column, units, lengths)
+    rows.group(layout, units, "Center of Mass", rows.AXIS_LABELS, "length", (weight.parts.center * unit).tolist())
+    column = layout.column(align=True)
+    for names, icon, note in ((weight.contacts.names, "CHECKMARK", "Carries"), (weight.contacts.lifted, "X", "Lifted")):
+        for name in names[:LISTED]:
+            row = column.row(align=True)
+            row.label(text=name, icon=icon, translate=False)
+            rows.right(row, localized(note))
 
 
 class BONE_PT_body_moments(Panel):
@@ -100,4 +187,8 @@ def _numbers(layout: UILayout, context: Context, bone: PoseBone) -> None:
     rows.group(layout, units, "Inertia, Ixy = −∫xy dm", rows.TENSOR_LABELS, "inertia", stored.inertia)
 
 
-CLASSES = (*in_both_places(BonesPanel, "bones"), BONE_PT_body_moments)
+CLASSES = (
+    *in_both_places(WeightPanel, "weight", options=frozenset()),
+    *in_both_places(BonesPanel, "bones"),
+    BONE_PT_body_moments,
+)

@@ -6,8 +6,10 @@ from ...core.lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
+    BALANCED="balance_pose",
     BalanceGroup="balance_group",
     SimilarSearch="similar",
+    balance_pose="balance_pose",
     bill_rows="bill",
     check_stability="statics",
     lay_on_ground="statics",

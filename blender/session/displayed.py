@@ -10,9 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
+from ...core.lazy import loaded_module
 from ...core.measurement.trust import Trust, open_body_caveats, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
@@ -39,7 +41,8 @@ class Displayed:
 
     numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason: the reason if the
     numbers are out of date. live: the result with Live on. lag: the lag of live numbers behind the object. is_posed:
-    whether the numbers are a sum of parts in the present pose.
+    whether the numbers are a sum of parts in the present pose. foot: (3,) the point of the ground below a character's
+    center, Blender's units; the floor, Z = 0, if there is none.
     """
 
     numbers: PlainBody
@@ -52,6 +55,7 @@ class Displayed:
     live: LiveResult | None = None
     lag: Lag = Lag.NONE
     is_posed: bool = False
+    foot: Sequence[float] | None = None
 
     def in_frame(self, frame: str) -> PlainBody:
         """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
@@ -141,7 +145,7 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
     """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
     if obj.type == "ARMATURE":
-        shown = displayed(obj, scene)
+        shown = _weighed(obj, scene) or displayed(obj, scene)
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
             shown = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:
@@ -208,6 +212,22 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     own = world.in_object(armature.matrix_world, unit)
     worst = max(known, key=lambda part: tuple(Trust).index(part.trust))
     return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
+
+
+def _weighed(armature: Object, scene: Scene) -> Displayed | None:
+    """Return a character whose weight is shown, by its bones in the present pose; None for others."""
+    depsgraph, character = bpy.context.view_layer.depsgraph, loaded_module(live, "character")
+    if not armature.body_moments_weight.show or character is None or depsgraph is None:
+        return None
+    weight = character.weight(armature, depsgraph)
+    if weight is None:
+        return None
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    world = weight.body(properties.stored(armature), unit)
+    method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
+    trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
+    own = world.in_object(armature.matrix_world, unit)
+    return Displayed(own, world, unit, method, findings, trust, reason, is_posed=True, foot=weight.foot.tolist())
 
 
 def shown_objects(context: Context) -> list[Object]:

@@ -20,6 +20,7 @@ from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import check_filled, float_array
 
 CONTACT_RTOL = 1e-6  # Relative to the body's extent: points up to this height above the lowest one touch the ground.
+NEAR = 0.5  # Relative to area by perimeter, which is between half and all of the largest margin: near the edge.
 ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # Relative to the corners' distances: zero after rounding.
 
 
@@ -50,6 +51,30 @@ class Support:
     def tipping_angle(self) -> float:
         """The tilt of the ground at which the body tips, in radians; negative if it tips by itself."""
         return atan2(self.margin, self.height)
+
+    @property
+    def is_near_edge(self) -> bool:
+        """True if the margin is below a quarter or, in long polygons, half of the largest one."""
+        local = self._local
+        turned = np.roll(local, -1, axis=0)
+        length = float(np.linalg.norm(turned - local, axis=1).sum())
+        area = float((local[:, 0] * turned[:, 1] - local[:, 1] * turned[:, 0]).sum()) / 2.0
+        return self.margin * length < NEAR * area
+
+    def target(self, margin: float | None) -> NDArray[np.float64]:
+        """Return the point of the polygon nearest to the foot with a margin, (3,); None, or too much: the middle."""
+        local = self._local
+        inside = local[:0] if margin is None else shrink_polygon(local, margin)
+        nearest = polygon_middle(local) if not len(inside) else np.zeros(2)
+        if len(inside) and polygon_margin(inside)[0] < 0.0:
+            gap, away = polygon_margin(inside)
+            nearest = gap * away
+        return self.foot + ground_axes(-self.up)[:, :2] @ nearest
+
+    @property
+    def _local(self) -> NDArray[np.float64]:
+        """(k, 2) corners along the ground, from the foot."""
+        return (self.polygon - self.foot) @ ground_axes(-self.up)[:, :2]
 
 
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
@@ -137,3 +162,29 @@ def polygon_margin(corners: NDArray[np.float64]) -> tuple[float, NDArray[np.floa
         return -float(distances[nearest]), -closest[nearest] / distances[nearest]
     side = along[nearest] / lengths[nearest] if lengths[nearest] > 0.0 else np.array([0.0, -1.0])
     return 0.0, np.array([side[1], -side[0]])
+
+
+def polygon_middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the centroid, (2,), of the area of a convex polygon, or else of a line or point."""
+    first, second = corners - corners[0], np.roll(corners, -1, axis=0) - corners[0]
+    areas = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    if not areas.sum() > 0.0:
+        return corners.mean(axis=0)
+    return corners[0] + areas @ (first + second) / (3.0 * areas.sum())
+
+
+def shrink_polygon(corners: NDArray[np.float64], margin: float) -> NDArray[np.float64]:
+    """Return the (l, 2) corners of the points at least `margin` inside a convex polygon, none if there are none."""
+    along = np.roll(corners, -1, axis=0) - corners
+    lengths = np.linalg.norm(along, axis=1)
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)[lengths > 0.0] / lengths[lengths > 0.0, None]
+    limits = (outward * corners[lengths > 0.0]).sum(axis=1) - margin
+    for normal, limit in zip(outward, limits):
+        over = corners @ normal - limit
+        after = np.roll(over, -1)
+        is_crossed = (over > 0.0) != (after > 0.0)
+        share = over / np.where(is_crossed, over - after, 1.0)
+        crossings = corners + share[:, None] * (np.roll(corners, -1, axis=0) - corners)
+        pairs = np.stack([corners, crossings], axis=1).reshape(-1, 2)
+        corners = pairs[np.stack([over <= 0.0, is_crossed], axis=1).ravel()]
+    return corners

@@ -1,18 +1,23 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Details of single objects: faults and support polygons, as colored segments and triangles in the world."""
+"""Details of single objects: faults, support polygons and weights, as colored shapes and texts in the world."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...blender.session import live
+from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
+from ...blender.write import reports
 from ...core.statics.support import Support
+from ..rig import standing, standing_values
 from . import appearance as look
+from .draw import shows_weight
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
@@ -21,10 +26,14 @@ Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
 
 @dataclass(frozen=True, eq=False)
 class Detail:
-    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors."""
+    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors.
+
+    texts: a (3,) place, a text and its color each.
+    """
 
     segments: Colored
     triangles: Colored
+    texts: tuple[tuple[NDArray[np.float64], str, NDArray], ...] = ()
 
 
 def list_details(context: Context, objects: list[Object]) -> list[Detail]:
@@ -39,6 +48,10 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
                     details.append(support_detail(stood))
     found = map(faults.of_object, objects) if settings.show_faults else ()
     details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
+    for obj in objects:
+        weight = live.character.weight(obj, context.view_layer.depsgraph) if shows_weight(obj) else None
+        if weight is not None:
+            details.append(_weight(context, weight))
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     return details + [support_detail(support) for support in supports if support is not None]
@@ -65,9 +78,19 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
     return Detail(_tinted(edges, look.FAULT), _tinted(triangles, look.FAULT, FILL))
 
 
+def _weight(context: Context, weight: Weight) -> Detail:
+    """Return a character's support polygon, a cross at each corner that carries it, and its margin beside the foot."""
+    text = reports.phrase(standing(weight)[0], **standing_values(weight, context.scene))
+    if weight.support is None:
+        empty = _tinted(np.zeros((0, 2, 3)), look.TIPS)
+        return Detail(empty, (np.zeros((0, 3, 3)), empty[1]), ((weight.foot, text, look.TIPS),))
+    support = support_detail(weight.support)
+    return replace(support, texts=((weight.foot, text, support.segments[1][0]),))
+
+
 def support_detail(support: Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the tipping edge."""
-    color = look.SUPPORT if support.stands else look.TIPS
+    color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     fan = np.stack([np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1)

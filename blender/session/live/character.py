@@ -17,10 +17,11 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
-from ....core.inertia.plain_body import PlainBody, tensor_rows
+from ....core.inertia.plain_body import COLUMNS, ROWS, PlainBody, principal_axes, tensor_rows
 from ....core.numerics.float32 import shortest_decimal
 from ....core.statics.support import Support, support_of_contacts
-from ....core.verdict.finding import EditRefusedError, MeasureError
+from ....core.verdict.finding import EditRefusedError, MeasureError, ReadError
+from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
 from ...bodies.rig import Rig, measure_rig
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
@@ -28,6 +29,7 @@ from ...write import properties
 from .. import stored
 from ..tracking import handlers
 from ..tracking.cache import SessionCache, current_value
+from ..tracking.staleness import stale_reason
 from .motion import Motion
 
 REACH = 0.01  # contact with the ground within this height, relative to the character's size
@@ -80,27 +82,43 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """What touches the ground. points: (k, 3). bones: (k,) indices into `names`, the names of bones that carry.
+    """What touches the ground. points: (k, 3). names: of the bones that carry; lifted: of those that should and do not.
 
-    lifted: names of bones that should carry and do not. height: of the lowest point above the ground; None if there is
-    no point. tolerance: the height up to which points touch.
+    height: of the lowest point above the ground; None if there is no point. sources: objects, and which of their
+    vertices touch.
     """
 
     points: NDArray[np.float64]
-    bones: NDArray[np.intp]
     names: tuple[str, ...]
     lifted: tuple[str, ...]
     height: float | None
-    tolerance: float
+    sources: tuple[tuple[Object, NDArray[np.intp]], ...]
+
+    def positions(self, depsgraph: Depsgraph) -> NDArray[np.float64]:
+        """Return (k, 3), where the same vertices are as evaluated."""
+        return np.concatenate([_world_points(obj, depsgraph, rows) for obj, rows in self.sources])
 
 
 @dataclass(frozen=True, eq=False)
 class Weight:
-    """A character as it is posed: its parts, contacts, and the support below its center, None if nothing touches."""
+    """A character as it is posed: its parts and contacts.
+
+    support: the support below its center, None if nothing touches. foot: (3,) point of the ground below the center.
+    """
 
     parts: Parts
     contacts: Contacts
     support: Support | None
+    foot: NDArray[np.float64]
+
+    def body(self, before: PlainBody | None, unit: float) -> PlainBody:
+        """Return the total as plain numbers, SI in the world; before: at rest, whose volume and bounds stay."""
+        inertia = tuple((self.parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
+        moments, axes, _ = principal_axes(inertia)
+        center = tuple((self.parts.center * unit).tolist())
+        if before is None:
+            return PlainBody(self.parts.mass, 0.0, 0.0, 0.0, center, inertia, moments, axes, {})
+        return before._replace(mass=self.parts.mass, center=center, inertia=inertia, moments=moments, axes=axes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,27 +187,24 @@ class Character:
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float, down: NDArray) -> Contacts:
         """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
-        named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
         names = [bone.name for bone in armature.data.bones]
-        allowed = np.array([not named or name in named for name in names])
-        reach, lowest, touching = REACH * self.size, np.inf, []
+        named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
+        may_touch = np.array([not named or name in named for name in names] + [not named])  # last: without a weight
+        reach, lowest, bones, sources = REACH * self.size, np.inf, set(), []
         for obj, bone in contact_objects(armature, depsgraph):
             points, matrix = _points(obj, depsgraph)
             heights = points @ (-down @ matrix[:3, :3]).astype(np.float32) - (down @ matrix[:3, 3] + ground)
             if named:
-                heights = np.where(allowed[self._bones_of(obj, bone, names, depsgraph)], heights, np.inf)
+                heights = np.where(may_touch[self._bones_of(obj, bone, names, depsgraph)], heights, np.inf)
             lowest = min(lowest, float(heights.min(initial=np.inf)))
             near = np.flatnonzero(heights <= reach)
             if len(near):
-                world = points[near] @ matrix[:3, :3].T + matrix[:3, 3]
-                touching.append((world, self._bones_of(obj, bone, names, depsgraph, near)))
+                bones.update(self._bones_of(obj, bone, names, depsgraph, near).tolist())
+                sources.append((obj, near))
+        carrying = sorted(names[bone] for bone in bones if bone != NO_BONE)
+        points = np.concatenate([np.zeros((0, 3)), *(_world_points(obj, depsgraph, rows) for obj, rows in sources)])
         height = lowest if np.isfinite(lowest) else None
-        if not touching:
-            return Contacts(np.zeros((0, 3)), np.zeros(0, np.intp), (), tuple(sorted(named)), height, reach)
-        points, bones = (np.concatenate(arrays) for arrays in zip(*touching))
-        found, bones = np.unique(bones, return_inverse=True)
-        carrying = tuple(names[bone] for bone in found.tolist())
-        return Contacts(points, bones, carrying, tuple(sorted(named.difference(carrying))), height, reach)
+        return Contacts(points, tuple(carrying), tuple(sorted(named.difference(carrying))), height, tuple(sources))
 
     def _bones_of(
         self, obj: Object, bone: str | None, names: Sequence[str], depsgraph: Depsgraph, rows: NDArray | None = None
@@ -216,8 +231,15 @@ _weights: SessionCache[tuple[tuple, Weight | None]] = SessionCache()
 
 
 def measure(context: Context, armature: Object) -> Rig:
-    """Measure the bones of a character, and keep or, on a linked one, only remember the results."""
+    """Measure the bones of a character, and keep or, on a linked one, only remember the results.
+
+    Raise MeasureError, and keep nothing, if there are no parts, or no vertex of the meshes has a weight.
+    """
     rig, unit = measure_rig(context, armature), shortest_decimal(context.scene.unit_settings.scale_length)
+    bare = [found for found in rig.measurement.findings if found.code == UNWEIGHTED_VERTICES]
+    meshes = skinned_objects(armature, rig.objects)
+    if meshes and len(bare) == len(meshes) and all(found.values["count"] == found.values["total"] for found in bare):
+        raise ReadError(RIG_WITHOUT_PARTS, subject=armature.name)
     try:
         stored.rig.store(rig)
     except EditRefusedError:
@@ -249,13 +271,23 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
         known = character(armature, shortest_decimal(depsgraph.scene.unit_settings.scale_length))
         if known is None:
             return None
-        down = stored.stability.down(depsgraph.scene)
+        down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
         parts = known.pose(armature, depsgraph)
-        contacts = known.contacts(armature, depsgraph, armature.body_moments_weight.ground, down)
+        contacts = known.contacts(armature, depsgraph, ground, down)
         support = support_of_contacts(contacts.points, parts.center, down) if len(contacts.points) else None
-        return Weight(parts, contacts, support)
+        foot = parts.center - (parts.center @ down + ground) * down if support is None else support.foot
+        return Weight(parts, contacts, support, foot)
 
     return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
+
+
+def prepare(context: Context, armature: Object) -> None:
+    """Measure a character and find its ground if that has not been done, or the results are out of date."""
+    known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
+    if known is None or stale_reason(armature, context.scene) is not None:
+        measure(context, armature)
+    if known is None:
+        armature.body_moments_weight.ground = find_ground(context, armature)
 
 
 def find_ground(context: Context, armature: Object) -> float:
@@ -295,3 +327,9 @@ def _points(obj: Object, depsgraph: Depsgraph) -> tuple[NDArray[np.float32], NDA
     """Return the evaluated (n, 3) points of a mesh object in its own coordinates, and its matrix in the world."""
     evaluated = obj.evaluated_get(depsgraph)
     return vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
+
+
+def _world_points(obj: Object, depsgraph: Depsgraph, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Return the evaluated (k, 3) places of some vertices in the world."""
+    points, matrix = _points(obj, depsgraph)
+    return points[rows] @ matrix[:3, :3].T + matrix[:3, 3]
