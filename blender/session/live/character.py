@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
-from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
@@ -23,6 +22,7 @@ from ....core.statics.support import Support, support_of_contacts
 from ....core.verdict.finding import EditRefusedError, MeasureError, ReadError
 from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
 from ...bodies.rig import Rig, measure_rig
+from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
 from ...write import properties
@@ -143,20 +143,19 @@ class Character:
         bodies = {name: body for name, body in bodies.items() if body.mass > 0.0 and name in armature.data.bones}
         if not bodies:
             return None
-        place, centers, spreads, ends = armature.matrix_world, [], [], []
+        place, frames = float64_matrix(armature.matrix_world), RestBones.read(armature).frames
+        centers, spreads, ends = [], [], []
         for name, body in bodies.items():
-            bone = armature.data.bones[name]
-            rest = place @ bone.matrix_local
-            location, turn, _scale = rest.decompose()
-            frame = np.array(Matrix.LocRotScale(location, turn, None), np.float64)
-            to_bone = np.linalg.inv(np.array(rest, np.float64)) @ frame
+            bone, (turn, head) = armature.data.bones[name], frames[name]
+            to_bone = np.linalg.inv(place @ float64_matrix(bone.matrix_local))
             tensor = np.array(tensor_rows(body.inertia))
             spread = np.trace(tensor) / 2.0 * np.eye(3) - tensor
-            centers.append(to_bone[:3, :3] @ body.center / unit + to_bone[:3, 3])
-            spreads.append(to_bone[:3, :3] @ spread @ to_bone[:3, :3].T / unit**2)
-            ends += [place @ bone.head_local, place @ bone.tail_local]
+            linear = to_bone[:3, :3] @ turn / unit
+            centers.append(linear @ body.center + to_bone[:3, :3] @ head + to_bone[:3, 3])
+            spreads.append(linear @ spread @ linear.T)
+            ends += [bone.head_local, bone.tail_local]
         masses = np.array([body.mass for body in bodies.values()])
-        size = float(np.ptp(np.array(ends), axis=0).max())
+        size = float(np.ptp(np.array(ends) @ place[:3, :3].T, axis=0).max())
         return cls(tuple(bodies), masses, np.array(centers), np.array(spreads), size)
 
     def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
@@ -181,7 +180,7 @@ class Character:
             moments = self._motion.mass_moments(obj, depsgraph)
         except MeasureError:
             return None
-        mass, spread = np.array([moments.total]), moments.about_center().second[None] / unit**2
+        mass, spread = np.array([moments.total]), moments.about_center().second()[None] / unit**2
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         return Parts((obj.name,), mass, moments.center[None] / unit, spread, matrix[None])
 
