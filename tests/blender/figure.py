@@ -93,6 +93,11 @@ def skin(rig, levels=2, name="Body"):
     rig.select_set(True)
     bpy.context.view_layer.objects.active = rig
     bpy.ops.object.parent_set(type="ARMATURE_AUTO")
+    for vertex in body.vertices:
+        if vertex.co.z < 0.04:  # the soles belong to the feet alone
+            for group in obj.vertex_groups:
+                group.remove([vertex.index])
+            obj.vertex_groups["foot." + ("L" if vertex.co.x > 0.0 else "R")].add([vertex.index], 1.0, "REPLACE")
     obj.body_moments.density = 985.0
     obj.select_set(False)
     return obj
