@@ -33,6 +33,7 @@ from ..tracking.staleness import stale_reason
 from .motion import Motion
 
 REACH = 0.01  # contact with the ground within this height, relative to the character's size
+OUTLINE = 1e-4  # corners of the support polygon, relative to its extent, that count
 UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a weight
 
 
@@ -264,7 +265,8 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
         down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
         parts = known.pose(armature, depsgraph)
         contacts = known.contacts(armature, depsgraph, ground, down)
-        support = support_of_contacts(contacts.points, parts.center, down) if len(contacts.points) else None
+        points = contacts.points
+        support = support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None
         foot = parts.center - (parts.center @ down + ground) * down if support is None else support.foot
         return Weight(parts, contacts, support, foot)
 
