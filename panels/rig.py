@@ -94,9 +94,8 @@ class WeightPanel:
         column = layout.column()
         rows.setting(column, settings, "mass", text="Total Mass (kg)")
         rows.setting(column, settings, "ground")
-        row = layout.row(align=True)
-        row.operator("pose.body_moments_set_contacts", text="Contacts from Selected").clear = False
-        row.operator("pose.body_moments_set_contacts", text="", icon="X").clear = True
+        if context.active_pose_bone is not None:
+            column.prop(context.active_pose_bone.body_moments, "is_contact")
 
 
 def standing(weight: Weight) -> tuple[str, str]:

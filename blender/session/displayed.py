@@ -7,11 +7,11 @@ Panels of stored numbers are drawn without numpy; live numbers are computed by o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import bpy
-from bpy.types import ID, Context, Depsgraph, Object, PoseBone, Scene
+from bpy.types import ID, Context, Object, PoseBone, Scene
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.lazy import loaded_module
@@ -88,8 +88,6 @@ _drawn_in: tuple = ()  # the scene's part in them
 _moved: set[int] = set()  # session uids of objects that have only moved since
 # A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
-
-_characters: SessionCache[tuple[tuple[int, int], Displayed | None]] = SessionCache()  # after generation and scene
 
 
 def displayed(obj: Object, scene: Scene) -> Displayed | None:
@@ -224,20 +222,14 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     depsgraph, character = bpy.context.view_layer.depsgraph, loaded_module(live, "character")
     if not armature.body_moments_weight.show or character is None or depsgraph is None:
         return None
-    key = handlers.generation(), scene.session_uid
-    return current_value(_characters, armature, key, lambda: _weigh(armature, scene, character.weight, depsgraph))
-
-
-def _weigh(armature: Object, scene: Scene, weigh: Callable, depsgraph: Depsgraph) -> Displayed | None:
-    weight = weigh(armature, depsgraph)
+    weight = character.weight(armature, depsgraph)
     if weight is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    world = weight.body(properties.stored(armature), unit)
     method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
     trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
-    own = world.in_object(armature.matrix_world, unit)
-    return Displayed(own, world, unit, method, findings, trust, reason, is_posed=True, foot=weight.foot.tolist())
+    own, foot = weight.body.in_object(armature.matrix_world, unit), weight.foot.tolist()
+    return Displayed(own, weight.body, unit, method, findings, trust, reason, is_posed=True, foot=foot)
 
 
 def shown_objects(context: Context) -> list[Object]:

@@ -101,21 +101,14 @@ class Weight:
     """A character as it is posed: its parts and contacts.
 
     support: the support below its center, None if nothing touches. foot: (3,) point of the ground below the center.
+    body: the total as plain numbers, SI in the world, with the volume and bounds of the rest pose.
     """
 
     parts: Parts
     contacts: Contacts
     support: Support | None
     foot: NDArray[np.float64]
-
-    def body(self, before: PlainBody | None, unit: float) -> PlainBody:
-        """Return the total as plain numbers, SI in the world; before: at rest, whose volume and bounds stay."""
-        inertia = tuple((self.parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
-        moments, axes, _ = principal_axes(inertia)
-        center = tuple((self.parts.center * unit).tolist())
-        if before is None:
-            return PlainBody(self.parts.mass, 0.0, 0.0, 0.0, center, inertia, moments, axes, {})
-        return before._replace(mass=self.parts.mass, center=center, inertia=inertia, moments=moments, axes=axes)
+    body: PlainBody
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,7 +252,8 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     """Return a character as the dependency graph shows it, None if its bones have not been measured."""
 
     def stand() -> Weight | None:
-        known = character(armature, shortest_decimal(depsgraph.scene.unit_settings.scale_length))
+        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        known = character(armature, unit)
         if known is None:
             return None
         down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
@@ -268,42 +262,39 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
         points = contacts.points
         support = support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None
         foot = parts.center - (parts.center @ down + ground) * down if support is None else support.foot
-        return Weight(parts, contacts, support, foot)
+        inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
+        moments, axes, _ = principal_axes(inertia)
+        rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
+        center = tuple((parts.center * unit).tolist())
+        body = rest._replace(mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes)
+        return Weight(parts, contacts, support, foot, body)
 
     return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
 
 
 def prepare(context: Context, armature: Object) -> None:
     """Measure a character and find its ground if that has not been done, or the results are out of date."""
-    known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
-    if known is None or stale_reason(armature, context.scene) is not None:
+    is_new = weight(armature, context.evaluated_depsgraph_get()) is None
+    if is_new or stale_reason(armature, context.scene) is not None:
         measure(context, armature)
-    if known is None:
-        armature.body_moments_weight.ground = find_ground(context, armature)
+    if is_new:
+        find_ground(context, armature)
 
 
-def find_ground(context: Context, armature: Object) -> float:
-    """Return the height of the ground: the world's origin, or the lowest point at rest or as posed.
+def find_ground(context: Context, armature: Object) -> None:
+    """Set the height of a measured character's ground: the world's origin, or its lowest point at rest or as posed.
 
     A character that stands on one of them stands there; one in the air is above the higher of the first two.
     """
     known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
+    assert known is not None
     down = stored.stability.down(context.scene)
-    reach = 0.0 if known is None else REACH * known.size
     with rest_pose(context, armature) as depsgraph:
-        rest = _lowest(armature, depsgraph, down)
-    posed = _lowest(armature, context.evaluated_depsgraph_get(), down)
-    below = [height for height in (0.0, rest) if height <= posed + reach]
-    return max(below, default=posed)
-
-
-def _lowest(armature: Object, depsgraph: Depsgraph, down: NDArray) -> float:
-    """Return the lowest height of what may touch the ground; infinity if there is nothing."""
-    heights = [np.inf]
-    for obj, _bone in contact_objects(armature, depsgraph):
-        points, matrix = _points(obj, depsgraph)
-        heights.append(float((points @ (-down @ matrix[:3, :3])).min(initial=np.inf) - down @ matrix[:3, 3]))
-    return min(heights)
+        rest = known.contacts(armature, depsgraph, 0.0, down).height
+    posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0, down).height
+    if rest is not None and posed is not None:
+        below = [height for height in (0.0, rest) if height <= posed + REACH * known.size]
+        armature.body_moments_weight.ground = max(below, default=posed)
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
