@@ -126,14 +126,10 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
-    """Measure the posed characters, and show what they weigh and how they stand."""
+    """Show the selected characters' center of mass and support polygon while they are posed, or hide them again"""
 
     bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
-    bl_description = (
-        "Show the center of mass of the selected characters while they are posed, the support polygon below it, and "
-        "the margin to its edge. Bones are measured, and the ground is found; press again to hide"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     @selection.report_refusals
@@ -157,14 +153,10 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
 
 
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
-    """Move a bone least, so that the center of mass is over the support."""
+    """Move a bone by the least length or angle that brings the center of mass over the support; held feet stay"""
 
     bl_idname = "pose.body_moments_balance_pose"
     bl_label = "Balance Pose"
-    bl_description = (
-        "Move the hips or the root, or turn the chosen bone, by the least amount that brings the center of mass over "
-        "the support. Feet held by inverse kinematics stay in place"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     bone: StringProperty(

@@ -9,6 +9,7 @@ constraint holds to a bone are parts, too, at their own place. All lengths are i
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -41,8 +42,8 @@ UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a
 class Parts:
     """The p parts of one or several characters.
 
-    names: of bones and held objects. masses: (p,) kg. centers: (p, 3). spreads: (p, 3, 3) integrals of r rᵀ dm about
-    each part's center. matrices: (p, 4, 4) of bones and objects in the world.
+    names: of bones and held objects. masses: (p,) kg, 0 if they cannot be measured. centers: (p, 3). spreads: (p, 3, 3)
+    integrals of r rᵀ dm about each part's center. matrices: (p, 4, 4) of bones and objects in the world.
     """
 
     names: tuple[str, ...]
@@ -155,19 +156,18 @@ class Character:
         linear = matrices[:, :3, :3]
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
         parts = Parts(self.names, self.masses, centers, linear @ self.spreads @ linear.transpose(0, 2, 1), matrices)
-        held = [self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph)]
-        return Parts.joined([parts, *(part for part in held if part is not None)]) if held else parts
+        return Parts.joined([parts, *(self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
 
-    def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts | None:
-        """Return a held object as a part at its own place, or None if it has no mass."""
+    def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts:
+        """Return a held object as a part at its own place, without mass if it cannot be measured."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-        try:
-            moments = self._motion.mass_moments(obj, depsgraph)
-        except MeasureError:
-            return None
-        mass, spread = np.array([moments.total]), moments.about_center().second()[None] / unit**2
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        return Parts((obj.name,), mass, moments.center[None] / unit, spread, matrix[None])
+        mass, center, spread = np.zeros(1), matrix[:3, 3], np.zeros((3, 3))
+        with suppress(MeasureError):
+            moments = self._motion.mass_moments(obj, depsgraph)
+            mass, center = np.array([moments.total]), moments.center / unit
+            spread = moments.about_center().second() / unit**2
+        return Parts((obj.name,), mass, center[None], spread[None], matrix[None])
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float, down: NDArray) -> Contacts:
         """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
@@ -197,12 +197,12 @@ class Character:
         mesh = obj.evaluated_get(depsgraph).data
         count = len(mesh.vertices)
         rows = np.arange(count) if rows is None else rows
+        index = {name: number for number, name in enumerate(names)}
         if bone is not None:
-            return np.full(len(rows), names.index(bone))
+            return np.full(len(rows), index.get(bone, NO_BONE))
         known = self._vertex_bones.get(obj.session_uid)
         if known is None or len(known) != count:
             known = self._vertex_bones[obj.session_uid] = np.full(count, UNKNOWN)
-        index = {name: number for number, name in enumerate(names)}
         group_bones = [index.get(group.name, NO_BONE) for group in obj.vertex_groups]
         for row in rows[known[rows] == UNKNOWN].tolist():
             weights = [(entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups]
