@@ -153,10 +153,20 @@ class Character:
         """Return the parts as evaluated, held objects included."""
         row = {bone.name: index for index, bone in enumerate(armature.pose.bones)}
         matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
-        linear = matrices[:, :3, :3]
+        linear, factors = matrices[:, :3, :3], self._factors(armature)
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
-        parts = Parts(self.names, self.masses, centers, linear @ self.spreads @ linear.transpose(0, 2, 1), matrices)
+        spreads = factors[:, None, None] * (linear @ self.spreads @ linear.transpose(0, 2, 1))
+        parts = Parts(self.names, factors * self.masses, centers, spreads, matrices)
         return Parts.joined([parts, *(self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
+
+    def _factors(self, armature: Object) -> NDArray[np.float64]:
+        """Return (p,) factors to the total mass, 1 for bones with their own mass as long as the others keep any."""
+        total, bones = shortest_decimal(armature.body_moments_weight.mass), armature.pose.bones
+        shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
+        rest = total - self.masses[~shares].sum()
+        if total and rest > 0.0 and shares.any():
+            return np.where(shares, rest / self.masses[shares].sum(), 1.0)
+        return np.full(len(shares), total / self.masses.sum() if total else 1.0)
 
     def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts:
         """Return a held object as a part at its own place, without mass if it cannot be measured."""
