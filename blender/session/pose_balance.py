@@ -28,6 +28,7 @@ STAYED = 5e-5  # move of a contact
 SLIP = 0.05  # contacts that move this far with a bone, relative to its or the center's move, hang on it
 LEAST_SHIFT, LEAST_TURN = 0.05, 0.02  # moves of the center that are smaller, by a bone's move or turn, are no use
 FARTHEST = 1.0  # moves and, in radians, turns of a bone
+TORN = 0.05  # share of the mass above a bone that its location may leave behind
 MAX_TRIALS = 60
 
 Outcome = tuple[str, dict[str, object]]  # an English text and its values
@@ -164,12 +165,13 @@ def balance_pose(context: Context, armature: Object, name: str, margin: float | 
 
 
 def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:
-    """Yield the channels to try: locations of bones that no part hangs above, then rotations, from the root on."""
-    chosen = context.active_pose_bone
+    """Yield the channels to try from the root on: locations of bones that no heavy part is above, then rotations."""
+    chosen, masses = context.active_pose_bone, dict(zip(known.names, known.masses))
     bones = [bone for bone in context.visible_pose_bones or () if bone.id_data == armature]
     bones.sort(key=lambda bone: (bone != chosen, len(bone.parent_recursive)))
     bones = [armature.pose.bones[name]] if name else bones
-    yield from (
-        _Handle(bone, False) for bone in bones if not {up.name for up in bone.parent_recursive} & {*known.names}
-    )
-    yield from (_Handle(bone, True) for bone in bones)
+    for bone in bones:
+        if sum(masses.get(above.name, 0.0) for above in bone.parent_recursive) <= TORN * known.masses.sum():
+            yield _Handle(bone, turns=False)
+    for bone in bones:
+        yield _Handle(bone, turns=True)

@@ -129,9 +129,9 @@ class Character:
     _vertex_bones: dict[int, NDArray[np.intp]] = field(default_factory=dict)  # by session uid of a mesh object
 
     @classmethod
-    def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody], unit: float) -> Character | None:
+    def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody | None], unit: float) -> Character | None:
         """Return the character with these bodies of bones, each in its rest frame and SI; None if there is no mass."""
-        bodies = {name: body for name, body in bodies.items() if body.mass > 0.0 and name in armature.data.bones}
+        bodies = {name: body for name, body in bodies.items() if body is not None and body.mass > 0.0}
         if not bodies:
             return None
         place, frames = float64_matrix(armature.matrix_world), RestBones.read(armature).frames
@@ -251,10 +251,9 @@ def character(armature: Object, unit: float) -> Character | None:
     """Return a measured character, None if its bones have not been measured."""
 
     def read() -> Character | None:
-        bodies = {bone.name: properties.stored(bone) for bone in armature.pose.bones}
-        bodies = {name: body for name, body in bodies.items() if body is not None}
-        return Character.from_bodies(armature, bodies, unit)
+        return Character.from_bodies(armature, {bone.name: properties.stored(bone) for bone in bones}, unit)
 
+    bones = armature.pose.bones
     return current_value(_characters, armature, properties.fingerprint(armature), read)
 
 
