@@ -281,13 +281,13 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
 
 
-def prepare(context: Context, armature: Object) -> None:
-    """Measure a character and find its ground if that has not been done, or the results are out of date."""
-    is_new = weight(armature, context.evaluated_depsgraph_get()) is None
-    if is_new or stale_reason(armature, context.scene) is not None:
-        measure(context, armature)
-    if is_new:
+def prepare(context: Context, armature: Object) -> Rig | None:
+    """Measure a character unless its results are up to date; find its ground unless it is shown. Return a new Rig."""
+    is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
+    rig = None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
+    if not armature.body_moments_weight.show:
         find_ground(context, armature)
+    return rig
 
 
 def find_ground(context: Context, armature: Object) -> None:
