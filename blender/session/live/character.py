@@ -263,7 +263,7 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     def stand() -> Weight | None:
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         known = character(armature, unit)
-        if known is None:
+        if known is None or any(name not in armature.pose.bones for name in known.names):  # removed in Edit Mode
             return None
         down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
         parts = known.pose(armature, depsgraph)
@@ -307,12 +307,12 @@ def find_ground(context: Context, armature: Object) -> None:
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
-    """Return (object, bone) of the meshes that may touch the ground; None as the bone of skinned ones."""
+    """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned ones."""
     objects = list(depsgraph.view_layer.objects)
     skinned = skinned_objects(armature, objects)
     hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
     several = [*((obj, None) for obj in skinned), *((obj, bone) for obj, bone in hanging if obj.type == "MESH")]
-    return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get()]
+    return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"]
 
 
 def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
