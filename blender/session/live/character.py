@@ -29,6 +29,7 @@ from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_object
 from ...write import properties
 from .. import stored
 from ..tracking import handlers
+from ..tracking.armatures import deformed_meshes
 from ..tracking.cache import SessionCache, current_value
 from ..tracking.staleness import stale_reason
 from .motion import Motion
@@ -308,8 +309,7 @@ def find_ground(context: Context, armature: Object) -> None:
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
     """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned ones."""
-    objects = list(depsgraph.view_layer.objects)
-    skinned = skinned_objects(armature, objects)
+    skinned = deformed_meshes(armature)
     hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
     several = [*((obj, None) for obj in skinned), *((obj, bone) for obj, bone in hanging if obj.type == "MESH")]
     return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"]
