@@ -64,11 +64,6 @@ class Parts:
         return self.centers[0] + (self.masses / self.mass) @ (self.centers - self.centers[0])
 
     @property
-    def inertias(self) -> NDArray[np.float64]:
-        """(p, 3, 3) inertia tensors of the parts, each about its center, in kg and Blender's units."""
-        return np.trace(self.spreads, axis1=1, axis2=2)[:, None, None] * np.eye(3) - self.spreads
-
-    @property
     def inertia(self) -> NDArray[np.float64]:
         """(3, 3) inertia tensor of the total about its center, in kg and Blender's units."""
         arms = self.centers - self.center
@@ -76,8 +71,8 @@ class Parts:
         return np.trace(spread) * np.eye(3) - spread
 
     @classmethod
-    def joined(cls, several: Sequence[Parts]) -> Parts:
-        """Return the parts of several characters as one."""
+    def join(cls, several: Sequence[Parts]) -> Parts:
+        """Return the parts of several as one."""
         arrays = ("masses", "centers", "spreads", "matrices")
         names = tuple(name for parts in several for name in parts.names)
         return cls(names, *(np.concatenate([getattr(parts, name) for parts in several]) for name in arrays))
@@ -158,7 +153,7 @@ class Character:
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
         spreads = factors[:, None, None] * (linear @ self.spreads @ linear.transpose(0, 2, 1))
         parts = Parts(self.names, factors * self.masses, centers, spreads, matrices)
-        return Parts.joined([parts, *(self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
+        return Parts.join([parts, *(self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
 
     def _factors(self, armature: Object) -> NDArray[np.float64]:
         """Return (p,) factors to the total mass, 1 for bones with their own mass as long as the others keep any."""
@@ -169,7 +164,7 @@ class Character:
             return np.where(shares, rest / self.masses[shares].sum(), 1.0)
         return np.full(len(shares), total / self.masses.sum() if total else 1.0)
 
-    def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts:
+    def _held_part(self, obj: Object, depsgraph: Depsgraph) -> Parts:
         """Return a held object as a part at its own place, without mass if it cannot be measured."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)

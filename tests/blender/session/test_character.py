@@ -122,7 +122,8 @@ def test_held_object_counts_with_its_mass_where_it_is(scene, kind):
     assert now.parts.mass == pytest.approx(before.parts.mass + 7.0)
     center = (before.parts.mass * before.parts.center + 7.0 * own.center) / now.parts.mass
     assert now.parts.center == pytest.approx(center, abs=1e-6)
-    assert now.parts.inertias[-1] == pytest.approx(own.inertia, rel=1e-5, abs=1e-9)
+    spread = np.trace(own.inertia) / 2.0 * np.eye(3) - own.inertia
+    assert now.parts.spreads[-1] == pytest.approx(spread, rel=1e-5, abs=1e-9)
     rig.pose.bones["spine"].rotation_euler = 0.5, 0.0, 0.0
     assert weight(rig).parts.centers[-1] == pytest.approx(measured(stone).mass_properties.center, abs=1e-6)
     constraint.influence = 0.0
