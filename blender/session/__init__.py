@@ -6,8 +6,11 @@ from ...core.lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
+    BALANCED="pose_balance",
     BalanceGroup="balance_group",
+    MOVED="pose_balance",
     SimilarSearch="similar",
+    balance_pose="pose_balance",
     bill_csv="bill",
     check_stability="statics",
     lay_on_ground="statics",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Details of single objects: faults and support polygons, as colored segments and triangles in the world."""
+"""Details of single objects: faults, support polygons and weights, as colored shapes and texts in the world."""
 
 from __future__ import annotations
 
@@ -10,9 +10,15 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...blender.session import live
+from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
+from ...blender.write import reports
+from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import Support
+from ..rig import standing
 from . import appearance as look
+from .draw import shows_weight
 
 FILL = 0.25  # opacity of faces
 ARROW = 0.12  # length of the tipping arrow's head, relative to the support polygon's extent
@@ -21,10 +27,14 @@ Colored = tuple[NDArray[np.float64], NDArray[np.float32]]
 
 @dataclass(frozen=True, eq=False)
 class Detail:
-    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors."""
+    """Drawn shapes. segments: (k, 2, 3) points and (k, 4) colors. triangles: (l, 3, 3) points and (l, 4) colors.
+
+    texts: a (3,) place, a text and its color each.
+    """
 
     segments: Colored
     triangles: Colored
+    texts: tuple[tuple[NDArray[np.float64], str, NDArray], ...] = ()
 
 
 def list_details(context: Context, objects: list[Object]) -> list[Detail]:
@@ -39,6 +49,10 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
                     details.append(support_detail(stood))
     found = map(faults.of_object, objects) if settings.show_faults else ()
     details += [_faults(obj, shown) for obj, shown in zip(objects, found) if shown is not None]
+    for obj in objects:
+        weight = live.character.weight(obj, context.view_layer.depsgraph) if shows_weight(obj) else None
+        if weight is not None:
+            details += _weight(context, weight)
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     return details + [support_detail(support) for support in supports if support is not None]
@@ -65,9 +79,19 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
     return Detail(_tinted(edges, look.FAULT), _tinted(triangles, look.FAULT, FILL))
 
 
+def _weight(context: Context, weight: Weight) -> list[Detail]:
+    """Return a character's plumb line with its margin at the foot, and its support polygon."""
+    text, lengths, _ = standing(weight, shortest_decimal(context.scene.unit_settings.scale_length))
+    polygon = None if weight.support is None else support_detail(weight.support)
+    color = look.TIPS if polygon is None else polygon.segments[1][0]
+    plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
+    texts = ((weight.foot, reports.phrase(text, **lengths), color),)
+    return [Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts), *([] if polygon is None else [polygon])]
+
+
 def support_detail(support: Support) -> Detail:
     """Return the support polygon, filled if the body stands, and an arrow from the foot to the tipping edge."""
-    color = look.SUPPORT if support.stands else look.TIPS
+    color = look.TIPS if not support.stands else look.EDGE if support.is_near_edge else look.SUPPORT
     corners, foot = support.polygon, support.foot
     outline = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
     fan = np.stack([np.broadcast_to(corners[0], corners[2:].shape), corners[1:-1], corners[2:]], axis=1)
