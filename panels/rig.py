@@ -120,18 +120,18 @@ def standing_values(weight: Weight, scene: Scene) -> dict[str, float]:
 
 
 def _standing(layout: UILayout, context: Context, weight: Weight, unit: float) -> None:
-    """Draw margin and color of a character's stand, its mass and center, and the contacts that carry it."""
+    """Draw how a character stands, its mass, and the contacts that carry it."""
     text, icon = standing(weight)
     box = layout.box()
     box.alert = icon == "CANCEL"
     rows.remark(box, context, text, icon=icon, boxed=True, **standing_values(weight, context.scene))
-    units, support = Units.from_settings(context.scene.unit_settings), weight.support
-    column = layout.column(align=True)
-    rows.quantities(column, units, [("Mass", "mass", weight.parts.mass)])
-    if support is not None:
-        lengths = [("Margin", "length", support.margin * unit), ("Height", "length", support.height * unit)]
-        rows.quantities(column, units, lengths)
-    rows.group(layout, units, "Center of Mass", rows.AXIS_LABELS, "length", (weight.parts.center * unit).tolist())
+    shown = [("Mass", "mass", weight.parts.mass)]
+    if weight.support is not None:
+        shown += [
+            ("Margin", "length", weight.support.margin * unit),
+            ("Height", "length", weight.support.height * unit),
+        ]
+    rows.quantities(layout.column(align=True), Units.from_settings(context.scene.unit_settings), shown)
     column = layout.column(align=True)
     for names, icon, note in ((weight.contacts.names, "CHECKMARK", "Carries"), (weight.contacts.lifted, "X", "Lifted")):
         for name in names[:LISTED]:

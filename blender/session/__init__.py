@@ -6,10 +6,10 @@ from ...core.lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    BALANCED="balance_pose",
+    BALANCED="pose_balance",
     BalanceGroup="balance_group",
     SimilarSearch="similar",
-    balance_pose="balance_pose",
+    balance_pose="pose_balance",
     bill_rows="bill",
     check_stability="statics",
     lay_on_ground="statics",

@@ -95,6 +95,9 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
     scene: sets the unit scale.
     """
+    weighed = _weighed(obj, scene) if obj.type == "ARMATURE" else None
+    if weighed is not None:
+        return weighed
     if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
         total = _as_one(obj, scene, [displayed(mesh, scene) for mesh in armatures.deformed_meshes(obj)])
         if total is not None:
@@ -145,7 +148,7 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
     """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
     if obj.type == "ARMATURE":
-        shown = _weighed(obj, scene) or displayed(obj, scene)
+        shown = displayed(obj, scene)
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
             shown = _as_one(obj, scene, [drawn_bone(bone, scene) for bone in obj.pose.bones])
     else:

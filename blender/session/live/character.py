@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from bpy.types import Context, Depsgraph, Object
-from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
@@ -23,6 +22,7 @@ from ....core.statics.support import Support, support_of_contacts
 from ....core.verdict.finding import EditRefusedError, MeasureError, ReadError
 from ...bodies.findings import RIG_WITHOUT_PARTS, UNWEIGHTED_VERTICES
 from ...bodies.rig import Rig, measure_rig
+from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
 from ...write import properties
@@ -82,21 +82,17 @@ class Parts:
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """What touches the ground. points: (k, 3). names: of the bones that carry; lifted: of those that should and do not.
+    """What touches the ground.
 
-    height: of the lowest point above the ground; None if there is no point. sources: objects, and which of their
-    vertices touch.
+    points: (k, 3). bones: (k,) indices of pose bones, -1 for points without one. names: of the bones that carry.
+    lifted: of those that should and do not. height: of the lowest point above the ground; None if there is no point.
     """
 
     points: NDArray[np.float64]
+    bones: NDArray[np.intp]
     names: tuple[str, ...]
     lifted: tuple[str, ...]
     height: float | None
-    sources: tuple[tuple[Object, NDArray[np.intp]], ...]
-
-    def positions(self, depsgraph: Depsgraph) -> NDArray[np.float64]:
-        """Return (k, 3), where the same vertices are as evaluated."""
-        return np.concatenate([_world_points(obj, depsgraph, rows) for obj, rows in self.sources])
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,31 +139,25 @@ class Character:
         bodies = {name: body for name, body in bodies.items() if body.mass > 0.0 and name in armature.data.bones}
         if not bodies:
             return None
-        place, centers, spreads, ends = armature.matrix_world, [], [], []
+        place, frames = float64_matrix(armature.matrix_world), RestBones.read(armature).frames
+        centers, spreads, ends = [], [], []
         for name, body in bodies.items():
-            bone = armature.data.bones[name]
-            rest = place @ bone.matrix_local
-            location, turn, _scale = rest.decompose()
-            frame = np.array(Matrix.LocRotScale(location, turn, None), np.float64)
-            to_bone = np.linalg.inv(np.array(rest, np.float64)) @ frame
+            bone, (turn, head) = armature.data.bones[name], frames[name]
+            to_bone = np.linalg.inv(place @ float64_matrix(bone.matrix_local))
             tensor = np.array(tensor_rows(body.inertia))
             spread = np.trace(tensor) / 2.0 * np.eye(3) - tensor
-            centers.append(to_bone[:3, :3] @ body.center / unit + to_bone[:3, 3])
-            spreads.append(to_bone[:3, :3] @ spread @ to_bone[:3, :3].T / unit**2)
-            ends += [place @ bone.head_local, place @ bone.tail_local]
+            linear = to_bone[:3, :3] @ turn / unit
+            centers.append(linear @ body.center + to_bone[:3, :3] @ head + to_bone[:3, 3])
+            spreads.append(linear @ spread @ linear.T)
+            ends += [bone.head_local, bone.tail_local]
         masses = np.array([body.mass for body in bodies.values()])
-        size = float(np.ptp(np.array(ends), axis=0).max())
+        size = float(np.ptp(np.array(ends) @ place[:3, :3].T, axis=0).max())
         return cls(tuple(bodies), masses, np.array(centers), np.array(spreads), size)
 
     def pose(self, armature: Object, depsgraph: Depsgraph) -> Parts:
         """Return the parts as evaluated, held objects included."""
-        evaluated = armature.evaluated_get(depsgraph)
-        bones = evaluated.pose.bones
-        posed = np.empty((len(bones), 4, 4), np.float32)
-        bones.foreach_get("matrix", posed.ravel())
-        row = {bone.name: index for index, bone in enumerate(bones)}
-        rows = [row[name] for name in self.names]
-        matrices = float64_matrix(evaluated.matrix_world) @ posed[rows].transpose(0, 2, 1)
+        row = {bone.name: index for index, bone in enumerate(armature.pose.bones)}
+        matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
         linear = matrices[:, :3, :3]
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
         parts = Parts(self.names, self.masses, centers, linear @ self.spreads @ linear.transpose(0, 2, 1), matrices)
@@ -181,16 +171,16 @@ class Character:
             moments = self._motion.mass_moments(obj, depsgraph)
         except MeasureError:
             return None
-        mass, spread = np.array([moments.total]), moments.about_center().second[None] / unit**2
+        mass, spread = np.array([moments.total]), moments.about_center().second()[None] / unit**2
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         return Parts((obj.name,), mass, moments.center[None] / unit, spread, matrix[None])
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float, down: NDArray) -> Contacts:
         """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
-        names = [bone.name for bone in armature.data.bones]
+        names = [bone.name for bone in armature.pose.bones]
         named = {bone.name for bone in armature.pose.bones if bone.body_moments.is_contact}
         may_touch = np.array([not named or name in named for name in names] + [not named])  # last: without a weight
-        reach, lowest, bones, sources = REACH * self.size, np.inf, set(), []
+        reach, lowest, places, bones = REACH * self.size, np.inf, [np.zeros((0, 3))], [np.zeros(0, np.intp)]
         for obj, bone in contact_objects(armature, depsgraph):
             points, matrix = _points(obj, depsgraph)
             heights = points @ (-down @ matrix[:3, :3]).astype(np.float32) - (down @ matrix[:3, 3] + ground)
@@ -199,12 +189,12 @@ class Character:
             lowest = min(lowest, float(heights.min(initial=np.inf)))
             near = np.flatnonzero(heights <= reach)
             if len(near):
-                bones.update(self._bones_of(obj, bone, names, depsgraph, near).tolist())
-                sources.append((obj, near))
-        carrying = sorted(names[bone] for bone in bones if bone != NO_BONE)
-        points = np.concatenate([np.zeros((0, 3)), *(_world_points(obj, depsgraph, rows) for obj, rows in sources)])
-        height = lowest if np.isfinite(lowest) else None
-        return Contacts(points, tuple(carrying), tuple(sorted(named.difference(carrying))), height, tuple(sources))
+                places.append(points[near] @ matrix[:3, :3].T + matrix[:3, 3])
+                bones.append(self._bones_of(obj, bone, names, depsgraph, near))
+        touching = np.concatenate(bones)
+        carrying = sorted(names[bone] for bone in np.unique(touching).tolist() if bone != NO_BONE)
+        height, lifted = (lowest if np.isfinite(lowest) else None), sorted(named.difference(carrying))
+        return Contacts(np.concatenate(places), touching, tuple(carrying), tuple(lifted), height)
 
     def _bones_of(
         self, obj: Object, bone: str | None, names: Sequence[str], depsgraph: Depsgraph, rows: NDArray | None = None
@@ -323,13 +313,15 @@ def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object
     return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get()]
 
 
+def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
+    """Return the (b, 4, 4) matrices of all pose bones in the world, as evaluated."""
+    evaluated = armature.evaluated_get(depsgraph)
+    posed = np.empty((len(evaluated.pose.bones), 4, 4), np.float32)
+    evaluated.pose.bones.foreach_get("matrix", posed.ravel())  # column by column
+    return float64_matrix(evaluated.matrix_world) @ posed.transpose(0, 2, 1)
+
+
 def _points(obj: Object, depsgraph: Depsgraph) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
     """Return the evaluated (n, 3) points of a mesh object in its own coordinates, and its matrix in the world."""
     evaluated = obj.evaluated_get(depsgraph)
     return vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
-
-
-def _world_points(obj: Object, depsgraph: Depsgraph, rows: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return the evaluated (k, 3) places of some vertices in the world."""
-    points, matrix = _points(obj, depsgraph)
-    return points[rows] @ matrix[:3, :3].T + matrix[:3, 3]

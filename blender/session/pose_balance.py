@@ -21,14 +21,14 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import ground_axes
 from ..read.tracking import tracking_paused
 from .live import character
-from .live.character import Character, Weight
+from .live.character import Character, Weight, bone_matrices
 
 # Relative to the character's size.
 NUDGE = 1e-3
 REACHED = 1e-5  # distance from the target
 STAYED = 5e-5  # move of a contact
-SLIP = 0.1  # contacts that move this far with a bone, relative to its own move, hang on it
-LEAST_EFFECT = 0.05  # moves of the center that are smaller, relative to the bone's, are no use
+SLIP = 0.05  # contacts that move this far with a bone, relative to its or the center's move, hang on it
+LEAST_SHIFT, LEAST_TURN = 0.05, 0.02  # moves of the center that are smaller, by a bone's move or turn, are no use
 FARTHEST = 1.0  # moves and, in radians, turns of a bone
 MAX_STEPS, MAX_LOWERINGS = 10, 15
 
@@ -60,7 +60,7 @@ class Outcome:
 
 @dataclass(frozen=True, eq=False)
 class _Look:
-    """An evaluated trial: (3,) center and head of the bone, and the farthest move of a contact."""
+    """An evaluated trial: (3,) center and head of the bone, and the farthest move of a contact with its bone."""
 
     center: NDArray[np.float64]
     head: NDArray[np.float64]
@@ -111,7 +111,11 @@ class _Search:
         assert weight.support is not None
         self.axes = ground_axes(-weight.support.up)
         self.target = weight.support.target(margin) @ self.axes[:, :2]
-        self.contacts = weight.contacts
+        is_carried = weight.contacts.bones >= 0
+        self.bones, self.points = weight.contacts.bones[is_carried], weight.contacts.points[is_carried]
+        matrices = bone_matrices(armature, context.evaluated_depsgraph_get())[self.bones]
+        moves = self.points - matrices[:, :3, 3]
+        self.local = np.linalg.solve(matrices[:, :3, :3], moves[:, :, None])
         self.failure: tuple[str, dict[str, Any]] | None = None  # of the last bone that had an effect
 
     def distance(self, weight: Weight) -> float:
@@ -122,11 +126,12 @@ class _Search:
         """Evaluate the pose as it is."""
         self.context.view_layer.update()
         depsgraph = self.context.evaluated_depsgraph_get()
-        evaluated = self.armature.evaluated_get(depsgraph)
-        head = evaluated.matrix_world @ evaluated.pose.bones[bone.name].head
-        moves = self.contacts.positions(depsgraph) - self.contacts.points
-        slip = float(np.linalg.norm(moves, axis=1).max())
-        return _Look(self.known.pose(self.armature, depsgraph).center, np.array(head, np.float64), slip)
+        matrices = bone_matrices(self.armature, depsgraph)
+        head = matrices[self.armature.pose.bones.find(bone.name), :3, 3]
+        matrices = matrices[self.bones]
+        moves = (matrices[:, :3, :3] @ self.local)[:, :, 0] + matrices[:, :3, 3] - self.points
+        slip = float(np.linalg.norm(moves, axis=1).max(initial=0.0))
+        return _Look(self.known.pose(self.armature, depsgraph).center, head, slip)
 
     def gap(self, look: _Look) -> NDArray[np.float64]:
         """Return how far the target is from the center, (2,) along the ground."""
@@ -144,10 +149,11 @@ class _Search:
                 move = size * NUDGE * np.eye(3)[axis] if handle.turns else look.head - first.head
                 if handle.turns or not move @ up > 1e-2 * NUDGE * size:
                     break  # else it lifts the bone, which would stretch the legs
-            reach = np.linalg.norm(move)
+            gained = look.center - first.center
+            reach = float(np.linalg.norm(gained if handle.turns else move))
             if reach > 1e-2 * NUDGE * size and look.slip <= SLIP * reach:
                 used.append(axis)
-                of_center.append((look.center - first.center) / step)
+                of_center.append(gained / step)
                 of_bone.append(move / abs(step) if handle.turns else move / step)
         handle.reset()
         return used, np.array(of_center).reshape(-1, 3).T, np.array(of_bone).reshape(-1, 3).T
@@ -157,7 +163,8 @@ class _Search:
         first = self.look(handle.bone)
         used, of_center, of_bone = self.effects(handle, first)
         across = self.axes[:, :2].T
-        if len(used) < 2 or np.linalg.svd(across @ of_center)[1][-1] < LEAST_EFFECT * np.abs(of_bone).max():
+        least = LEAST_TURN if handle.turns else LEAST_SHIFT
+        if len(used) < 2 or np.linalg.svd(across @ of_center)[1][-1] < least * np.abs(of_bone).max():
             return False
         lower, change, tolerance = 0.0, np.zeros(len(used)), STAYED * self.known.size
         for _ in range(MAX_LOWERINGS):

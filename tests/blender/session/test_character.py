@@ -1,0 +1,165 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Weights of posed characters: centers against sums over bones, contacts, held objects and stated masses."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.blender.session.live import character
+from body_moments.core.verdict.finding import MeasureError
+
+from tests.blender.figure import figure
+from tests.blender.objects import add, measured, mesh_body
+
+HEIGHT = 1.75
+
+
+def shown(rig):
+    """Measure a figure, find its ground, and return its weight as it is posed."""
+    character.measure(bpy.context, rig)
+    rig.body_moments_weight.ground = character.find_ground(bpy.context, rig)
+    return weight(rig)
+
+
+def weight(rig):
+    bpy.context.view_layer.update()
+    return character.weight(rig, bpy.context.evaluated_depsgraph_get())
+
+
+def turn(rig, seed=1, size=0.4):
+    rng = np.random.default_rng(seed)
+    for name in ("hips", "spine", "head", "arm.L", "forearm.R", "hold.L"):
+        rig.pose.bones[name].rotation_euler = rng.uniform(-size, size, 3)
+    rig.pose.bones["hips"].location = 0.01, -0.05, 0.02
+    bpy.context.view_layer.update()
+
+
+def boxes():
+    """An armature of three bones in a chain, and a mesh of three boxes, each on one of them alone."""
+    rig = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+    bpy.context.scene.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    for number in range(3):
+        bone = rig.data.edit_bones.new("bone{:d}".format(number))
+        bone.head, bone.tail = (0, 0, number), (0.2, 0.1, number + 0.8)
+        bone.parent = rig.data.edit_bones[number - 1] if number else None
+    bpy.ops.object.mode_set(mode="OBJECT")
+    body = add(mesh_body())
+    points = np.array([vertex.co for vertex in body.data.vertices])
+    faces = [tuple(face.vertices) for face in body.data.polygons]
+    mesh, count = bpy.data.meshes.new("Boxes"), len(points)
+    places = np.concatenate([0.1 * points + (0, 0, number) for number in range(3)])
+    mesh.from_pydata(places, [], [tuple(np.array(face) + count * k) for k in range(3) for face in faces])
+    bpy.data.objects.remove(body)
+    body = add(mesh, "Boxes")
+    for number in range(3):
+        group = body.vertex_groups.new(name="bone{:d}".format(number))
+        group.add(range(count * number, count * (number + 1)), 1.0, "REPLACE")
+    body.modifiers.new("Armature", "ARMATURE").object = rig
+    return rig, body
+
+
+def sum_over_bones(rig):
+    """Mass and center from the stored numbers of the bones alone."""
+    mass, moment = 0.0, np.zeros(3)
+    for bone in rig.pose.bones:
+        if "body_mass" in bone:
+            local = np.array(bone["body_center_of_mass"])
+            matrix = np.array(rig.matrix_world, np.float64) @ np.array(bone.matrix, np.float64)
+            scale = np.array(rig.matrix_world.to_scale())
+            moment += bone["body_mass"] * (matrix[:3, :3] @ (local / scale) + matrix[:3, 3])
+            mass += bone["body_mass"]
+    return mass, moment / mass
+
+
+@pytest.mark.parametrize("place", [(0, 0, 0), (3000, -2000, 500)])
+@pytest.mark.parametrize("scale", [1.0, 0.02])
+def test_center_equals_sum_over_bones(scene, place, scale):
+    rig, _body = figure()
+    rig.location, rig.scale, rig.rotation_euler = place, (scale,) * 3, (0, 0, 0.7)
+    bpy.context.view_layer.update()
+    shown(rig)
+    turn(rig)
+    now, (mass, center) = weight(rig), sum_over_bones(rig)
+    assert now.parts.mass == pytest.approx(mass, rel=1e-9)
+    assert np.abs(now.parts.center - center).max() < 1e-4 * HEIGHT * scale
+    assert now.support is not None and now.contacts.names == ("foot.L", "foot.R")
+
+
+def test_center_and_inertia_equal_those_of_rigid_skin(scene):
+    """Each box moves with one bone alone, so that the posed skin has the exact moments of the parts."""
+    rig, body = boxes()
+    shown(rig)
+    for number, bone in enumerate(rig.pose.bones):
+        bone.rotation_mode, bone.rotation_euler, bone.location = "XYZ", (0.3, 0.2 * number, -0.4), (0.1, 0.2, 0.3)
+    now = weight(rig)
+    bpy.context.view_layer.objects.active = body
+    truth = measured(body).mass_properties
+    assert now.parts.mass == pytest.approx(truth.mass, rel=1e-6)
+    assert now.parts.center == pytest.approx(truth.center, abs=1e-6)
+    assert now.parts.inertia == pytest.approx(truth.inertia, abs=1e-5 * np.trace(truth.inertia))
+
+
+def test_held_object_counts_with_its_mass_where_it_is(scene):
+    rig, _body = figure()
+    before = shown(rig)
+    stone = add(mesh_body(), location=(0.8, 0.0, 1.4))
+    stone.scale = (0.05,) * 3
+    stone.body_moments.mass_from, stone.body_moments.mass = "MASS", 7.0
+    constraint = stone.constraints.new("CHILD_OF")
+    constraint.target, constraint.subtarget = rig, "forearm.L"
+    now = weight(rig)
+    assert now.parts.mass == pytest.approx(before.parts.mass + 7.0)
+    own = measured(stone).mass_properties
+    center = (before.parts.mass * before.parts.center + 7.0 * own.center) / now.parts.mass
+    assert now.parts.center == pytest.approx(center, abs=1e-6)
+    constraint.influence = 0.0
+    assert weight(rig).parts.mass == pytest.approx(before.parts.mass)
+
+
+def test_total_mass_is_shared_by_bones_without_their_own(scene):
+    rig, _body = figure()
+    rig.pose.bones["head"].body_moments.mass_from, rig.pose.bones["head"].body_moments.mass = "MASS", 5.0
+    rig.body_moments_weight.mass = 70.0
+    now = shown(rig)
+    assert now.parts.mass == pytest.approx(70.0, rel=1e-9)
+    assert now.parts.masses[now.parts.names.index("head")] == pytest.approx(5.0, rel=1e-9)
+    rig.body_moments_weight.mass = 4.0
+    with pytest.raises(MeasureError) as refused:
+        character.measure(bpy.context, rig)
+    assert refused.value.finding.code == "total_mass_taken"
+
+
+def test_raised_root_has_no_support(scene):
+    rig, _body = figure()
+    shown(rig)
+    rig.pose.bones["root"].location = 0, 0, 0.5
+    now = weight(rig)
+    assert now.support is None and now.contacts.height == pytest.approx(0.5, abs=1e-4)
+    assert now.foot[2] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_ground_is_found_where_the_figure_stands(scene):
+    rig, _body = figure()
+    rig.location.z = 1.3
+    assert shown(rig).support is not None and rig.body_moments_weight.ground == pytest.approx(1.3, abs=1e-4)
+    rig.pose.bones["root"].location = 0, 0, 0.5
+    assert shown(rig).support is None
+
+
+def test_named_bones_alone_are_contacts(scene):
+    rig, _body = figure()
+    for name in ("foot.L", "forearm.R"):
+        rig.pose.bones[name].body_moments.is_contact = True
+    now = shown(rig)
+    assert now.contacts.names == ("foot.L",) and now.contacts.lifted == ("forearm.R",)
+    assert (now.contacts.points[:, 0] > 0.0).all()
+
+
+def test_mesh_without_weights_is_refused_and_nothing_stored(scene):
+    rig, body = figure()
+    body.vertex_groups.clear()
+    with pytest.raises(MeasureError):
+        character.measure(bpy.context, rig)
+    assert "body_mass" not in rig
