@@ -49,6 +49,22 @@ def existing_curves(obj: Object) -> Iterable[FCurve]:
     return ()
 
 
+def has_strips(obj: Object) -> bool:
+    """Return whether the NLA animates an object."""
+    animation = obj.animation_data
+    return animation is not None and any(len(track.strips) and not track.mute for track in animation.nla_tracks)
+
+
+def is_keyed(obj: Object, path: str, count: int) -> bool:
+    """Return whether all components of a property have keys, in the action or in strips of the NLA."""
+    known = {curve.array_index for curve in existing_curves(obj) if curve.data_path == path}
+    tracks = obj.animation_data.nla_tracks if obj.animation_data is not None else ()
+    for strip in (strip for track in tracks for strip in track.strips if strip.action is not None):
+        bags = (bag for layer in strip.action.layers for below in layer.strips for bag in below.channelbags)
+        known.update(curve.array_index for bag in bags for curve in bag.fcurves if curve.data_path == path)
+    return len(known) == count
+
+
 def find(curves: Iterable[FCurve], channel: Channel) -> FCurve | None:
     """Return the curve of a channel, None if there is none."""
     return next((curve for curve in curves if (curve.data_path, curve.array_index) == channel), None)

@@ -8,6 +8,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     BALANCED="pose_balance",
     BalanceGroup="balance_group",
+    CharacterMotion="character_motion",
     SimilarSearch="similar",
     balance_pose="pose_balance",
     bill_rows="bill",

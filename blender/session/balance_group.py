@@ -21,6 +21,7 @@ from ..read.assembly import Member, MemberKind, members_of, settings_of
 from ..read.rig import is_skin_of
 from ..read.visibility import measurable
 from ..write.properties import BALANCE_GROUP
+from ..write.reports import Refused
 from .findings import BALANCE_GROUP_EMPTY_GROUP, BALANCE_GROUP_WITHOUT_CONTACTS, NO_SUCH_NAME
 from .live.motion import Motion
 from .stored import balance_groups, stability
@@ -78,6 +79,8 @@ class BalanceGroup:
                 scene.frame_set(floor(frame), subframe=frame % 1.0)
                 try:
                     self._add_frame(motion, self._context.evaluated_depsgraph_get())
+                except Refused:
+                    raise
                 except Exception as error:
                     self.failure = internal_error.finding_of(error)
                     return

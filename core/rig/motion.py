@@ -207,14 +207,12 @@ def frames_of_height(center: NDArray, step: float, gravity: ArrayLike) -> float:
 
 
 def turns_of_constant_spin(course: Course, first: int, last: int) -> NDArray[np.float64]:
-    """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum of the first frame.
+    """Return (last - first + 1, 3, 3) turns about the center that keep the angular momentum after the first frame.
 
     They are integrated from frame to frame, then corrected until the turned body, measured as any other, keeps it.
     """
     between, step = momenta_between(course, first, last), course.step
-    first_node = _stencils(last - first, np.array([-0.5]), AVERAGED)
-    kept = first_node(between.angular)[0]
-    inverse = np.linalg.inv(between.inertia)
+    kept, inverse = between.angular[0], np.linalg.inv(between.inertia)
     turns = np.tile(np.eye(3), (last - first + 1, 1, 1))
     for index in range(last - first):
         rate = np.zeros(3)

@@ -7,13 +7,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from bpy.types import Context, Object
+from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
 from ...blender.session import live
 from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
+from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.statics.support import Support
 from ..rig import standing, standing_values
 from . import appearance as look
@@ -43,6 +44,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
         for empty in balance_groups.groups(context.scene):
             if empty.visible_in_viewport_get(context.space_data) and (path := balance_groups.path(empty)) is not None:
                 details.append(_path(path))
+                details += _arcs(context.scene, path)
                 stood = balance_groups.support(empty, context.scene.frame_current) if settings.show_support else None
                 if stood is not None:
                     details.append(support_detail(stood))
@@ -66,10 +68,28 @@ def _path(path: balance_groups.Path) -> Detail:
     ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
     marked = np.zeros(len(ticks), bool) if path.inside is None else ~path.inside
     tints = np.where(marked[:, None], look.TIPS, look.PATH)
+    if path.unexplained is not None:
+        tints[path.unexplained] = look.FAULT
     segments = np.concatenate([np.stack([starts, ends], axis=1), ticks])
     return Detail(
         (segments, np.concatenate([colors, tints]).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH)
     )
+
+
+def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
+    """Return the arc of free fall beside each flight of a path, with a cross at take-off and at landing."""
+    if path.contact is None or not scene.use_gravity:
+        return []
+    details, size = [], 0.02 * float(np.ptp(path.centers, axis=0).max())
+    for first, last in find_flights(path.contact):
+        if path.contact[first] and path.contact[last]:
+            step = (path.frames[last] - path.frames[first]) / (last - first) * scene.render.fps_base / scene.render.fps
+            ends = path.centers[[first, last]]
+            arc = ballistic_arc(*ends, last - first, step, scene.gravity)
+            crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
+            lines = np.concatenate([np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)])
+            details.append(Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE)))
+    return details
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:

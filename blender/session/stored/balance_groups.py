@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ....core.statics.support import Support
 from ...scene import fcurves
-from ...write.properties import BALANCE_GROUP
+from ...write.properties import BALANCE_GROUP, BALANCE_SPANS
 from ..tracking import handlers
 from ..tracking.cache import SessionCache
 
@@ -34,7 +34,6 @@ DESCRIPTIONS = {  # of custom properties with F-curves
     "body_balance_margin": "Distance of the center from the edge of the support polygon, m; negative outside",
     "body_balance_zero_moment_point": "Point of the ground at which contact forces have no moment along it",
 }
-SPANS = "body_balance_spans"  # rows of first frame, last frame, N·s, N·m·s from nothing, one after the other
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +118,14 @@ def path(empty: Object) -> Path | None:
     signals = [_keys(curves, ('["{:s}"]'.format(name), 0)) for name in (INSIDE, CONTACT, UNEXPLAINED)]
     known = (None if one is None or len(one) != len(centers) else one[:, 1] > 0.5 for one in signals)
     return Path(keys[0][:, 0], centers, *known)
+
+
+def store_spans(empty: Object, rows: Sequence[tuple[float, float, float, float]]) -> None:
+    """Put spans of unexplained momentum on the empty: first and last frame, N·s, N·m·s."""
+    if rows:
+        empty[BALANCE_SPANS] = [float(value) for row in rows for value in row]
+    elif BALANCE_SPANS in empty:
+        del empty[BALANCE_SPANS]
 
 
 def support(empty: Object, frame: int) -> Support | None:

@@ -11,6 +11,7 @@ from body_moments.core.rig.motion import (
     find_unexplained,
     frames_of_height,
     momenta,
+    momenta_between,
     turns_of_constant_spin,
     zero_moment_points,
 )
@@ -120,7 +121,7 @@ def test_spin_from_nothing_is_unexplained():
 
 def test_constant_spin_is_kept_by_a_tucking_body():
     body = tucking()
-    before = momenta(body, [(0, FRAMES - 1)])[0].angular
+    before = momenta_between(body, 0, FRAMES - 1).angular
     turned = body.turned(turns_of_constant_spin(body, 0, FRAMES - 1))
     after = momenta(turned, [(0, FRAMES - 1)])[0].angular
     size = np.linalg.norm(before[0])
