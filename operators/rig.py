@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators on characters: the parts of their bones, rigid bodies for them, their center of mass and balance."""
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Operator, Scene
 
 from ..blender import bodies, read, scene, session
@@ -126,14 +126,10 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
-    """Measure the posed characters, and show what they weigh and how they stand."""
+    """Show the selected characters' center of mass and support polygon while they are posed, or hide them again"""
 
     bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
-    bl_description = (
-        "Show the center of mass of the selected characters while they are posed, the support polygon below it, and "
-        "the margin to its edge. Bones are measured, and the ground is found; press again to hide"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     @selection.report_refusals
@@ -142,16 +138,13 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         shown = not context.object.body_moments_weight.show
         if shown and not has_gravity(context.scene):
             return selection.refuse(self, NO_GRAVITY)
-        findings = []
+        rigs = [live.character.measure(context, armature) for armature in armatures if shown]
+        found = [found for rig in rigs for found in rig.measurement.findings]
+        findings = of_severity(found, Severity.WARNING, Severity.ERROR)
         for armature in armatures:
             if shown:
-                rig = live.character.measure(context, armature)
-                findings += of_severity(rig.measurement.findings, Severity.WARNING, Severity.ERROR)
-        for armature in armatures:
-            settings = armature.body_moments_weight
-            if shown:
-                settings.ground = live.character.find_ground(context, armature)
-            settings.show = shown
+                live.character.find_ground(context, armature)
+            armature.body_moments_weight.show = shown
         names = ", ".join(armature.name for armature in armatures)
         text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
         selection.report(self, reports.phrase(text, names=names), *reports.first(findings))
@@ -159,35 +152,11 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         return {"FINISHED"}
 
 
-class POSE_OT_body_moments_set_contacts(InPoseMode, Operator):
-    """Name the bones that may touch the ground."""
-
-    bl_idname = "pose.body_moments_set_contacts"
-    bl_label = "Set Contacts"
-    bl_description = "Let only the selected bones touch the ground, or with Any Bone again all of them"
-    bl_options = {"REGISTER", "UNDO"}
-
-    clear: BoolProperty(name="Any Bone", description="Any bone may touch the ground", default=False)
-
-    def execute(self, context: Context) -> set[str]:
-        chosen = {bone.name for bone in context.selected_pose_bones if bone.id_data == context.object}
-        if not chosen and not self.clear:
-            return selection.refuse(self, "No bone is selected. Select those that may touch the ground.")
-        for bone in context.object.pose.bones:
-            bone.body_moments.is_contact = bone.name in chosen and not self.clear
-        selection.redraw(context)
-        return {"FINISHED"}
-
-
 class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
-    """Move a bone least, so that the center of mass is over the support."""
+    """Move a bone by the least length or angle that brings the center of mass over the support; held feet stay"""
 
     bl_idname = "pose.body_moments_balance_pose"
     bl_label = "Balance Pose"
-    bl_description = (
-        "Move the hips or the root, or turn the chosen bone, by the least amount that brings the center of mass over "
-        "the support. Feet held by inverse kinematics stay in place"
-    )
     bl_options = {"REGISTER", "UNDO"}
 
     bone: StringProperty(
@@ -217,27 +186,22 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        armature, scene_ = context.object, context.scene
-        if not has_gravity(scene_):
+        if not has_gravity(context.scene):
             return selection.refuse(self, NO_GRAVITY)
-        if self.bone and self.bone not in armature.pose.bones:
+        if self.bone and self.bone not in context.object.pose.bones:
             return selection.refuse(self, "There is no bone “{name}”. Choose another one.", name=self.bone)
         margin = self.margin if self.target == "INSIDE" else None
-        result = session.balance_pose(context, armature, self.bone, margin)
-        if result.problem == session.BALANCED:
-            selection.report(self, reports.phrase("Nothing to do: {cause}", cause=reports.phrase(result.problem)))
-            return {"CANCELLED"}
-        if result.problem:
-            return selection.refuse(self, result.problem, **result.values)
-        text = "Moved “{bone}”: the center is {residual:length} from its target, {margin:length} inside the support"
-        selection.report(self, reports.phrase(text, **result.values))
+        text, values = session.balance_pose(context, context.object, self.bone, margin)
+        is_moved = text == session.MOVED
+        if not (is_moved or text == session.BALANCED):
+            return selection.refuse(self, text, **values)
+        selection.report(self, reports.phrase(text, **values))
         selection.redraw(context)
-        return {"FINISHED"}
+        return {"FINISHED" if is_moved else "CANCELLED"}
 
 
 CLASSES = (
     POSE_OT_body_moments_show_weight,
-    POSE_OT_body_moments_set_contacts,
     POSE_OT_body_moments_balance_pose,
     OBJECT_OT_body_moments_measure_bones,
     OBJECT_OT_body_moments_clear_bones,

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bpy.types import Context, Panel, PoseBone, Scene, UILayout
+from bpy.types import Context, Panel, PoseBone, UILayout
 
 from ..blender.session import live
 from ..blender.session.tracking.armatures import stands_for_meshes
@@ -94,51 +94,45 @@ class WeightPanel:
         column = layout.column()
         rows.setting(column, settings, "mass", text="Total Mass (kg)")
         rows.setting(column, settings, "ground")
-        row = layout.row(align=True)
-        row.operator("pose.body_moments_set_contacts", text="Contacts from Selected").clear = False
-        row.operator("pose.body_moments_set_contacts", text="", icon="X").clear = True
+        if context.active_pose_bone is not None:
+            column.prop(context.active_pose_bone.body_moments, "is_contact")
         _motion(layout, context)
 
 
-def standing(weight: Weight) -> tuple[str, str]:
-    """Return the English text on how a character stands, for the values of `standing_values`, and its icon."""
-    support = weight.support
+def standing(weight: Weight, unit: float) -> tuple[str, dict[str, float], str]:
+    """Return the English text on how a character stands, the lengths in it, m, and its icon."""
+    support, height = weight.support, weight.contacts.height
+    if support is None and height is None:
+        return "No mesh can touch the ground", {}, "INFO"
     if support is None:
-        known = weight.contacts.height is not None
-        return "In the air: {height:length} above the ground" if known else "No mesh can touch the ground", "INFO"
+        return "In the air: {height:length} above the ground", {"height": height * unit}, "INFO"
+    margin = {"margin": abs(support.margin) * unit}
     if not support.stands:
-        return "Falls: {margin:length} outside the support", "CANCEL"
+        return "Falls: {margin:length} outside the support", margin, "CANCEL"
     if support.is_near_edge:
-        return "Near the edge: {margin:length} inside the support", "ERROR"
-    return "Balanced: {margin:length} inside the support", "CHECKMARK"
-
-
-def standing_values(weight: Weight, scene: Scene) -> dict[str, float]:
-    """Return the lengths in the texts of `standing`, in meters."""
-    unit, support = shortest_decimal(scene.unit_settings.scale_length), weight.support
-    margin = 0.0 if support is None else abs(support.margin)
-    return {"margin": unit * margin, "height": unit * (weight.contacts.height or 0.0)}
+        return "Near the edge: {margin:length} inside the support", margin, "ERROR"
+    return "Balanced: {margin:length} inside the support", margin, "CHECKMARK"
 
 
 def _standing(layout: UILayout, context: Context, weight: Weight, unit: float) -> None:
     """Draw how a character stands, its mass, and the contacts that carry it."""
-    text, icon = standing(weight)
+    text, lengths, icon = standing(weight, unit)
     box = layout.box()
     box.alert = icon == "CANCEL"
-    rows.remark(box, context, text, icon=icon, boxed=True, **standing_values(weight, context.scene))
-    shown = [("Mass", "mass", weight.parts.mass)]
-    if weight.support is not None:
-        shown += [
-            ("Margin", "length", weight.support.margin * unit),
-            ("Height", "length", weight.support.height * unit),
-        ]
+    rows.remark(box, context, text, icon=icon, boxed=True, **lengths)
+    shown, support, contacts = [("Mass", "mass", weight.parts.mass)], weight.support, weight.contacts
+    if support is not None:
+        shown += [("Margin", "length", support.margin * unit), ("Height", "length", support.height * unit)]
     rows.quantities(layout.column(align=True), Units.from_settings(context.scene.unit_settings), shown)
+    missing = [name for name, mass in zip(weight.parts.names, weight.parts.masses) if not mass]
+    if missing:
+        rows.remark(layout, context, "Not measured: {objects}", icon="ERROR", objects=missing)
     column = layout.column(align=True)
-    for names, icon, note in ((weight.contacts.names, "CHECKMARK", "Carries"), (weight.contacts.lifted, "X", "Lifted")):
+    for names, icon, word in ((contacts.names, "CHECKMARK", "Carries"), (contacts.lifted, "X", "Lifted")):
         for name in names[:LISTED]:
             row = column.row(align=True)
             row.label(text=name, icon=icon, translate=False)
-            rows.right(row, localized(note))
+            rows.right(row, localized(word))
 
 
 def _motion(layout: UILayout, context: Context) -> None:

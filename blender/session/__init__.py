@@ -9,6 +9,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     BALANCED="pose_balance",
     BalanceGroup="balance_group",
     CharacterMotion="character_motion",
+    MOVED="pose_balance",
     SimilarSearch="similar",
     balance_pose="pose_balance",
     bill_rows="bill",

@@ -29,7 +29,7 @@ from ..write.reports import Refused
 from .balance_group import BalanceGroup
 from .findings import NO_SUCH_NAME
 from .live import character
-from .live.character import Parts
+from .live.character import OUTLINE, Parts
 from .stored import balance_groups, stability
 
 TRIAL, FOLLOWS = 1e-2, 1e-4  # of the character's size: a tried move, and how exactly parts must follow it
@@ -84,7 +84,7 @@ class CharacterMotion(BalanceGroup):
         points = self.known.contacts(self.armature, depsgraph, ground, down).points
         self._parts.append(parts)
         self.centers.append(parts.center)
-        self.supports.append(support_of_contacts(points, parts.center, down) if len(points) else None)
+        self.supports.append(support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None)
         if self.carrier is not None:
             self.carrier.read(depsgraph)
 

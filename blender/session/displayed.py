@@ -226,11 +226,10 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     if weight is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
-    world = weight.body(properties.stored(armature), unit)
     method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
     trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
-    own = world.in_object(armature.matrix_world, unit)
-    return Displayed(own, world, unit, method, findings, trust, reason, is_posed=True, foot=weight.foot.tolist())
+    own, foot = weight.body.in_object(armature.matrix_world, unit), weight.foot.tolist()
+    return Displayed(own, weight.body, unit, method, findings, trust, reason, is_posed=True, foot=foot)
 
 
 def shown_objects(context: Context) -> list[Object]:

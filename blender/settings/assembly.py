@@ -133,8 +133,7 @@ class BodyMomentsWeightSettings(PropertyGroup):
     )
     mass: FloatProperty(
         name="Total Mass",
-        description="Mass of the meshes that the armature deforms, in kilograms. Bones with a mass of their own keep "
-        "it, the others share the rest. At 0, the densities of the meshes count",
+        description="Mass of the skin in kilograms; bones with a mass of their own keep it. At 0, densities count",
         default=0.0,
         min=0.0,
         step=10,

@@ -119,20 +119,23 @@ def find_support(
     return _support(contacts[:, :2], -low, center, axes)
 
 
-def support_of_contacts(contacts: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0)) -> Support:
+def support_of_contacts(
+    contacts: ArrayLike, center: ArrayLike, down: ArrayLike = (0.0, 0.0, -1.0), tolerance: float = 0.0
+) -> Support:
     """Find the support polygon of (n, 3) contact points at any heights: hands on a wall, feet on stairs.
 
-    The polygon is the hull of the contacts projected along gravity onto the ground through the lowest contact.
+    The polygon is the hull of the contacts projected along gravity onto the ground through the lowest contact, without
+    corners that stand out by less than the tolerance, relative to its extent.
     """
     center = np.asarray(center, np.float64)
     axes = ground_axes(down)
     local = (np.asarray(contacts, np.float64) - center) @ axes
-    return _support(local[:, :2], -float(local[:, 2].min()), center, axes)
+    return _support(local[:, :2], -float(local[:, 2].min()), center, axes, tolerance)
 
 
-def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray) -> Support:
+def _support(contacts: NDArray, height: float, center: NDArray, axes: NDArray, tolerance: float = 0.0) -> Support:
     """Return the support of (n, 2) contacts on the ground, in coordinates from the foot."""
-    corners = contacts[convex_polygon(contacts)]
+    corners = contacts[convex_polygon(contacts, tolerance)]
     margin, direction = polygon_margin(corners)
     polygon = np.concatenate([corners, np.full((len(corners), 1), -height)], axis=1) @ axes.T + center
     return Support(polygon, center - height * axes[:, 2], height, margin, axes[:, :2] @ direction, axes[:, 2])

@@ -15,8 +15,9 @@ from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
 from ...core.rig.motion import ballistic_arc, find_flights
+from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import Support
-from ..rig import standing, standing_values
+from ..rig import standing
 from . import appearance as look
 from .draw import shows_weight
 
@@ -99,13 +100,12 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
 
 
 def _weight(context: Context, weight: Weight) -> Detail:
-    """Return a character's support polygon, a cross at each corner that carries it, and its margin beside the foot."""
-    text = reports.phrase(standing(weight)[0], **standing_values(weight, context.scene))
-    if weight.support is None:
-        empty = _tinted(np.zeros((0, 2, 3)), look.TIPS)
-        return Detail(empty, (np.zeros((0, 3, 3)), empty[1]), ((weight.foot, text, look.TIPS),))
-    support = support_detail(weight.support)
-    return replace(support, texts=((weight.foot, text, support.segments[1][0]),))
+    """Return a character's support polygon, and its margin beside the foot."""
+    text, lengths, _ = standing(weight, shortest_decimal(context.scene.unit_settings.scale_length))
+    nothing = Detail(_tinted(np.zeros((0, 2, 3)), look.TIPS), _tinted(np.zeros((0, 3, 3)), look.TIPS))
+    detail = nothing if weight.support is None else support_detail(weight.support)
+    color = look.TIPS if weight.support is None else detail.segments[1][0]
+    return replace(detail, texts=((weight.foot, reports.phrase(text, **lengths), color),))
 
 
 def support_detail(support: Support) -> Detail:

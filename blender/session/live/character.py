@@ -9,6 +9,7 @@ constraint holds to a bone are parts, too, at their own place. All lengths are i
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -33,6 +34,7 @@ from ..tracking.staleness import stale_reason
 from .motion import Motion
 
 REACH = 0.01  # contact with the ground within this height, relative to the character's size
+OUTLINE = 1e-4  # corners of the support polygon, relative to its extent, that count
 UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a weight
 
 
@@ -40,8 +42,8 @@ UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a
 class Parts:
     """The p parts of one or several characters.
 
-    names: of bones and held objects. masses: (p,) kg. centers: (p, 3). spreads: (p, 3, 3) integrals of r rᵀ dm about
-    each part's center. matrices: (p, 4, 4) of bones and objects in the world.
+    names: of bones and held objects. masses: (p,) kg, 0 if they cannot be measured. centers: (p, 3). spreads: (p, 3, 3)
+    integrals of r rᵀ dm about each part's center. matrices: (p, 4, 4) of bones and objects in the world.
     """
 
     names: tuple[str, ...]
@@ -100,21 +102,14 @@ class Weight:
     """A character as it is posed: its parts and contacts.
 
     support: the support below its center, None if nothing touches. foot: (3,) point of the ground below the center.
+    body: the total as plain numbers, SI in the world, with the volume and bounds of the rest pose.
     """
 
     parts: Parts
     contacts: Contacts
     support: Support | None
     foot: NDArray[np.float64]
-
-    def body(self, before: PlainBody | None, unit: float) -> PlainBody:
-        """Return the total as plain numbers, SI in the world; before: at rest, whose volume and bounds stay."""
-        inertia = tuple((self.parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
-        moments, axes, _ = principal_axes(inertia)
-        center = tuple((self.parts.center * unit).tolist())
-        if before is None:
-            return PlainBody(self.parts.mass, 0.0, 0.0, 0.0, center, inertia, moments, axes, {})
-        return before._replace(mass=self.parts.mass, center=center, inertia=inertia, moments=moments, axes=axes)
+    body: PlainBody
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,19 +156,18 @@ class Character:
         linear = matrices[:, :3, :3]
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
         parts = Parts(self.names, self.masses, centers, linear @ self.spreads @ linear.transpose(0, 2, 1), matrices)
-        held = [self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph)]
-        return Parts.joined([parts, *(part for part in held if part is not None)]) if held else parts
+        return Parts.joined([parts, *(self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
 
-    def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts | None:
-        """Return a held object as a part at its own place, or None if it has no mass."""
+    def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts:
+        """Return a held object as a part at its own place, without mass if it cannot be measured."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
-        try:
-            moments = self._motion.mass_moments(obj, depsgraph)
-        except MeasureError:
-            return None
-        mass, spread = np.array([moments.total]), moments.about_center().second()[None] / unit**2
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        return Parts((obj.name,), mass, moments.center[None] / unit, spread, matrix[None])
+        mass, center, spread = np.zeros(1), matrix[:3, 3], np.zeros((3, 3))
+        with suppress(MeasureError):
+            moments = self._motion.mass_moments(obj, depsgraph)
+            mass, center = np.array([moments.total]), moments.center / unit
+            spread = moments.about_center().second() / unit**2
+        return Parts((obj.name,), mass, center[None], spread[None], matrix[None])
 
     def contacts(self, armature: Object, depsgraph: Depsgraph, ground: float, down: NDArray) -> Contacts:
         """Return the lowest points as evaluated; ground: its height against gravity from the world's origin."""
@@ -203,12 +197,12 @@ class Character:
         mesh = obj.evaluated_get(depsgraph).data
         count = len(mesh.vertices)
         rows = np.arange(count) if rows is None else rows
+        index = {name: number for number, name in enumerate(names)}
         if bone is not None:
-            return np.full(len(rows), names.index(bone))
+            return np.full(len(rows), index.get(bone, NO_BONE))
         known = self._vertex_bones.get(obj.session_uid)
         if known is None or len(known) != count:
             known = self._vertex_bones[obj.session_uid] = np.full(count, UNKNOWN)
-        index = {name: number for number, name in enumerate(names)}
         group_bones = [index.get(group.name, NO_BONE) for group in obj.vertex_groups]
         for row in rows[known[rows] == UNKNOWN].tolist():
             weights = [(entry.weight, group_bones[entry.group]) for entry in mesh.vertices[row].groups]
@@ -258,50 +252,49 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     """Return a character as the dependency graph shows it, None if its bones have not been measured."""
 
     def stand() -> Weight | None:
-        known = character(armature, shortest_decimal(depsgraph.scene.unit_settings.scale_length))
+        unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
+        known = character(armature, unit)
         if known is None:
             return None
         down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
         parts = known.pose(armature, depsgraph)
         contacts = known.contacts(armature, depsgraph, ground, down)
-        support = support_of_contacts(contacts.points, parts.center, down) if len(contacts.points) else None
+        points = contacts.points
+        support = support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None
         foot = parts.center - (parts.center @ down + ground) * down if support is None else support.foot
-        return Weight(parts, contacts, support, foot)
+        inertia = tuple((parts.inertia * unit**2)[ROWS, COLUMNS].tolist())
+        moments, axes, _ = principal_axes(inertia)
+        rest = properties.stored(armature) or PlainBody(0.0, 0.0, 0.0, 0.0, (), (), (), (), {})
+        center = tuple((parts.center * unit).tolist())
+        body = rest._replace(mass=parts.mass, center=center, inertia=inertia, moments=moments, axes=axes)
+        return Weight(parts, contacts, support, foot, body)
 
     return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
 
 
 def prepare(context: Context, armature: Object) -> None:
     """Measure a character and find its ground if that has not been done, or the results are out of date."""
-    known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
-    if known is None or stale_reason(armature, context.scene) is not None:
+    is_new = weight(armature, context.evaluated_depsgraph_get()) is None
+    if is_new or stale_reason(armature, context.scene) is not None:
         measure(context, armature)
-    if known is None:
-        armature.body_moments_weight.ground = find_ground(context, armature)
+    if is_new:
+        find_ground(context, armature)
 
 
-def find_ground(context: Context, armature: Object) -> float:
-    """Return the height of the ground: the world's origin, or the lowest point at rest or as posed.
+def find_ground(context: Context, armature: Object) -> None:
+    """Set the height of a measured character's ground: the world's origin, or its lowest point at rest or as posed.
 
     A character that stands on one of them stands there; one in the air is above the higher of the first two.
     """
     known = character(armature, shortest_decimal(context.scene.unit_settings.scale_length))
+    assert known is not None
     down = stored.stability.down(context.scene)
-    reach = 0.0 if known is None else REACH * known.size
     with rest_pose(context, armature) as depsgraph:
-        rest = _lowest(armature, depsgraph, down)
-    posed = _lowest(armature, context.evaluated_depsgraph_get(), down)
-    below = [height for height in (0.0, rest) if height <= posed + reach]
-    return max(below, default=posed)
-
-
-def _lowest(armature: Object, depsgraph: Depsgraph, down: NDArray) -> float:
-    """Return the lowest height of what may touch the ground; infinity if there is nothing."""
-    heights = [np.inf]
-    for obj, _bone in contact_objects(armature, depsgraph):
-        points, matrix = _points(obj, depsgraph)
-        heights.append(float((points @ (-down @ matrix[:3, :3])).min(initial=np.inf) - down @ matrix[:3, 3]))
-    return min(heights)
+        rest = known.contacts(armature, depsgraph, 0.0, down).height
+    posed = known.contacts(armature, context.evaluated_depsgraph_get(), 0.0, down).height
+    if rest is not None and posed is not None:
+        below = [height for height in (0.0, rest) if height <= posed + REACH * known.size]
+        armature.body_moments_weight.ground = max(below, default=posed)
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:

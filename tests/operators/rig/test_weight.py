@@ -152,16 +152,6 @@ def test_several_characters_are_shown_together(scene):
     assert not rig.body_moments_weight.show and not other.body_moments_weight.show
 
 
-def test_selected_bones_become_contacts(scene):
-    rig, _body = posed()
-    for bone in rig.pose.bones:
-        bone.select = bone.name == "foot.R"
-    assert bpy.ops.pose.body_moments_set_contacts() == {"FINISHED"}
-    assert weight(rig).contacts.names == ("foot.R",)
-    assert bpy.ops.pose.body_moments_set_contacts(clear=True) == {"FINISHED"}
-    assert weight(rig).contacts.names == ("foot.L", "foot.R")
-
-
 def test_override_is_measured_and_balanced(scene, tmp_path):
     """An override cannot hold results, so they are remembered while the file is open."""
     rig, body = figure()
