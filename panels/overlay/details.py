@@ -14,8 +14,8 @@ from ...blender.session import live
 from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
-from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.numerics.float32 import shortest_decimal
+from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.statics.support import Support
 from ..rig import standing
 from . import appearance as look
