@@ -235,23 +235,14 @@ class KeyedFlight(ModalDialog, OnArmature):
     take_off: IntProperty(name="Take-off", description="Last frame on the ground", default=1)
     landing: IntProperty(name="Landing", description="First frame on the ground again", default=24)
     bone: StringProperty(
-        name="Bone", description="Bone that carries the whole character. If empty, its root, or the armature object"
+        name="Bone",
+        description="Bone that carries the whole character. If empty, its root, or the armature object",
+        search=lambda _self, context, _text: [bone.name for bone in context.object.pose.bones],
     )
     use_layer: BoolProperty(
         name="As Layer",
         description="Put the keys into a strip of the NLA that is combined with the action, which becomes a strip, too",
     )
-
-    def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "use_contacts")
-        column = layout.column(align=True)
-        column.active = not self.use_contacts
-        column.prop(self, "take_off")
-        column.prop(self, "landing")
-        layout.prop_search(self, "bone", context.object.pose, "bones")
-        layout.prop(self, "use_layer")
 
     def _begin(self, context: Context) -> int:
         frames, flight = _scene_frames(context.scene), None
@@ -261,11 +252,8 @@ class KeyedFlight(ModalDialog, OnArmature):
                 raise reports.Refused(EMPTY_FLIGHT)
             frames = range(self.take_off, self.landing + self.blend + 1)
         followed = session.CharacterMotion(context, read.rig.require_armature(context.object))
-        followed.find_carrier(context, self.bone, self.TURNS)
-        keeps_height = self.keep == "HEIGHT"
-        if keeps_height:
-            followed.require_action(self.use_layer)
-        self._steps = followed.follow_flight(context.scene, frames, flight, keeps_height, self.blend)
+        followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
+        self._steps = followed.follow_flight(context.scene, frames, flight, self.keep == "HEIGHT", self.blend)
         self._followed = followed
         return len(frames)
 
@@ -273,13 +261,14 @@ class KeyedFlight(ModalDialog, OnArmature):
         followed = self._followed
         if followed.failure is not None:
             return selection.refuse(self, followed.failure)
-        off = followed.key(context, self.TURNS, reports.phrase(self.bl_label) if self.use_layer else "")
+        off = followed.key(context, self.TURNS)
         selection.redraw(context)
         values = {"name": followed.armature.name, "start": followed.first, "end": followed.last}
         texts = [reports.phrase(self.DONE, **values)]
         if followed.landing != followed.last:
-            values = {"count": followed.landing - followed.last, "frame": followed.landing}
-            texts.append(reports.phrase("The landing moved by {count:+d} frames, to frame {frame}", **values))
+            text = "The landing moves from frame {old} to {new}, as the fall takes {count} frames"
+            values = {"old": followed.last, "new": followed.landing, "count": followed.landing - followed.first}
+            texts.append(reports.phrase(text, **values))
         if off > 0.0:
             text = "The center is off by up to {off:length}: constraints hold parts in the world"
             texts.append(reports.phrase(text, off=off))
@@ -288,14 +277,10 @@ class KeyedFlight(ModalDialog, OnArmature):
 
 
 class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
-    """Key the character so that its center of mass follows gravity exactly between take-off and landing."""
+    """Key the root so that the center of mass falls freely from take-off to landing. Poses stay as they are"""
 
     bl_idname = "pose.body_moments_parabola"
     bl_label = "Put on Parabola"
-    bl_description = (
-        "Key the root so that the center of mass follows gravity exactly from take-off to landing. The poses stay as "
-        "they are"
-    )
     CANCELED = "Put on Parabola canceled; nothing was changed"
     DONE = "The center of “{name}” falls freely from frame {start} to {end}"
 
@@ -309,20 +294,12 @@ class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
         default="TIMES",
     )
 
-    def draw(self, context: Context) -> None:
-        super().draw(context)
-        self.layout.prop(self, "keep")
-
 
 class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
-    """Turn the character so that its angular momentum stays that of take-off."""
+    """Turn the root so that the angular momentum stays that of take-off: a tucked body spins faster"""
 
     bl_idname = "pose.body_moments_keep_spin"
     bl_label = "Keep Spin"
-    bl_description = (
-        "Turn the root from take-off to landing so that the angular momentum about the center of mass stays that of "
-        "take-off: a tucked body spins faster. The center and the poses stay as they are"
-    )
     CANCELED = "Keep Spin canceled; nothing was changed"
     DONE = "“{name}” keeps its angular momentum from frame {start} to {end}"
     TURNS = True
@@ -333,10 +310,6 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
         default=8,
         min=1,
     )
-
-    def draw(self, context: Context) -> None:
-        super().draw(context)
-        self.layout.prop(self, "blend")
 
 
 class KeyedPath(ModalSteps, OnArmature):
@@ -365,26 +338,18 @@ class KeyedPath(ModalSteps, OnArmature):
 
 
 class POSE_OT_body_moments_bake_curves(KeyedPath, Operator):
-    """Key the momentum and balance of the character as curves on an empty."""
+    """Key momentum and balance of the character on an empty, and list frames with momentum from nothing"""
 
     bl_idname = "pose.body_moments_bake_curves"
     bl_label = "Bake Curves"
-    bl_description = (
-        "Key center, velocity, momenta, kinetic energy, margin and zero-moment point of the character over the frame "
-        "range as curves on an empty. Frames whose momentum changes without a contact are listed"
-    )
     CURVES = True
 
 
 class POSE_OT_body_moments_trace(KeyedPath, Operator):
-    """Draw the path of the center of mass beside the arcs of free fall."""
+    """Key the path of the center of mass on an empty, and draw it beside the arcs of free fall"""
 
     bl_idname = "pose.body_moments_trace"
     bl_label = "Trace"
-    bl_description = (
-        "Draw the path of the center of mass over the frame range, with marks at take-off and landing, and the arc of "
-        "free fall between them. Adds an empty with keys"
-    )
 
 
 CLASSES = (

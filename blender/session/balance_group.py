@@ -109,7 +109,12 @@ class BalanceGroup:
         touching = points[-points @ down <= self._ground + reach]
         return support_of_contacts(touching, center, down) if len(touching) else None
 
-    def store(self, context: Context, signals: Mapping[str, NDArray] | None = None) -> Object:
+    def store(
+        self,
+        context: Context,
+        signals: Mapping[str, NDArray] | None = None,
+        spans: Sequence[tuple[float, float, float, float]] = (),
+    ) -> Object:
         """Store the path as keys of the group's empty, which is added if there is none, and return the empty."""
         signals, centers = dict(signals or {}), np.array(self.centers)
         if self.feet:
@@ -122,7 +127,7 @@ class BalanceGroup:
             empty.empty_display_size = 0.05 * float(np.ptp(centers, axis=0).max())
             empty[BALANCE_GROUP] = balance_groups.group_text(self.objects)
             context.scene.collection.objects.link(empty)
-        balance_groups.store(empty, np.array(self._frames, np.float64), centers, signals, self.supports)
+        balance_groups.store(empty, np.array(self._frames, np.float64), centers, signals, self.supports, spans)
         context.view_layer.update()
         return empty
 

@@ -33,6 +33,7 @@ from .live.character import OUTLINE, Parts
 from .stored import balance_groups, stability
 
 TRIAL, FOLLOWS = 1e-2, 1e-4  # of the character's size: a tried move, and how exactly parts must follow it
+LAYER = "Body Moments"  # the name of the track and the strip
 CHECKED = 16  # frames that are looked at again after the keys
 
 NO_GRAVITY = "The scene has no gravity, so nothing falls. Turn it on in Scene Properties > Gravity."
@@ -42,7 +43,6 @@ NOT_CARRIED = (
     "or parent the targets of its constraints to one."
 )
 HELD_IN_PART = "“{names}” is held at some of the frames only. Choose frames at which the same objects are held."
-TWEAKED = "“{name}” is in the tweak mode of the NLA editor. Leave it with Tab there."
 LAYERED_TIMES = "A layer cannot move the landing. Turn off As Layer and empty the NLA, or keep the times."
 NO_FLIGHT = (
     "“{name}” does not leave the ground and land again in frames {start} to {end}. Turn off Find by Contacts and type "
@@ -100,8 +100,9 @@ class CharacterMotion(BalanceGroup):
         """(f,) whether anything touches the ground."""
         return np.array([support is not None for support in self.supports])
 
-    def find_carrier(self, context: Context, name: str, turns: bool) -> None:
+    def find_carrier(self, context: Context, name: str, turns: bool, as_layer: bool) -> None:
         """Find what carries all parts: the named bone, else the root, else the object; Refused if nothing can."""
+        self.is_layered = as_layer or fcurves.has_strips(self.armature)
         bones, part = self.armature.pose.bones, ""
         if name and name not in bones:
             raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
@@ -115,11 +116,6 @@ class CharacterMotion(BalanceGroup):
                 return
         raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
-    def require_action(self, as_layer: bool) -> None:
-        """Raise Refused if keys would not go into the action itself, where later ones can move."""
-        if as_layer or fcurves.has_strips(self.armature):
-            raise Refused(LAYERED_TIMES)
-
     def follow_flight(
         self, scene: Scene, frames: range, flight: tuple[int, int] | None, keep_height: bool, blend: int
     ) -> Iterator[int]:
@@ -127,93 +123,88 @@ class CharacterMotion(BalanceGroup):
 
         keep_height: the flight lasts as long as its height demands. blend: frames after it that are followed, too.
         """
+        if keep_height and self.is_layered:
+            raise Refused(LAYERED_TIMES)
         yield from self.follow(scene, frames)
         if self.failure is not None:
             return
-        self.first, self.last = self._flight(frames, scene.frame_current) if flight is None else flight
-        count = self.last - self.first
+        self.first, self.last = flight or self._find_flight(frames, scene.frame_current)
+        count, rows = self.last - self.first, slice(self.first - frames[0], self.last - frames[0] + 1)
         if keep_height:
-            centers = np.array(self.centers)[self.first - frames[0] : self.last - frames[0] + 1]
-            count = max(2, round(motion.frames_of_height(centers, self.step, self.gravity)))
-        self.landing, share = self.first + count, np.arange(count + 1) / count
-        times = [*(self.first + share * (self.last - self.first)), *range(self.last + 1, self.last + blend + 1)]
-        self.times = np.array(times, np.float64)
-        rows = [round(time - frames[0]) for time in times]
-        if times[-1] <= frames[-1] and np.array_equal(np.array(frames)[rows], self.times):
-            self.clear(rows)
+            count = max(2, round(motion.frames_of_height(np.array(self.centers[rows]), self.step, self.gravity)))
+        self.landing = self.first + count
+        self.times = np.linspace(self.first, self.last, count + 1).tolist()
+        self.times += range(self.last + 1, self.last + blend + 1)
+        if set(self.times) <= set(frames):
+            self.clear([round(time) - frames[0] for time in self.times])
         else:
             self.clear()
-            yield from (len(frames) for _ in self.follow(scene, times))
+            yield from (len(frames) for _ in self.follow(scene, self.times))
 
-    def _flight(self, frames: range, current: int) -> tuple[int, int]:
+    def _find_flight(self, frames: range, current: int) -> tuple[int, int]:
         """Return take-off and landing of the flight at the current frame, else of the longest one."""
         touching = self.touching
-        found = [flight for flight in motion.find_flights(touching) if touching[flight[0]] and touching[flight[1]]]
+        found = [flight for flight in motion.find_flights(touching) if touching[list(flight)].all()]
         if not found:
             raise Refused(NO_FLIGHT, name=self.armature.name, start=frames[0], end=frames[-1])
         first, last = max(found, key=lambda flight: (frames[flight[0]] <= current < frames[flight[1]], np.ptp(flight)))
         return frames[first], frames[last]
 
-    def _parabola(self) -> NDArray[np.float64]:
-        """Return (f, 4, 4) moves that put the center on the arc between its ends."""
+    def _moves(self, turns: bool) -> NDArray[np.float64]:
+        """Return (f, 4, 4) moves onto the arc between the ends, or turns of constant spin, which then go back."""
         centers, moves = np.array(self.centers), np.tile(np.eye(4), (len(self.centers), 1, 1))
-        arc = motion.ballistic_arc(centers[0], centers[-1], len(centers) - 1, self.step, self.gravity)
-        moves[:, :3, 3] = arc - centers
-        return moves
-
-    def _spin(self) -> NDArray[np.float64]:
-        """Return (f, 4, 4) moves that keep the spin up to the landing, then turn back smoothly."""
-        centers, landing = np.array(self.centers), self.landing - self.first
-        turns = motion.turns_of_constant_spin(self.course, 0, landing)
-        left, end = np.linspace(1.0, 0.0, len(centers) - landing)[1:], Quaternion(quaternion(turns[-1]))
-        back = [Quaternion().slerp(end, share * share * (3.0 - 2.0 * share)) for share in left]
-        moves = np.tile(np.eye(4), (len(centers), 1, 1))
-        moves[:, :3, :3] = np.concatenate([turns, rotation_matrix(np.array(back))])
+        if not turns:
+            arc = motion.ballistic_arc(centers[0], centers[-1], len(centers) - 1, self.step, self.gravity)
+            moves[:, :3, 3] = arc - centers
+            return moves
+        landing = self.landing - self.first
+        moves[: landing + 1, :3, :3] = motion.turns_of_constant_spin(self.course, 0, landing)
+        end = Quaternion(quaternion(moves[landing, :3, :3]))
+        for index, left in enumerate(np.linspace(1.0, 0.0, len(centers) - landing)[1:], landing + 1):
+            back = Quaternion().slerp(end, left * left * (3.0 - 2.0 * left))
+            moves[index, :3, :3] = rotation_matrix(back)
         moves[:, :3, 3] = centers - np.einsum("fij,fj->fi", moves[:, :3, :3], centers)
         return moves
 
-    def key(self, context: Context, turns: bool, layer: str) -> float:
-        """Key the carrier for a constant spin or a parabola; layer: a name, "" for keys in the action.
+    def key(self, context: Context, turns: bool) -> float:
+        """Key the carrier for a constant spin or a parabola.
 
         Return how far the center is off afterwards, in meters; 0 if it is where it has to be.
         """
-        moves, carrier = self._spin() if turns else self._parabola(), self.carrier
+        moves, carrier = self._moves(turns), self.carrier
         assert carrier is not None
-        targets = np.array(self.centers) + (0.0 if turns else moves[:, :3, 3])
+        targets = np.einsum("fij,fj->fi", moves, np.insert(self.centers, 3, 1.0, axis=1))[:, :3]
         with tracking_paused():
-            carrier.key(moves, self.times, turns, layer)
+            carrier.key(moves, self.times, turns, self.is_layered)
             self.clear()
             self.carrier, places = None, np.unique(np.linspace(0, len(moves) - 1, CHECKED).astype(int))
-            for _ in self.follow(context.scene, [self.first + int(place) for place in places]):
+            for _ in self.follow(context.scene, (self.first + places).tolist()):
                 pass
-        off = float(np.linalg.norm(np.array(self.centers) - targets[places], axis=1).max())
+        off = float(np.linalg.norm(self.centers - targets[places], axis=1).max())
         return off * self.unit if off > FOLLOWS * self.known.size else 0.0
 
     def bake(self, context: Context, curves: bool) -> tuple[Object, int]:
         """Key the path on an empty, with curves of the momenta; return it and the number of unexplained spans."""
-        course, touching, weight = self.course, self.touching, self.gravity * self.course.masses.sum()
+        course, touching, unit = self.course, self.touching, self.unit
         flights = motion.find_flights(touching)
         spans = motion.find_unexplained(course, flights, self.gravity)
         unexplained = np.zeros(len(touching), bool)
-        for span in spans:
-            unexplained[span.first : span.last + 1] = True
-        signals: dict[str, NDArray] = {balance_groups.CONTACT: touching, balance_groups.UNEXPLAINED: unexplained}
+        for first, last, _impulse, _twist in spans:
+            unexplained[first : last + 1] = True
+        signals = {balance_groups.CONTACT: touching, balance_groups.UNEXPLAINED: unexplained}
         if curves:
-            now, force, torque = motion.momenta(course, flights)
-            nowhere = [np.nan, np.nan]
-            stands = [nowhere if one is None else [one.margin, one.height] for one in self.supports]
+            now, change = motion.momenta(course, flights)
+            mass = course.masses.sum()
+            stands = [(np.nan, np.nan) if one is None else (one.margin, one.height) for one in self.supports]
             margin, height = np.array(stands).T
-            zero = motion.zero_moment_points(course.center, height, force, torque, weight)
-            values = now.velocity * self.unit, now.linear * self.unit, now.angular * self.unit**2
-            values = *values, now.energy * self.unit**2, margin * self.unit, zero
+            force, torque = mass * change[:, :3], change[:, 3:6]
+            zero = motion.zero_moment_points(course.center, height, force, torque, mass * self.gravity)
+            velocity, angular, energy = unit * now[:, :3], unit**2 * now[:, 3:6], unit**2 * now[:, 6]
+            values = velocity, mass * velocity, angular, energy, unit * margin, zero
             signals.update(zip(list(balance_groups.DESCRIPTIONS)[3:], values))
-        empty = self.store(context, signals)
-        start, factors = self._frames[0], (self.unit, self.unit**2)
-        rows = [
-            (start + one.first, start + one.last, one.impulse * factors[0], one.twist * factors[1]) for one in spans
-        ]
-        balance_groups.store_spans(empty, rows)
-        return empty, len(rows)
+        start = self._frames[0]
+        rows = [(start + span[0], start + span[1], unit * span[2], unit**2 * span[3]) for span in spans]
+        return self.store(context, signals, rows), len(rows)
 
 
 @dataclass(eq=False)
@@ -258,24 +249,19 @@ class Carrier:
         """Raise Refused unless keys on the channels have an effect and are allowed."""
         require_editable(self.armature)
         owner, animation = self.owner, self.armature.animation_data
-        if animation is not None and animation.use_tweak_mode:
-            raise Refused(TWEAKED, name=self.armature.name)
-        channels = ["location", self.rotation] if turns else ["location"]
-        for channel in channels:
-            locks = owner.lock_location if channel == "location" else owner.lock_rotation
-            path = self.path(channel)
-            drivers = animation.drivers if animation is not None else ()
+        for channel in ("location", "rotation")[: 1 + turns]:
+            path = self.path("location" if channel == "location" else self.rotation)
             keyed = [curve for curve in fcurves.existing_curves(self.armature) if curve.data_path == path]
             states = {
-                "locked": any(locks) or any(curve.lock for curve in keyed),
-                "driven": any(driver.data_path == path for driver in drivers),
+                "locked": any(getattr(owner, "lock_" + channel)) or any(curve.lock for curve in keyed),
+                "driven": animation is not None and any(driver.data_path == path for driver in animation.drivers),
                 "constrained": any(not one.mute and one.influence > 0.0 for one in owner.constraints),
                 "muted": any(curve.mute for curve in keyed),
+                "being tweaked in the NLA editor": animation is not None and animation.use_tweak_mode,
             }
             for state, holds in states.items():
                 if holds:
-                    values = {"channel": "location" if channel == "location" else "rotation", "state": state}
-                    raise Refused(NOT_FREE, name=owner.name, **values)
+                    raise Refused(NOT_FREE, name=owner.name, channel=channel, state=state)
 
     def left_behind(self, context: Context, known: character.Character, turns: bool) -> str:
         """Try a small move at this frame; return the name of a part that does not follow, or ""."""
@@ -323,30 +309,23 @@ class Carrier:
             last = new
         return {name: np.array(rows) for name, rows in values.items()}
 
-    def key(self, moves: NDArray, times: NDArray, turns: bool, layer: str) -> None:
-        """Key (f, 4, 4) moves at whole frames from the first of (f,) times on.
-
-        times: of the poses. Later keys move if they last longer or shorter.
-        """
+    def key(self, moves: NDArray, times: Sequence[float], turns: bool, as_layer: bool) -> None:
+        """Key (f, 4, 4) moves at whole frames from the first of (f,) times of poses on; later keys may move."""
         armature, first, last = self.armature, round(times[0]), round(times[-1])
-        names = ("location", self.rotation) if turns else ("location",)
-        values, curves = self.moved(moves), () if layer else fcurves.ensure_curves(armature)
+        names, values = ("location", self.rotation)[: 1 + turns], self.moved(moves)
+        curves = () if as_layer else fcurves.ensure_curves(armature)
         for name in names:
             if not fcurves.is_keyed(armature, self.path(name), values[name].shape[1]):
                 self.owner.keyframe_insert(name, frame=first)
-        if layer or fcurves.has_strips(armature):
-            for name in names:
+            if as_layer:
                 old = [each[name] for each in self.values]
-                if name == "rotation_quaternion":
-                    pairs = zip(old, values[name])
-                    values[name] = np.array([Quaternion(one).inverted() @ Quaternion(new) for one, new in pairs])
-                else:
-                    values[name] = values[name] - old
+                pairs = zip(map(Quaternion, old), map(Quaternion, values[name]))
+                is_turn = name == "rotation_quaternion"
+                values[name] = np.array([a.inverted() @ b for a, b in pairs]) if is_turn else values[name] - old
         channels = {(self.path(name), axis): rows for name in names for axis, rows in enumerate(values[name].T)}
-        if layer or fcurves.has_strips(armature):
-            fcurves.add_layer(armature, layer or armature.name, first + np.arange(len(moves)), channels)
-            return
-        is_retimed = not np.array_equal(times, first + np.arange(len(times)))
+        if as_layer:
+            fcurves.add_layer(armature, LAYER, first + np.arange(len(moves)), channels)
+        is_retimed = list(times) != [*range(first, first + len(times))]
         for curve in curves:
             rows = channels.get((curve.data_path, curve.array_index))
             if rows is None and is_retimed:

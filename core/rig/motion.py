@@ -9,8 +9,8 @@ No interpolation crosses a take-off or a landing, where velocities jump.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,14 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
 
 Flight = tuple[int, int]  # indices of the last frame on the ground, or the first of all, and of the first one again
+Span = tuple[int, int, float, float]  # indices of the first and last frame; linear and angular momentum from nothing
 
 NODES, DEGREE = 10, 9  # of the polynomial through the frames around a velocity
 CLOSE, CLOSE_DEGREE = 0.02, 5  # seconds: closer frames turn less, and are captured, with noise that averages out
 AVERAGED = 4  # velocities between frames that those at a frame are computed from
 UNEXPLAINED = 0.2  # of the weight: more force than that, without a contact, comes from nothing
 SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
-TRIALS, CONVERGED = 40, 1e-12  # of a turn between two frames
-CORRECTIONS, CONSTANT = 30, 1e-9  # of the turns of all frames; relative change of the angular momentum
+TRIALS, CORRECTIONS = 12, 10  # of a turn between two frames, and of all turns
+CONSTANT = 1e-9  # relative change of the angular momentum
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,132 +49,98 @@ class Course:
         first = self.centers[0, 0]
         return first + np.einsum("p,fpi->fi", self.masses / self.masses.sum(), self.centers - first)
 
+    @property
+    def places(self) -> tuple[NDArray[np.float64], ...]:
+        """The arrays with a row for each frame."""
+        return self.centers, self.spreads, self.linear
+
     def turned(self, turns: NDArray[np.float64]) -> Course:
         """Return the body turned about its center by a (3, 3) rotation at each frame."""
         center, each = self.center[:, None], turns[:, None]
-        return replace(
-            self,
-            centers=center + np.einsum("fij,fpj->fpi", turns, self.centers - center),
-            spreads=each @ self.spreads @ each.swapaxes(-1, -2),
-            linear=each @ self.linear,
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class Momenta:
-    """Motion of a body at each of n moments, in the units of its course.
-
-    velocity, linear, angular: (n, 3), the last about the center. energy: (n,) kinetic. inertia: (n, 3, 3).
-    """
-
-    velocity: NDArray[np.float64]
-    linear: NDArray[np.float64]
-    angular: NDArray[np.float64]
-    energy: NDArray[np.float64]
-    inertia: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Unexplained:
-    """Frames, by index, at which momentum changes without a contact.
-
-    impulse: the linear momentum, twist: the angular momentum that comes from nothing.
-    """
-
-    first: int
-    last: int
-    impulse: float
-    twist: float
+        centers = center + np.einsum("fij,fpj->fpi", turns, self.centers - center)
+        spreads = each @ self.spreads @ each.swapaxes(-1, -2)
+        return Course(self.step, self.masses, centers, spreads, each @ self.linear)
 
 
 def find_flights(touching: ArrayLike) -> list[Flight]:
     """Return the flights in (f,) frames that touch the ground or do not, with the frames of contact at their ends."""
-    touching = np.asarray(touching, bool)
-    edges = np.flatnonzero(np.diff(np.concatenate([[True], touching, [True]]).astype(int)))
-    pairs = edges.reshape(-1, 2)
-    return [(max(start - 1, 0), min(end, len(touching) - 1)) for start, end in pairs.tolist()]
+    last = len(np.asarray(touching)) - 1
+    return [(max(start - 1, 0), min(end, last)) for start, end in _runs(~np.asarray(touching, bool))]
 
 
-def momenta_between(course: Course, first: int, last: int) -> Momenta:
-    """Return the motion in the middle between neighboring frames of a section without jumps."""
+def _runs(true: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return starts and ends of the runs of true values."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], true, [False]]).astype(int)))
+    return [(start, end) for start, end in edges.reshape(-1, 2).tolist()]
+
+
+def momenta_between(course: Course, first: int, last: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the motion in the middle between neighboring frames of a section without jumps, and (n, 3, 3) inertia.
+
+    The motion is (n, 7): the center's velocity, the angular momentum about the center, and the kinetic energy.
+    """
     rows, count, step = slice(first, last + 1), last - first, course.step
     masses, center = course.masses, course.center[rows]
     axes = _axes(course.linear[rows, int(masses.argmax())])
-    back = rotation_matrix(axes).swapaxes(-1, -2)
-    arms = np.einsum("fij,fpj->fpi", back, course.centers[rows] - center[:, None])
-    linear = back[:, None] @ course.linear[rows]
-    spreads = back[:, None] @ course.spreads[rows] @ back[:, None].swapaxes(-1, -2)
-    middle = np.arange(count) + 0.5
+    back = rotation_matrix(axes).swapaxes(-1, -2)[:, None]
     degree = DEGREE if step > CLOSE else CLOSE_DEGREE
-    mean, rate = (_stencils(count + 1, middle, NODES, order, degree) for order in (False, True))
-    arm, spread, turn = mean(arms), mean(spreads), mean(axes)
-    arm_rate, turn_rate, shape = rate(arms) / step, rate(axes) / step, mean(linear)
+    mean, rate = (_stencils(count + 1, np.arange(count) + 0.5, NODES, order, degree) for order in (False, True))
+    arms = (back @ (course.centers[rows] - center[:, None])[..., None])[..., 0]
+    linear = back @ course.linear[rows]
+    arm, spread = mean(arms), mean(back @ course.spreads[rows] @ back.swapaxes(-1, -2))
+    arm_rate, shape, turn = rate(arms) / step, mean(linear), mean(axes)
     shape[np.linalg.det(shape) == 0.0] = np.eye(3)  # a bone scaled to nothing has no spread either
     growth = (rate(linear) / step) @ np.linalg.inv(shape)
-    spin = 2.0 * _vector_of_product(turn_rate, turn) / (turn * turn).sum(axis=1)[:, None]
-    rotation = rotation_matrix(turn)
-    spin = np.einsum("fji,fj->fi", rotation, spin)  # in the axes
+    rotation, turn_rate = rotation_matrix(turn), rate(axes) / step
+    # Twice the vector of the rate times the conjugate is the angular velocity.
+    spin = turn[:, :1] * turn_rate[:, 1:] - turn_rate[:, :1] * turn[:, 1:] - np.cross(turn_rate[:, 1:], turn[:, 1:])
+    spin = 2.0 * np.einsum("fji,fj->fi", rotation, spin) / (turn * turn).sum(axis=1)[:, None]
     second = spread.sum(axis=1) + np.einsum("p,fpi,fpj->fij", masses, arm, arm)
     inertia = np.trace(second, axis1=1, axis2=2)[:, None, None] * np.eye(3) - second
     product = growth @ spread
-    own = (product - product.swapaxes(-1, -2)).sum(axis=1)
-    relative = np.stack([own[:, 2, 1], own[:, 0, 2], own[:, 1, 0]], axis=1)
-    relative = relative + np.einsum("p,fpi->fi", masses, np.cross(arm, arm_rate))
-    angular = relative + np.einsum("fij,fj->fi", inertia, spin)
-    velocity, mass = np.diff(center, axis=0) / step, float(masses.sum())
-    energy = mass * (velocity**2).sum(axis=1) + (spin * (angular + relative)).sum(axis=1)
+    skew = (product - product.swapaxes(-1, -2)).sum(axis=1)
+    inner = np.einsum("p,fpi->fi", masses, np.cross(arm, arm_rate))
+    inner += np.stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]], axis=1)
+    angular = inner + np.einsum("fij,fj->fi", inertia, spin)
+    velocity = np.diff(center, axis=0) / step
+    energy = masses.sum() * (velocity**2).sum(axis=1) + (spin * (angular + inner)).sum(axis=1)
     energy += np.einsum("p,fpi->f", masses, arm_rate**2) + (product * growth).sum(axis=(1, 2, 3))
-    angular, inertia = np.einsum("fij,fj->fi", rotation, angular), rotation @ inertia @ rotation.swapaxes(-1, -2)
-    return Momenta(velocity, mass * velocity, angular, energy / 2.0, inertia)
+    angular = np.einsum("fij,fj->fi", rotation, angular)
+    return np.column_stack([velocity, angular, energy / 2.0]), rotation @ inertia @ rotation.swapaxes(-1, -2)
 
 
-def momenta(course: Course, flights: Sequence[Flight]) -> tuple[Momenta, NDArray, NDArray]:
-    """Return the motion at the frames, (f, 3) forces and (f, 3) torques; at the ends of a flight, those of the flight.
-
-    Forces and torques, about the center, are the rates of the momenta; gravity is in them.
-    """
-    frames = len(course.centers)
-    found = {name: np.zeros((frames, *shape)) for name, shape in SHAPES.items()}
-    for first, last in sorted(_sections(frames, flights), key=lambda section: section in flights):
-        between, at = momenta_between(course, first, last), np.arange(last - first + 1) - 0.5
-        value, rate = (_stencils(last - first, at, AVERAGED, derivative) for derivative in (False, True))
-        for name in SHAPES:
-            if name in RATES:
-                found[name][first : last + 1] = rate(getattr(between, RATES[name])) / course.step
-            else:
-                found[name][first : last + 1] = value(getattr(between, name))
-    force, torque = found.pop("force"), found.pop("torque")
-    return Momenta(**found), force, torque
+def momenta(course: Course, flights: Sequence[Flight]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the (f, 7) motion at the frames and its rate; at the ends of a flight, those of the flight."""
+    now, change = np.zeros((2, len(course.centers), 7))
+    ends = sorted({0, len(course.centers) - 1, *(end for flight in flights for end in flight)})
+    for first, last in sorted(zip(ends, ends[1:]), key=lambda section: section in flights):
+        between, at = momenta_between(course, first, last)[0], np.arange(last - first + 1) - 0.5
+        now[first : last + 1] = _stencils(last - first, at, AVERAGED)(between)
+        change[first : last + 1] = _stencils(last - first, at, AVERAGED, derivative=True)(between) / course.step
+    return now, change
 
 
-SHAPES = {"velocity": (3,), "linear": (3,), "angular": (3,), "energy": (), "inertia": (3, 3), "force": (3,)}
-SHAPES["torque"] = (3,)
-RATES = {"force": "linear", "torque": "angular"}
-
-
-def find_unexplained(course: Course, flights: Sequence[Flight], gravity: ArrayLike) -> list[Unexplained]:
-    """Return the frames of flights at which the momenta change otherwise than by gravity.
+def find_unexplained(course: Course, flights: Sequence[Flight], gravity: NDArray) -> list[Span]:
+    """Return the frames of flights at which the momenta change otherwise than by gravity, and by how much.
 
     A force above a fifth of the weight is unexplained, or its torque at the body's radius of gyration.
     """
-    result, mass = [], float(course.masses.sum())
-    weight = mass * np.asarray(gravity, np.float64)
+    spans, mass = [], float(course.masses.sum())
+    limit = UNEXPLAINED * mass * float(np.linalg.norm(gravity))
     for first, last in flights:
         if last - first < 2:
             continue
-        between = momenta_between(course, first, last)
+        between, inertia = momenta_between(course, first, last)
         nodes = min(2 * max(1, round(SMOOTHED / course.step / 2.0)), last - first)
         slope = _stencils(last - first, np.arange(last - first - 1) + 0.5, nodes, derivative=True, degree=1)
-        force = np.linalg.norm(slope(between.linear) / course.step - weight, axis=1)
-        torque = np.linalg.norm(slope(between.angular) / course.step, axis=1)
-        gyration = np.sqrt(np.trace(between.inertia, axis1=1, axis2=2).mean() / (2.0 * mass))
-        limit = UNEXPLAINED * float(np.linalg.norm(weight))
-        bad = (force > limit) | (torque > limit * gyration)
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], bad, [False]]).astype(int))).reshape(-1, 2)
-        for start, end in edges.tolist():
+        change = slope(between) / course.step
+        force = mass * np.linalg.norm(change[:, :3] - gravity, axis=1)
+        torque = np.linalg.norm(change[:, 3:6], axis=1)
+        gyration = np.sqrt(np.trace(inertia, axis1=1, axis2=2).mean() / (2.0 * mass))
+        for start, end in _runs((force > limit) | (torque > limit * gyration)):
             sums = (float(values[start:end].sum()) * course.step for values in (force, torque))
-            result.append(Unexplained(first + 1 + start, first + end, *sums))
-    return result
+            spans.append((first + 1 + start, first + end, *sums))
+    return spans
 
 
 def zero_moment_points(
@@ -211,65 +178,35 @@ def turns_of_constant_spin(course: Course, first: int, last: int) -> NDArray[np.
 
     They are integrated from frame to frame, then corrected until the turned body, measured as any other, keeps it.
     """
-    between, step = momenta_between(course, first, last), course.step
-    kept, inverse = between.angular[0], np.linalg.inv(between.inertia)
+    (motion, inertia), step = momenta_between(course, first, last), course.step
+    angular, inverse = motion[:, 3:6], np.linalg.inv(inertia)
+    kept = angular[0]
     turns = np.tile(np.eye(3), (last - first + 1, 1, 1))
     for index in range(last - first):
         rate = np.zeros(3)
         for _ in range(TRIALS):
             half = turns[index] @ _rotation(0.5 * step * rate)
-            before, rate = rate, inverse[index] @ (half.T @ kept - between.angular[index])
-            if np.abs(rate - before).max() * step < CONVERGED:
-                break
+            rate = inverse[index] @ (half.T @ kept - angular[index])
         turns[index + 1] = turns[index] @ _rotation(step * rate)
-    section = Course(course.step, course.masses, *(each[first : last + 1] for each in _arrays(course)))
-    best, least = turns, np.inf
+    section = Course(step, course.masses, *(each[first : last + 1] for each in course.places))
     for _ in range(CORRECTIONS):
-        found = momenta_between(section.turned(turns), 0, last - first)
-        missing = kept - found.angular
-        error = float(np.abs(missing).max())
-        if error < least:
-            best, least = turns, error
-        if not error > CONSTANT * np.linalg.norm(kept):
+        motion, inertia = momenta_between(section.turned(turns), 0, last - first)
+        missing = kept - motion[:, 3:6]
+        if np.abs(missing).max() <= CONSTANT * np.linalg.norm(kept):
             break
-        rates = np.linalg.solve(found.inertia, missing[:, :, None])[:, :, 0] * step
-        total, corrected = np.eye(3), [turns[0]]
-        for rate, turn in zip(rates, turns[1:]):
-            total = _rotation(rate) @ total
-            corrected.append(total @ turn)
-        turns = np.array(corrected)
-    return best
-
-
-def _arrays(course: Course) -> tuple[NDArray, NDArray, NDArray]:
-    return course.centers, course.spreads, course.linear
-
-
-def _sections(frames: int, flights: Sequence[Flight]) -> Iterator[Flight]:
-    """Yield the flights, and the sections of at least two frames between them."""
-    end = 0
-    for first, last in flights:
-        if first > end:
-            yield end, first
-        yield first, last
-        end = last
-    if frames - 1 > end:
-        yield end, frames - 1
+        total = np.eye(3)
+        for index, rate in enumerate(np.linalg.solve(inertia, missing[:, :, None])[:, :, 0]):
+            total = _rotation(step * rate) @ total
+            turns[index + 1] = total @ turns[index + 1]
+    return turns
 
 
 def _axes(linear: NDArray) -> NDArray[np.float64]:
     """Return (f, 4) quaternions of a part's axes, each of the sign that is nearer to the one before."""
     polar, _ = polar_rotation(linear)
     turns = quaternion(polar * np.sign(np.linalg.det(polar))[:, None, None])
-    flips = np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
-    turns[1:] *= np.cumprod(flips)[:, None]
+    turns[1:] *= np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))[:, None]
     return turns
-
-
-def _vector_of_product(first: NDArray, second: NDArray) -> NDArray[np.float64]:
-    """Return the vectors of (f, 4) quaternions times the conjugates of others."""
-    scalar, vector = first[:, :1], first[:, 1:]
-    return second[:, :1] * vector - scalar * second[:, 1:] - np.cross(vector, second[:, 1:])
 
 
 def _rotation(vector: NDArray) -> NDArray[np.float64]:
@@ -299,10 +236,5 @@ class _stencils:
 
     def __call__(self, values: NDArray) -> NDArray[np.float64]:
         """Return (k, ...) combinations."""
-        base, flat = values[self.starts], 0.0
-        weights = self.weights[self.kinds]
-        shape = (-1,) + (1,) * (values.ndim - 1)
-        total = weights.sum(axis=1).reshape(shape) * base  # zero or one: differences keep their digits far away
-        for node in range(weights.shape[1]):
-            flat = flat + weights[:, node].reshape(shape) * (values[self.starts + node] - base)
-        return total + flat
+        weights = self.weights[self.kinds].reshape(len(self.starts), -1, *(1,) * (values.ndim - 1))
+        return sum(weights[:, node] * values[self.starts + node] for node in range(weights.shape[1]))

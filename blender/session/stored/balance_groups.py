@@ -78,12 +78,17 @@ def store(
     frames: NDArray,
     centers: NDArray,
     signals: Mapping[str, NDArray],
-    supports: Sequence[Support | None] = (),
+    supports: Sequence[Support | None],
+    spans: Sequence[tuple[float, float, float, float]],
 ) -> None:
     """Put a path and (f,) or (f, 3) signals on the empty as keys, in place of earlier ones, and remember the supports.
 
-    Truth values are keyed as 0 and 1; frames without a value, which is NaN, get no key.
+    Truth values are keyed as 0 and 1; frames without a value, which is NaN, get no key. spans: of frames, with
+    momentum from nothing.
     """
+    empty[BALANCE_SPANS] = [float(value) for span in spans for value in span]
+    if not spans:
+        del empty[BALANCE_SPANS]
     curves = fcurves.ensure_curves(empty)
     for axis in range(3):
         fcurves.write_keys(curves, ("location", axis), frames, centers[:, axis])
@@ -118,14 +123,6 @@ def path(empty: Object) -> Path | None:
     signals = [_keys(curves, ('["{:s}"]'.format(name), 0)) for name in (INSIDE, CONTACT, UNEXPLAINED)]
     known = (None if one is None or len(one) != len(centers) else one[:, 1] > 0.5 for one in signals)
     return Path(keys[0][:, 0], centers, *known)
-
-
-def store_spans(empty: Object, rows: Sequence[tuple[float, float, float, float]]) -> None:
-    """Put spans of unexplained momentum on the empty: first and last frame, N·s, N·m·s."""
-    if rows:
-        empty[BALANCE_SPANS] = [float(value) for row in rows for value in row]
-    elif BALANCE_SPANS in empty:
-        del empty[BALANCE_SPANS]
 
 
 def support(empty: Object, frame: int) -> Support | None:
