@@ -16,6 +16,7 @@ from ..core.verdict.sentences import of_severity
 from . import selection
 from .assembly import report_cleared
 
+NOTABLE = Severity.WARNING, Severity.ERROR
 NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
 
 
@@ -60,7 +61,7 @@ class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
             count=sum(part.measurement is not None for part in rig.parts),
             mass=rig.measurement.mass_properties.mass,
         )
-        findings = of_severity(rig.measurement.findings, Severity.WARNING, Severity.ERROR)
+        findings = of_severity(rig.measurement.findings, *NOTABLE)
         findings += [reports.failure(name, reason) for name, reason in failures]
         selection.report(self, done, *reports.first(findings))
         selection.redraw(context)
@@ -126,7 +127,7 @@ class OBJECT_OT_body_moments_rig_center(OnArmature, Operator):
 
 
 class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
-    """Show the selected characters' center of mass and support polygon while they are posed, or hide them again"""
+    """Show the center of mass and the support of the selected characters while they are posed, or hide them again"""
 
     bl_idname = "pose.body_moments_show_weight"
     bl_label = "Show Weight"
@@ -138,13 +139,11 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
         shown = not context.object.body_moments_weight.show
         if shown and not has_gravity(context.scene):
             return selection.refuse(self, NO_GRAVITY)
-        rigs = [live.character.measure(context, armature) for armature in armatures if shown]
-        found = [found for rig in rigs for found in rig.measurement.findings]
-        findings = of_severity(found, Severity.WARNING, Severity.ERROR)
+        rigs = list(filter(None, [live.character.prepare(context, armature) for armature in armatures]))
+        shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:
-            if shown:
-                live.character.find_ground(context, armature)
             armature.body_moments_weight.show = shown
+        findings = of_severity([found for rig in rigs for found in rig.measurement.findings], *NOTABLE)
         names = ", ".join(armature.name for armature in armatures)
         text = "Showing the weight of {names}" if shown else "Hid the weight of {names}"
         selection.report(self, reports.phrase(text, names=names), *reports.first(findings))

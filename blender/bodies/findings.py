@@ -125,10 +125,6 @@ RIG_WITHOUT_PARTS = error(
     "No deforming bone moves a mesh that can be measured, and nothing is parented to bones. Turn on Deform, add an "
     "Armature modifier to the mesh, or assign weights with Object > Parent > With Automatic Weights.",
 )
-TOTAL_MASS_TAKEN = error(
-    "total_mass_taken",
-    "Total Mass leaves nothing for bones without a mass of their own. Raise it, or set it to 0.",
-)
 BONE_MISSING = warning(
     "bone_missing", "Its parent bone “{bone}” does not exist, so it is not in the total. Choose another one."
 )

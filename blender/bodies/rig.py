@@ -44,7 +44,6 @@ from .findings import (
     RIG_MEAN_DENSITY,
     RIG_WALL_THIN,
     RIG_WITHOUT_PARTS,
-    TOTAL_MASS_TAKEN,
     UNWEIGHTED_VERTICES,
 )
 from .measure_object import measure_body
@@ -135,7 +134,6 @@ class _Measuring:
             self.findings.append(finding(MEMBERS_NOT_MEASURED, count=len(self.refused), names=self.refused))
         if self.unset:
             self.findings.append(finding(MEMBERS_DENSITY_UNSET, count=len(self.unset), names=self.unset))
-        self._settle_densities()
         parts = tuple(self._part(name, self.sums[name]) for name in self.bones.names if name in self.sums)
         impossible = [part.name for part in parts if part.refusal is not None]
         if impossible:
@@ -266,35 +264,12 @@ class _Measuring:
 
     # ------------------------------------------------------------ Parts and their sum
 
-    def _settle_densities(self) -> None:
-        """Give the skinned pieces of bones their own density, and all others a share of the armature's total mass.
-
-        Bones with a mass of their own keep it.
-        """
-        if self.is_given:
-            return
-        free, rest = [], shortest_decimal(self.armature.body_moments_weight.mass)
-        for name, found in self.sums.items():
-            settings = self.armature.pose.bones[name].body_moments
-            if settings.mass_from == "DENSITY":
-                own = shortest_decimal(settings.density)
-                found.carriers = [(moments, own) for moments, _ in found.carriers]
-            if settings.mass_from == "MASS":
-                rest -= shortest_decimal(settings.mass)
-            else:
-                free.append(found)
-        if not self.armature.body_moments_weight.mass:
-            return
-        mass = sum(moments.total * density for found in free for moments, density in found.carriers)
-        if not (rest > 0.0 and mass > 0.0):
-            raise ReadError(TOTAL_MASS_TAKEN, subject=self.armature.name)
-        for found in free:
-            found.carriers = [(moments, density * rest / mass) for moments, density in found.carriers]
-
     def _part(self, name: str, found: _Sum) -> BonePart:
         settings = self.armature.pose.bones[name].body_moments
         mass_from = "MESH" if self.is_given else settings.mass_from
-        mass = sum_moments([*(moments * density for moments, density in found.carriers), *found.hanging])
+        own = shortest_decimal(settings.density) if mass_from == "DENSITY" else None
+        masses = [moments * (density if own is None else own) for moments, density in found.carriers]
+        mass = sum_moments([*masses, *found.hanging])
         if mass_from == "MASS" and mass.total > 0.0:
             mass = mass * (shortest_decimal(settings.mass) / mass.total)
         rotation, head = self.bones.frames[name]

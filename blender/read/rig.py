@@ -99,8 +99,6 @@ def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
     for obj in objects:
         keys.append(repr((obj.name, obj.hide_render, settings_hash(obj, scene), len(obj.vertex_groups))))
     keys.append(repr(list(armature.matrix_world.to_scale())))
-    if armature.body_moments_weight.mass:
-        keys.append(repr(armature.body_moments_weight.mass))
     return digest("\n".join(keys).encode())
 
 

@@ -41,8 +41,7 @@ class Displayed:
 
     numbers: in the object frame. world: in the world frame. unit: meters per Blender unit. reason: the reason if the
     numbers are out of date. live: the result with Live on. lag: the lag of live numbers behind the object. is_posed:
-    whether the numbers are a sum of parts in the present pose. foot: (3,) the point of the ground below a character's
-    center, Blender's units; the floor, Z = 0, if there is none.
+    whether the numbers are a sum of parts in the present pose.
     """
 
     numbers: PlainBody
@@ -55,7 +54,6 @@ class Displayed:
     live: LiveResult | None = None
     lag: Lag = Lag.NONE
     is_posed: bool = False
-    foot: Sequence[float] | None = None
 
     def in_frame(self, frame: str) -> PlainBody:
         """Return the numbers in the frame of a setting, "OBJECT" or "WORLD"."""
@@ -228,8 +226,8 @@ def _weighed(armature: Object, scene: Scene) -> Displayed | None:
     unit = shortest_decimal(scene.unit_settings.scale_length)
     method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
     trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
-    own, foot = weight.body.in_object(armature.matrix_world, unit), weight.foot.tolist()
-    return Displayed(own, weight.body, unit, method, findings, trust, reason, is_posed=True, foot=foot)
+    own = weight.body.in_object(armature.matrix_world, unit)
+    return Displayed(own, weight.body, unit, method, findings, trust, reason, is_posed=True)
 
 
 def shown_objects(context: Context) -> list[Object]:

@@ -28,24 +28,18 @@ STAYED = 5e-5  # move of a contact
 SLIP = 0.05  # contacts that move this far with a bone, relative to its or the center's move, hang on it
 LEAST_SHIFT, LEAST_TURN = 0.05, 0.02  # moves of the center that are smaller, by a bone's move or turn, are no use
 FARTHEST = 1.0  # moves and, in radians, turns of a bone
-MAX_STEPS, MAX_LOWERINGS = 10, 15
+TORN = 0.05  # share of the mass above a bone that its location may leave behind
+MAX_TRIALS = 60
 
 Outcome = tuple[str, dict[str, object]]  # an English text and its values
 MOVED = "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside the support"
 BALANCED = "Nothing to do: the center of mass is over its target"
 UNMOVABLE = (
-    "No channel of “{bone}” balances the pose: they are locked or driven, or move the contacts along. Unlock them, "
-    "give the legs inverse kinematics, or choose another bone."
-)
-NO_BONE = (
-    "No bone moves the center and leaves the contacts in place. Unlock the hips and give the legs inverse kinematics, "
-    "or choose a bone."
+    "No bone that may move leaves the contacts in place. Unlock the hips, remove drivers, give the legs inverse "
+    "kinematics, or choose another bone."
 )
 TOO_FAR = "“{bone}” cannot bring the center nearer than {gap:length} to its target. Choose another bone."
-STRETCHED = (
-    "Balancing with “{bone}” would move the contacts by {slip:length}, as the legs are stretched. Lower the hips "
-    "first, or choose another bone."
-)
+STRETCHED = "Balancing with “{bone}” would move the contacts by {slip:length}. Lower the hips, or choose another bone."
 IN_AIR = "Nothing touches the ground: the lowest point is {height:length} above it. Lower the pose, or set Ground."
 NO_CONTACT = "No mesh of “{armature}” can touch the ground. Show its meshes, or turn off Contact of bones without any."
 
@@ -79,7 +73,7 @@ class _Search:
         assert weight.support is not None
         self.context, self.armature, self.known = context, armature, known
         self.unit = shortest_decimal(context.scene.unit_settings.scale_length)
-        self.failure: Outcome = "", {}
+        self.failure: Outcome = UNMOVABLE, {}
         self.axes = ground_axes(-weight.support.up)
         self.target = weight.support.target(margin)
         is_carried = weight.contacts.bones >= 0
@@ -103,69 +97,41 @@ class _Search:
         slip = float(np.linalg.norm(moves, axis=1).max(initial=0.0))
         return self.known.pose(self.armature, depsgraph).center, head, slip
 
-    def effects(self, handle: _Handle, center: NDArray, head: NDArray) -> tuple[list[NDArray], NDArray, NDArray]:
-        """Return a unit of each usable channel, and the (3, k) moves of the center and of the bone by them."""
-        scale = max(map(abs, self.armature.matrix_world.to_scale()))
-        nudge, least = NUDGE * self.known.size, 1e-2 * NUDGE * self.known.size
-        used, of_center, of_bone = [], [], []
-        for axis in handle.free:
-            for sign in (1.0, -1.0):
-                unit = sign * np.eye(3)[axis] * (1.0 / self.known.size if handle.turns else 1.0 / scale)
-                shown, moved, slip = self.look(handle, nudge * unit)
-                gained, move = shown - center, nudge * sign * np.eye(3)[axis] if handle.turns else moved - head
-                if handle.turns or not move @ self.axes[:, 2] > least:
-                    break  # else it lifts the bone, which would stretch the legs
-            reach = float(np.linalg.norm(gained if handle.turns else move))
-            if reach > least and slip <= SLIP * reach:
-                used.append(unit)
-                of_center.append(gained / nudge)
-                of_bone.append(move / nudge)
-        return used, np.array(of_center).reshape(-1, 3).T, np.array(of_bone).reshape(-1, 3).T
-
     def balance(self, handle: _Handle) -> bool:
         """Move the bone and return True, or if that is impossible, leave it and return False."""
         center, head, _ = self.look(handle, np.zeros(3))
-        units, of_center, of_bone = self.effects(handle, center, head)
-        least, tolerance = LEAST_TURN if handle.turns else LEAST_SHIFT, STAYED * self.known.size
-        lower, change = 0.0, np.zeros(len(units))
-        if len(units) > 1 and np.linalg.svd(self.axes[:, :2].T @ of_center)[1][-1] >= least:
-            for _ in range(MAX_LOWERINGS if len(units) == 3 and not handle.turns else 1):
-                place = head - lower * self.axes[:, 2]
-                change, gap, slip = self._solve(handle, np.array(units), of_center, of_bone, change, place)
-                if slip <= tolerance and gap <= REACHED * self.known.size:
+        size, up = self.known.size, self.axes[:, 2]
+        nudge, scale = NUDGE * size, size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
+        units, shifts, moves = [], [], []  # of usable channels, and how they move the center and the bone
+        for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
+            unit = sign * np.eye(3)[axis]
+            shown, moved, slip = self.look(handle, nudge / scale * unit)
+            move = nudge * unit if handle.turns else moved - head
+            reach = float(np.linalg.norm(shown - center if handle.turns else move))
+            lifts = not handle.turns and move @ up > 1e-2 * nudge  # stretches the legs
+            if reach > 1e-2 * nudge and slip <= SLIP * reach and not lifts and not any(unit @ u for u in units):
+                units.append(unit)
+                shifts.append((shown - center) / nudge)
+                moves.append(move / nudge)
+        least, tolerance = LEAST_TURN if handle.turns else LEAST_SHIFT, STAYED * size
+        if len(units) > 1 and np.linalg.svd(np.array(shifts) @ self.axes[:, :2])[1][-1] >= least:
+            inverse = np.linalg.inv(np.linalg.qr(np.transpose(moves))[1])  # from moves of the bone to changes
+            rows = [*self.axes[:, :2].T @ np.transpose(shifts), *([] if handle.turns else [up @ np.transpose(moves)])]
+            solve, change = inverse @ np.linalg.pinv(rows @ inverse), np.zeros(len(units))
+            for _ in range(MAX_TRIALS):
+                center, moved, slip = self.look(handle, change @ units / scale)
+                missing = [*self.gap(center), *([] if handle.turns else [up @ (head - moved)])]
+                gap = float(np.linalg.norm(missing))
+                if gap <= REACHED * size and slip <= tolerance:
                     return True
-                values = {"bone": handle.bone.name, "gap": gap * self.unit, "slip": slip * self.unit}
-                self.failure = TOO_FAR if slip <= tolerance else STRETCHED, values
-                if slip <= tolerance:
-                    break
-                lower += 1.05 * slip + tolerance / 2.0
+                if gap <= REACHED * size:  # the least lower hip that keeps the contacts
+                    head = head - (1.05 * slip + tolerance / 2.0) * up
+                change = solve @ (np.array(rows) @ change + missing)
+                change *= min(1.0, FARTHEST * size / max(np.linalg.norm(change), size))
+            values = {"bone": handle.bone.name, "gap": gap * self.unit, "slip": slip * self.unit}
+            self.failure = TOO_FAR if slip <= tolerance else STRETCHED, values
         setattr(handle.bone, handle.channel, handle.start)
         return False
-
-    def _solve(
-        self, handle: _Handle, units: NDArray, of_center: NDArray, of_bone: NDArray, change: NDArray, place: NDArray
-    ) -> tuple[NDArray, float, float]:
-        """Return the least change to the target with the bone's head at the height of a place, its gap and its slip.
-
-        The effects of the channels are corrected by each trial (Broyden). The height of the head is given, as bent
-        knees move the center, too.
-        """
-        up = self.axes[:, 2:].T[:0] if handle.turns else self.axes[:, 2:].T
-        effect = np.concatenate([self.axes[:, :2].T @ of_center, up @ of_bone])
-        inverse = np.linalg.inv(np.linalg.qr(of_bone)[1])  # from moves of the bone to changes
-        before = None
-        for step in range(MAX_STEPS + 1):
-            center, head, slip = self.look(handle, change @ units)
-            missing = np.concatenate([self.gap(center), up @ (place - head)])
-            if np.linalg.norm(missing) <= 0.5 * REACHED * self.known.size or step == MAX_STEPS:
-                break
-            if before is not None:
-                moved = change - before[0]
-                effect = effect + np.outer(before[1] - missing - effect @ moved, moved) / max(moved @ moved, 1e-300)
-            before = change, missing
-            change = inverse @ np.linalg.pinv(effect @ inverse) @ (effect @ change + missing)
-            change *= min(1.0, FARTHEST * self.known.size / np.linalg.norm(of_bone @ change))
-        return change, float(np.linalg.norm(self.gap(center))), slip
 
 
 def balance_pose(context: Context, armature: Object, name: str, margin: float | None) -> Outcome:
@@ -188,7 +154,7 @@ def balance_pose(context: Context, armature: Object, name: str, margin: float | 
         moved = next(filter(search.balance, _handles(context, armature, known, name)), None)
         context.view_layer.update()
     if moved is None:
-        return search.failure if search.failure[0] else (UNMOVABLE, {"bone": name}) if name else (NO_BONE, {})
+        return search.failure
     if context.scene.tool_settings.use_keyframe_insert_auto:
         moved.bone.keyframe_insert(moved.channel)
     armature.update_tag()
@@ -199,12 +165,13 @@ def balance_pose(context: Context, armature: Object, name: str, margin: float | 
 
 
 def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:
-    """Yield the channels to try: locations of bones that no part hangs above, then rotations, from the root on."""
-    chosen = context.active_pose_bone
+    """Yield the channels to try from the root on: locations of bones that no heavy part is above, then rotations."""
+    chosen, masses = context.active_pose_bone, dict(zip(known.names, known.masses))
     bones = [bone for bone in context.visible_pose_bones or () if bone.id_data == armature]
     bones.sort(key=lambda bone: (bone != chosen, len(bone.parent_recursive)))
     bones = [armature.pose.bones[name]] if name else bones
-    yield from (
-        _Handle(bone, False) for bone in bones if not {up.name for up in bone.parent_recursive} & {*known.names}
-    )
-    yield from (_Handle(bone, True) for bone in bones)
+    for bone in bones:
+        if sum(masses.get(above.name, 0.0) for above in bone.parent_recursive) <= TORN * known.masses.sum():
+            yield _Handle(bone, turns=False)
+    for bone in bones:
+        yield _Handle(bone, turns=True)

@@ -133,7 +133,7 @@ class BodyMomentsWeightSettings(PropertyGroup):
     )
     mass: FloatProperty(
         name="Total Mass",
-        description="Mass of the skin in kilograms; bones with a mass of their own keep it. At 0, densities count",
+        description="Mass of all bones in kilograms; those with a mass of their own keep it. At 0, the measured mass",
         default=0.0,
         min=0.0,
         step=10,

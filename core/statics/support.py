@@ -20,7 +20,7 @@ from ..mesh.hulls import convex_polygon
 from ..numerics.arguments import check_filled, float_array
 
 CONTACT_RTOL = 1e-6  # Relative to the body's extent: points up to this height above the lowest one touch the ground.
-NEAR = 0.5  # Relative to area by perimeter, which is between half and all of the largest margin: near the edge.
+NEAR = 0.1  # Relative to the polygon's extent: the foot is near the edge.
 ON_EDGE = 4.0 * float(np.finfo(np.float64).eps)  # Relative to the corners' distances: zero after rounding.
 
 
@@ -54,27 +54,15 @@ class Support:
 
     @property
     def is_near_edge(self) -> bool:
-        """True if the margin is below a quarter or, in long polygons, half of the largest one."""
-        local = self._local
-        turned = np.roll(local, -1, axis=0)
-        length = float(np.linalg.norm(turned - local, axis=1).sum())
-        area = float((local[:, 0] * turned[:, 1] - local[:, 1] * turned[:, 0]).sum()) / 2.0
-        return self.margin * length < NEAR * area
+        """True if the margin is below a tenth of the polygon's extent."""
+        return self.margin < NEAR * float(np.linalg.norm(np.ptp(self.polygon, axis=0)))
 
     def target(self, margin: float | None) -> NDArray[np.float64]:
         """Return the point of the polygon nearest to the foot with a margin, (3,); None, or too much: the middle."""
-        local = self._local
-        inside = local[:0] if margin is None else shrink_polygon(local, margin)
-        nearest = polygon_middle(local) if not len(inside) else np.zeros(2)
-        if len(inside) and polygon_margin(inside)[0] < 0.0:
-            gap, away = polygon_margin(inside)
-            nearest = gap * away
-        return self.foot + ground_axes(-self.up)[:, :2] @ nearest
-
-    @property
-    def _local(self) -> NDArray[np.float64]:
-        """(k, 2) corners along the ground, from the foot."""
-        return (self.polygon - self.foot) @ ground_axes(-self.up)[:, :2]
+        axes = ground_axes(-self.up)[:, :2]
+        corners = (self.polygon - self.foot) @ axes
+        inside = corners[:0] if margin is None else nearest_inside(corners, margin)
+        return self.foot + axes @ (inside[0] if len(inside) else polygon_middle(corners))
 
 
 def ground_axes(down: ArrayLike) -> NDArray[np.float64]:
@@ -176,18 +164,16 @@ def polygon_middle(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return corners[0] + areas @ (first + second) / (3.0 * areas.sum())
 
 
-def shrink_polygon(corners: NDArray[np.float64], margin: float) -> NDArray[np.float64]:
-    """Return the (l, 2) corners of the points at least `margin` inside a convex polygon, none if there are none."""
+def nearest_inside(corners: NDArray[np.float64], margin: float) -> NDArray[np.float64]:
+    """Return the (1, 2) point nearest to the origin that is `margin` inside a convex polygon, none if there is none."""
     along = np.roll(corners, -1, axis=0) - corners
     lengths = np.linalg.norm(along, axis=1)
-    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)[lengths > 0.0] / lengths[lengths > 0.0, None]
-    limits = (outward * corners[lengths > 0.0]).sum(axis=1) - margin
-    for normal, limit in zip(outward, limits):
-        over = corners @ normal - limit
-        after = np.roll(over, -1)
-        is_crossed = (over > 0.0) != (after > 0.0)
-        share = over / np.where(is_crossed, over - after, 1.0)
-        crossings = corners + share[:, None] * (np.roll(corners, -1, axis=0) - corners)
-        pairs = np.stack([corners, crossings], axis=1).reshape(-1, 2)
-        corners = pairs[np.stack([over <= 0.0, is_crossed], axis=1).ravel()]
-    return corners
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.where(lengths > 0.0, lengths, 1.0)[:, None]
+    limits = (outward * corners).sum(axis=1) - margin
+    first, second = np.triu_indices(len(corners), 1)
+    cross = outward[first, 0] * outward[second, 1] - outward[first, 1] * outward[second, 0]
+    turned = limits[first, None] * outward[second] - limits[second, None] * outward[first]
+    meets = np.stack([turned[:, 1], -turned[:, 0]], axis=1) / np.where(cross == 0.0, np.inf, cross)[:, None]
+    points = np.concatenate([np.zeros((1, 2)), outward * limits[:, None], meets[cross != 0.0]])
+    points = points[(points @ outward.T <= limits + 1e-9 * np.abs(corners).max()).all(axis=1)]
+    return points[np.linalg.norm(points, axis=1).argsort()[:1]]

@@ -24,30 +24,22 @@ MANY = 20  # from this number of bodies on, their sum is drawn, and only doubtfu
 class Bodies:
     """Displayed bodies: (n, 3) centers of mass, and (n, 3, 3) principal axes as columns.
 
-    `gyration`: (n, 3) radii of gyration about the axes. `feet`: (n, 3) ends of the drop lines. `verdicts`: (n,) indices
-    into `appearance.VERDICTS`.
+    `gyration`: (n, 3) radii of gyration about the axes. `verdicts`: (n,) indices into `appearance.VERDICTS`.
     """
 
     centers: NDArray[np.float64]
     axes: NDArray[np.float64]
     gyration: NDArray[np.float64]
-    feet: NDArray[np.float64]
     verdicts: NDArray[np.intp]
 
     @classmethod
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:
         """Return the bodies as arrays; unit: meters per Blender unit."""
         bodies = [(one.world, one.trust) if isinstance(one, Displayed) else (one, "sum") for one in entries]
-        centers = np.array([numbers.center for numbers, _ in bodies]).reshape(-1, 3) / unit
-        feet = centers * (1.0, 1.0, 0.0)
-        for row, one in enumerate(entries):
-            if isinstance(one, Displayed) and one.foot is not None:
-                feet[row] = one.foot
         return cls(
-            centers,
+            np.array([numbers.center for numbers, _ in bodies]).reshape(-1, 3) / unit,
             np.array([numbers.axes for numbers, _ in bodies]).reshape(-1, 3, 3).transpose(0, 2, 1),
             np.array([numbers.gyration for numbers, _ in bodies]).reshape(-1, 3) / unit,
-            feet,
             np.array([look.VERDICTS.index(verdict) for _, verdict in bodies], np.intp),
         )
 

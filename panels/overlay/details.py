@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from bpy.types import Context, Object, Scene
@@ -54,7 +54,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
     for obj in objects:
         weight = live.character.weight(obj, context.view_layer.depsgraph) if shows_weight(obj) else None
         if weight is not None:
-            details.append(_weight(context, weight))
+            details += _weight(context, weight)
     checked = [obj for obj in objects if stability.is_known(obj)] if settings.show_support else ()
     supports = [stability.support(obj, context.scene) for obj in checked]
     return details + [support_detail(support) for support in supports if support is not None]
@@ -99,13 +99,14 @@ def _faults(obj: Object, found: faults.Faults) -> Detail:
     return Detail(_tinted(edges, look.FAULT), _tinted(triangles, look.FAULT, FILL))
 
 
-def _weight(context: Context, weight: Weight) -> Detail:
-    """Return a character's support polygon, and its margin beside the foot."""
+def _weight(context: Context, weight: Weight) -> list[Detail]:
+    """Return a character's plumb line with its margin at the foot, and its support polygon."""
     text, lengths, _ = standing(weight, shortest_decimal(context.scene.unit_settings.scale_length))
-    nothing = Detail(_tinted(np.zeros((0, 2, 3)), look.TIPS), _tinted(np.zeros((0, 3, 3)), look.TIPS))
-    detail = nothing if weight.support is None else support_detail(weight.support)
-    color = look.TIPS if weight.support is None else detail.segments[1][0]
-    return replace(detail, texts=((weight.foot, reports.phrase(text, **lengths), color),))
+    polygon = None if weight.support is None else support_detail(weight.support)
+    color = look.TIPS if polygon is None else polygon.segments[1][0]
+    plumb = _tinted(np.array([[weight.parts.center, weight.foot]]), color)
+    texts = ((weight.foot, reports.phrase(text, **lengths), color),)
+    return [Detail(plumb, _tinted(np.zeros((0, 3, 3)), color), texts), *([] if polygon is None else [polygon])]
 
 
 def support_detail(support: Support) -> Detail:

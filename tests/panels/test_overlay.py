@@ -83,9 +83,7 @@ def test_disc_is_never_larger_than_its_ball(view, size):
     count = len(centers)
     gyration = np.full((count, 3), size * np.sqrt(0.4))
     for verdict in range(5):
-        bodies = Bodies(
-            centers, np.tile(np.eye(3), (count, 1, 1)), gyration, centers * (1, 1, 0), np.full(count, verdict)
-        )
+        bodies = Bodies(centers, np.tile(np.eye(3), (count, 1, 1)), gyration, np.full(count, verdict))
         points, _, _ = lines.disc_triangles(bodies, view, 1.0, -1)
         order = np.argsort(-view.depths(centers), kind="stable")
         pixels = view.pixels(points.astype(float)).reshape(count, -1, 2) - view.pixels(centers)[order][:, None]

@@ -129,9 +129,9 @@ class Character:
     _vertex_bones: dict[int, NDArray[np.intp]] = field(default_factory=dict)  # by session uid of a mesh object
 
     @classmethod
-    def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody], unit: float) -> Character | None:
+    def from_bodies(cls, armature: Object, bodies: Mapping[str, PlainBody | None], unit: float) -> Character | None:
         """Return the character with these bodies of bones, each in its rest frame and SI; None if there is no mass."""
-        bodies = {name: body for name, body in bodies.items() if body.mass > 0.0 and name in armature.data.bones}
+        bodies = {name: body for name, body in bodies.items() if body is not None and body.mass > 0.0}
         if not bodies:
             return None
         place, frames = float64_matrix(armature.matrix_world), RestBones.read(armature).frames
@@ -153,10 +153,20 @@ class Character:
         """Return the parts as evaluated, held objects included."""
         row = {bone.name: index for index, bone in enumerate(armature.pose.bones)}
         matrices = bone_matrices(armature, depsgraph)[[row[name] for name in self.names]]
-        linear = matrices[:, :3, :3]
+        linear, factors = matrices[:, :3, :3], self._factors(armature)
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
-        parts = Parts(self.names, self.masses, centers, linear @ self.spreads @ linear.transpose(0, 2, 1), matrices)
+        spreads = factors[:, None, None] * (linear @ self.spreads @ linear.transpose(0, 2, 1))
+        parts = Parts(self.names, factors * self.masses, centers, spreads, matrices)
         return Parts.joined([parts, *(self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
+
+    def _factors(self, armature: Object) -> NDArray[np.float64]:
+        """Return (p,) factors to the total mass, 1 for bones with their own mass as long as the others keep any."""
+        total, bones = shortest_decimal(armature.body_moments_weight.mass), armature.pose.bones
+        shares = np.array([bones[name].body_moments.mass_from != "MASS" for name in self.names])
+        rest = total - self.masses[~shares].sum()
+        if total and rest > 0.0 and shares.any():
+            return np.where(shares, rest / self.masses[shares].sum(), 1.0)
+        return np.full(len(shares), total / self.masses.sum() if total else 1.0)
 
     def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts:
         """Return a held object as a part at its own place, without mass if it cannot be measured."""
@@ -241,10 +251,9 @@ def character(armature: Object, unit: float) -> Character | None:
     """Return a measured character, None if its bones have not been measured."""
 
     def read() -> Character | None:
-        bodies = {bone.name: properties.stored(bone) for bone in armature.pose.bones}
-        bodies = {name: body for name, body in bodies.items() if body is not None}
-        return Character.from_bodies(armature, bodies, unit)
+        return Character.from_bodies(armature, {bone.name: properties.stored(bone) for bone in bones}, unit)
 
+    bones = armature.pose.bones
     return current_value(_characters, armature, properties.fingerprint(armature), read)
 
 
@@ -272,13 +281,13 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
 
 
-def prepare(context: Context, armature: Object) -> None:
-    """Measure a character and find its ground if that has not been done, or the results are out of date."""
-    is_new = weight(armature, context.evaluated_depsgraph_get()) is None
-    if is_new or stale_reason(armature, context.scene) is not None:
-        measure(context, armature)
-    if is_new:
+def prepare(context: Context, armature: Object) -> Rig | None:
+    """Measure a character unless its results are up to date; find its ground unless it is shown. Return a new Rig."""
+    is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
+    rig = None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
+    if not armature.body_moments_weight.show:
         find_ground(context, armature)
+    return rig
 
 
 def find_ground(context: Context, armature: Object) -> None:
