@@ -116,6 +116,35 @@ def test_floaty_jump_is_unexplained_and_its_impulse_is_told():
     assert impulse == pytest.approx(6.5 * 0.6 * 9.81 * STEP * (FRAMES - 2), rel=1e-6)
 
 
+def recorded_jump(rate, noise, gravity=GRAVITY):
+    """Return a simulated jump of four spheres on springs, spun and shaken, as captured at a rate with noise, in m."""
+    random, fine, seconds = np.random.default_rng(8), 1.0 / 4800.0, 0.7
+    masses = np.array([30.0, 15.0, 12.0, 18.0])
+    places = np.array([[0.0, 0.0, 1.0], [0.1, 0.0, 1.5], [-0.1, 0.3, 0.7], [0.0, -0.2, 0.4]])
+    speeds = np.array([1.0, 0.5, 3.4]) + np.cross([1.0, 2.0, 0.5], places - places[0]) + random.normal(0.0, 0.5, (4, 3))
+    lengths = np.linalg.norm(places[:, None] - places, axis=2)
+    kept = []
+    for step in range(round(seconds / fine) + 1):
+        if step % round(1.0 / rate / fine) == 0:
+            kept.append(places.copy())
+        away = places[:, None] - places
+        distance = np.maximum(np.linalg.norm(away, axis=2), 1e-9)
+        forces = -(4000.0 * (1.0 - lengths / distance)[..., None] * away).sum(axis=1)
+        speeds = speeds + fine * (forces / masses[:, None] + gravity)
+        places = places + fine * speeds
+    centers = np.array(kept) + random.normal(0.0, noise, (len(kept), 4, 3))
+    turns = turn([1, 1, 1], random.normal(0.0, 3.0 * noise, 4 * len(kept))).reshape(-1, 4, 3, 3)
+    spreads = np.broadcast_to(0.02 * masses[:, None, None] * np.eye(3), turns.shape)
+    return Course(1.0 / rate, masses, centers, spreads, turns)
+
+
+@pytest.mark.parametrize("rate, noise", [(24, 0.0), (120, 0.001), (60, 0.001)])
+def test_recorded_jump_is_plausible_and_a_slow_one_is_not(rate, noise):
+    flight = [(0, int(0.7 * rate))]
+    assert find_unexplained(recorded_jump(rate, noise), flight, GRAVITY) == []
+    assert find_unexplained(recorded_jump(rate, noise, 0.7 * GRAVITY), flight, GRAVITY)
+
+
 def test_spin_from_nothing_is_unexplained():
     angle = 2.0 * np.pi * (TIME > 0.8) * (TIME - 0.8)
     assert find_unexplained(tucking(turn([0, 0, 1], angle)), [(0, FRAMES - 1)], GRAVITY)

@@ -262,3 +262,55 @@ def test_refusal_keys_nothing(scene, prepare, options):
         PARABOLA(**options)
     assert (keyed(rig), [tuple(bone.location) for bone in rig.pose.bones]) == before
     assert not rig.animation_data.nla_tracks and scene.frame_current == 1
+
+
+def linked(tmp_path, rig, override):
+    """Save the file, link the character from it into an empty one, and return it, or its override."""
+    path = str(tmp_path / "jumper.blend")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    collection = bpy.data.collections.new("Jumper")
+    bpy.context.scene.collection.children.link(collection)
+    for obj in (rig, bpy.data.objects["Body"]):
+        collection.objects.link(obj)
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (_, wanted):
+        wanted.collections = ["Jumper"]
+    scene, layer = bpy.context.scene, bpy.context.view_layer
+    scene.collection.children.link(wanted.collections[0])
+    root = wanted.collections[0]
+    if override:
+        root = root.override_hierarchy_create(scene, layer, do_fully_editable=True)
+    scene.frame_start, scene.frame_end = 1, END
+    (rig,) = [obj for obj in root.all_objects if obj.type == "ARMATURE"]
+    layer.objects.active = rig
+    return rig
+
+
+def test_linked_character_is_read_and_not_keyed(scene, tmp_path):
+    linked(tmp_path, jumper(), override=False)
+    assert BAKE() == {"FINISHED"} and len(signal("velocity")) == 3
+    with pytest.raises(RuntimeError, match="linked"):
+        PARABOLA()
+
+
+def test_override_gets_the_keys(scene, tmp_path):
+    rig = linked(tmp_path, jumper(), override=True)
+    assert rig.library is None and rig.override_library is not None
+    assert PARABOLA() == {"FINISHED"}
+    assert rig.animation_data.action.library is None
+    path = centers(rig, FLIGHT)
+    assert np.abs(path - arc(path)).max() < 1e-6 * HEIGHT
+    bpy.ops.wm.save_mainfile(filepath=str(tmp_path / "kept.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "kept.blend"))
+    (rig,) = [obj for obj in bpy.context.scene.objects if obj.type == "ARMATURE" and obj.library is None]
+    assert np.abs(centers(rig, FLIGHT) - path).max() < 1e-6 * HEIGHT
+
+
+def test_one_undo_brings_the_old_keys_back(scene):
+    rig = jumper()
+    name, before = rig.name, keyed(rig)
+    bpy.ops.ed.undo_push(message="before")
+    assert PARABOLA("EXEC_DEFAULT", True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    assert keyed(bpy.data.objects[name]) == before
