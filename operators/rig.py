@@ -175,14 +175,6 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
         name="Margin", description="Distance from the edge of the support polygon", default=0.05, min=0.0, unit="LENGTH"
     )
 
-    def draw(self, context: Context) -> None:
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop_search(self, "bone", context.object.pose, "bones")
-        layout.prop(self, "target")
-        if self.target == "INSIDE":
-            layout.prop(self, "margin")
-
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
         if not has_gravity(context.scene):

@@ -67,7 +67,10 @@ class _Handle:
 
 
 class _Search:
-    """The search for one character; failure: of the last bone that had an effect."""
+    """The search for one character.
+
+    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the first bone of any use.
+    """
 
     def __init__(self, context: Context, armature: Object, known: Character, weight: Weight, margin: float | None):
         assert weight.support is not None
@@ -79,6 +82,7 @@ class _Search:
         is_carried = weight.contacts.bones >= 0
         self.bones, self.points = weight.contacts.bones[is_carried], weight.contacts.points[is_carried]
         matrices = bone_matrices(armature, context.evaluated_depsgraph_get())[self.bones]
+        self.noise = float(np.finfo(np.float32).eps * np.abs(weight.contacts.points).max())
         self.local = np.linalg.solve(matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None])
 
     def gap(self, center: NDArray) -> NDArray[np.float64]:
@@ -101,7 +105,8 @@ class _Search:
         """Move the bone and return True, or if that is impossible, leave it and return False."""
         center, head, _ = self.look(handle, np.zeros(3))
         size, up = self.known.size, self.axes[:, 2]
-        nudge, scale = NUDGE * size, size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
+        nudge, reached = max(NUDGE * size, 10.0 * self.noise), REACHED * size + self.noise
+        scale = size if handle.turns else max(map(abs, self.armature.matrix_world.to_scale()))
         units, shifts, moves = [], [], []  # of usable channels, and how they move the center and the bone
         for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
             unit = sign * np.eye(3)[axis]
@@ -109,11 +114,16 @@ class _Search:
             move = nudge * unit if handle.turns else moved - head
             reach = float(np.linalg.norm(shown - center if handle.turns else move))
             lifts = not handle.turns and move @ up > 1e-2 * nudge  # stretches the legs
-            if reach > 1e-2 * nudge and slip <= SLIP * reach and not lifts and not any(unit @ u for u in units):
+            if (
+                reach > 1e-2 * nudge
+                and slip <= SLIP * reach + self.noise
+                and not lifts
+                and not any(unit @ u for u in units)
+            ):
                 units.append(unit)
                 shifts.append((shown - center) / nudge)
                 moves.append(move / nudge)
-        least, tolerance = LEAST_TURN if handle.turns else LEAST_SHIFT, STAYED * size
+        least, tolerance = LEAST_TURN if handle.turns else LEAST_SHIFT, STAYED * size + self.noise
         if len(units) > 1 and np.linalg.svd(np.array(shifts) @ self.axes[:, :2])[1][-1] >= least:
             inverse = np.linalg.inv(np.linalg.qr(np.transpose(moves))[1])  # from moves of the bone to changes
             rows = [*self.axes[:, :2].T @ np.transpose(shifts), *([] if handle.turns else [up @ np.transpose(moves)])]
@@ -122,14 +132,15 @@ class _Search:
                 center, moved, slip = self.look(handle, change @ units / scale)
                 missing = [*self.gap(center), *([] if handle.turns else [up @ (head - moved)])]
                 gap = float(np.linalg.norm(missing))
-                if gap <= REACHED * size and slip <= tolerance:
+                if gap <= reached and slip <= tolerance:
                     return True
-                if gap <= REACHED * size:  # the least lower hip that keeps the contacts
+                if gap <= reached:  # the least lower hip that keeps the contacts
                     head = head - (1.05 * slip + tolerance / 2.0) * up
                 change = solve @ (np.array(rows) @ change + missing)
                 change *= min(1.0, FARTHEST * size / max(np.linalg.norm(change), size))
             values = {"bone": handle.bone.name, "gap": gap * self.unit, "slip": slip * self.unit}
-            self.failure = TOO_FAR if slip <= tolerance else STRETCHED, values
+            if not self.failure[1]:
+                self.failure = TOO_FAR if slip <= tolerance else STRETCHED, values
         setattr(handle.bone, handle.channel, handle.start)
         return False
 

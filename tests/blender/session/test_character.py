@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Weights of posed characters: centers against sums over bones, contacts, held objects and stated masses."""
 
+import time
+
 import bpy
 import numpy as np
 import pytest
@@ -161,3 +163,44 @@ def test_mesh_without_weights_is_refused_and_nothing_stored(scene):
     with pytest.raises(MeasureError):
         character.measure(bpy.context, rig)
     assert "body_mass" not in rig
+
+
+def tower(bones=60, rings=1000, around=100):
+    """An armature of bones in a chain, and a tube of rings × around vertices, each on the two nearest bones."""
+    rig = bpy.data.objects.new("Tower", bpy.data.armatures.new("Tower"))
+    bpy.context.scene.collection.objects.link(rig)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    for number in range(bones):
+        bone = rig.data.edit_bones.new("bone{:02d}".format(number))
+        bone.head, bone.tail = (0, 0, number / bones), (0, 0, (number + 1) / bones)
+        bone.parent = rig.data.edit_bones[number - 1] if number else None
+    bpy.ops.object.mode_set(mode="OBJECT")
+    height, angle = np.linspace(0.0, 1.0, rings), 2.0 * np.pi / around * np.arange(around)
+    points = [(0.1 * np.cos(a), 0.1 * np.sin(a), z) for z in height for a in angle]
+    first = np.arange(rings - 1)[:, None] * around + np.arange(around)
+    after = np.arange(rings - 1)[:, None] * around + (np.arange(around) + 1) % around
+    sides = np.stack([first, after, after + around, first + around], axis=2).reshape(-1, 4).tolist()
+    mesh = bpy.data.meshes.new("Tube")
+    mesh.from_pydata(points, [], [*sides, list(range(around))[::-1], list(range((rings - 1) * around, rings * around))])
+    body = add(mesh, "Tube")
+    groups = [body.vertex_groups.new(name=bone.name) for bone in rig.data.bones]
+    for ring in range(rings):
+        place = min(max(height[ring] * bones - 0.5, 0.0), bones - 1.001)
+        for number, share in ((int(place), 1.0 - place % 1.0), (int(place) + 1, place % 1.0)):
+            groups[number].add(range(ring * around, (ring + 1) * around), share, "REPLACE")
+    body.modifiers.new("Armature", "ARMATURE").object = rig
+    return rig
+
+
+def test_hundred_thousand_vertices_are_weighed_in_a_redraw(scene):
+    rig, seconds = tower(), []
+    shown(rig)
+    for step in range(12):
+        rig.pose.bones[30].rotation_mode, rig.pose.bones[30].rotation_euler = "XYZ", (0.01 * step, 0.0, 0.0)
+        bpy.context.view_layer.update()
+        start = time.thread_time()
+        now = character.weight(rig, bpy.context.view_layer.depsgraph)
+        seconds.append(time.thread_time() - start)
+    assert len(now.parts.names) == 60 and now.support is not None
+    assert min(seconds) < 0.01
