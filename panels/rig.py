@@ -148,12 +148,12 @@ def _motion(layout: UILayout, context: Context) -> None:
     )
     spans = next((list(empty[properties.BALANCE_SPANS]) for empty in empties if properties.BALANCE_SPANS in empty), [])
     column = layout.column(align=True)
+    if spans:
+        rows.remark(column, context, "Momentum from nothing:", icon="ERROR")
     for start in range(0, min(len(spans), 4 * LISTED), 4):
         first, last, impulse, twist = spans[start : start + 4]
-        text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s from nothing")
-        jump = column.operator(
-            "wm.context_set_int", text=text.format(first, last, impulse, twist), icon="ERROR", translate=False
-        )
+        text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(first, last, impulse, twist)
+        jump = column.operator("wm.context_set_int", text=text, translate=False)
         jump.data_path, jump.value = "scene.frame_current", round(first)
 
 

@@ -62,19 +62,17 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
 
 def _path(path: balance_groups.Path) -> Detail:
     """Return a line from frame to frame with a tick at each, orange if the center is outside the support polygon."""
-    starts, ends = path.centers[:-1], path.centers[1:]
-    outside = np.zeros(len(starts), bool) if path.inside is None else ~(path.inside[:-1] & path.inside[1:])
-    colors = np.where(outside[:, None], look.TIPS, look.PATH)
     ticks = np.stack([path.centers, path.centers], axis=1)
     ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
-    marked = np.zeros(len(ticks), bool) if path.inside is None else ~path.inside
-    tints = np.where(marked[:, None], look.TIPS, look.PATH)
+    inside = np.ones(len(ticks), bool) if path.inside is None else path.inside
+    if path.contact is not None:
+        inside = inside | ~path.contact
+    colors = [np.where(one[:, None], look.PATH, look.TIPS) for one in (inside[:-1] & inside[1:], inside)]
     if path.unexplained is not None:
-        tints[path.unexplained] = look.FAULT
-    segments = np.concatenate([np.stack([starts, ends], axis=1), ticks])
-    return Detail(
-        (segments, np.concatenate([colors, tints]).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH)
-    )
+        colors[0][path.unexplained[:-1] | path.unexplained[1:]] = look.FAULT
+        colors[1][path.unexplained] = look.FAULT
+    segments = np.concatenate([np.stack([path.centers[:-1], path.centers[1:]], axis=1), ticks])
+    return Detail((segments, np.concatenate(colors).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH))
 
 
 def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
