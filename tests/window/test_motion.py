@@ -54,9 +54,8 @@ def test_parabola_explains_the_momentum(jump):
     window = jump
     window.press("pose.body_moments_parabola")
     window.key("Return")
-    window.wait(
-        "len(bpy.data.objects['Figure'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves[2].keyframe_points) > 10"
-    )
+    curves = "bpy.data.objects['Figure'].animation_data.action.layers[0].strips[0].channelbags[0].fcurves"
+    window.wait(f"len({curves}[2].keyframe_points) > 10")
     window.press("pose.body_moments_bake_curves")
     window.wait(f"'body_balance_spans' not in {EMPTY}")
     window.redraw()
