@@ -251,9 +251,9 @@ class KeyedFlight(ModalDialog, OnArmature):
             if self.landing < self.take_off + 2:
                 raise reports.Refused(EMPTY_FLIGHT)
             frames = range(self.take_off, self.landing + self.blend + 1)
-        followed = session.CharacterMotion(context, read.rig.require_armature(context.object))
+        followed = session.CharacterMotion(context, read.rig.require_armature(context.object), frames)
         followed.find_carrier(context, self.bone, self.TURNS, self.use_layer)
-        self._steps = followed.follow_flight(context.scene, frames, flight, self.keep == "HEIGHT", self.blend)
+        self._steps = followed.follow_flight(context.scene, flight, self.keep == "HEIGHT", self.blend)
         self._followed = followed
         return len(frames)
 
@@ -322,7 +322,7 @@ class KeyedPath(ModalSteps, OnArmature):
 
     def _begin(self, context: Context) -> int:
         frames = _scene_frames(context.scene)
-        self._followed = session.CharacterMotion(context, read.rig.require_armature(context.object))
+        self._followed = session.CharacterMotion(context, read.rig.require_armature(context.object), frames)
         self._steps = self._followed.follow(context.scene, frames)
         return len(frames)
 

@@ -51,16 +51,22 @@ NO_FLIGHT = (
 
 
 class CharacterMotion(BalanceGroup):
-    """A character that is followed over frames; contacts and the ground are those of Show Weight."""
+    """A character that is followed over frames, on the ground that Show Weight shows or finds at the first of them."""
 
-    def __init__(self, context: Context, armature: Object):
+    def __init__(self, context: Context, armature: Object, frames: range):
         scene = context.scene
         self.gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
         if not self.gravity.any():
             raise Refused(NO_GRAVITY)
-        character.prepare(context, armature)
+        before, subframe = scene.frame_current, scene.frame_subframe
+        scene.frame_set(frames[0])
+        try:
+            character.prepare(context, armature)
+        finally:
+            scene.frame_set(before, subframe=subframe)
         self._context, self.unit = context, shortest_decimal(scene.unit_settings.scale_length)
-        self.armature, self.step = armature, scene.render.fps_base / scene.render.fps
+        self.armature, self.frames = armature, frames
+        self.step = scene.render.fps_base / scene.render.fps
         known = character.character(armature, self.unit)
         assert known is not None
         self.known, self.objects, self.feet = known, [armature], [armature]
@@ -117,14 +123,15 @@ class CharacterMotion(BalanceGroup):
         raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
     def follow_flight(
-        self, scene: Scene, frames: range, flight: tuple[int, int] | None, keep_height: bool, blend: int
+        self, scene: Scene, flight: tuple[int, int] | None, keep_height: bool, blend: int
     ) -> Iterator[int]:
-        """Find a flight in the frames if none is given, and follow it at the times at which its poses were.
+        """Find a flight if none is given, and follow it at the times at which its poses were.
 
         keep_height: the flight lasts as long as its height demands. blend: frames after it that are followed, too.
         """
         if keep_height and self.is_layered:
             raise Refused(LAYERED_TIMES)
+        frames = self.frames
         yield from self.follow(scene, frames)
         if self.failure is not None:
             return
