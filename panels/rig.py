@@ -96,6 +96,7 @@ class WeightPanel:
         rows.setting(column, settings, "ground")
         if context.active_pose_bone is not None:
             column.prop(context.active_pose_bone.body_moments, "is_contact")
+        _motion(layout, context)
 
 
 def standing(weight: Weight, unit: float) -> tuple[str, dict[str, float], str]:
@@ -132,6 +133,28 @@ def _standing(layout: UILayout, context: Context, weight: Weight, unit: float) -
             row = column.row(align=True)
             row.label(text=name, icon=icon, translate=False)
             rows.right(row, localized(word))
+
+
+def _motion(layout: UILayout, context: Context) -> None:
+    """Draw the buttons for motion over frames, and the spans of frames whose momentum comes from nothing."""
+    column = layout.column(align=True)
+    rows.button(column, context, "pose.body_moments_parabola", "FORCE_FORCE")
+    rows.button(column, context, "pose.body_moments_keep_spin", "FORCE_VORTEX")
+    rows.button(column, context, "pose.body_moments_bake_curves", "FCURVE")
+    rows.button(column, context, "pose.body_moments_trace", "CON_FOLLOWPATH")
+    name = context.object.name_full
+    empties = (
+        obj for obj in context.scene.objects if obj.type == "EMPTY" and obj.get(properties.BALANCE_GROUP) == name
+    )
+    spans = next((list(empty[properties.BALANCE_SPANS]) for empty in empties if properties.BALANCE_SPANS in empty), [])
+    column = layout.column(align=True)
+    if spans:
+        rows.remark(column, context, "Momentum from nothing:", icon="ERROR")
+    for start in range(0, min(len(spans), 4 * LISTED), 4):
+        first, last, impulse, twist = spans[start : start + 4]
+        text = localized("Frames {:.0f}–{:.0f}: {:.3g} N·s, {:.3g} N·m·s").format(first, last, impulse, twist)
+        jump = column.operator("wm.context_set_int", text=text, translate=False)
+        jump.data_path, jump.value = "scene.frame_current", round(first)
 
 
 class BONE_PT_body_moments(Panel):

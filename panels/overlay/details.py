@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from bpy.types import Context, Object
+from bpy.types import Context, Object, Scene
 from numpy.typing import NDArray
 
 from ...blender.session import live
@@ -15,6 +15,7 @@ from ...blender.session.live.character import Weight
 from ...blender.session.stored import balance_groups, faults, stability
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
+from ...core.rig.motion import ballistic_arc, find_flights
 from ...core.statics.support import Support
 from ..rig import standing
 from . import appearance as look
@@ -44,6 +45,7 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
         for empty in balance_groups.groups(context.scene):
             if empty.visible_in_viewport_get(context.space_data) and (path := balance_groups.path(empty)) is not None:
                 details.append(_path(path))
+                details += _arcs(context.scene, path)
                 stood = balance_groups.support(empty, context.scene.frame_current) if settings.show_support else None
                 if stood is not None:
                     details.append(support_detail(stood))
@@ -60,17 +62,33 @@ def list_details(context: Context, objects: list[Object]) -> list[Detail]:
 
 def _path(path: balance_groups.Path) -> Detail:
     """Return a line from frame to frame with a tick at each, orange if the center is outside the support polygon."""
-    starts, ends = path.centers[:-1], path.centers[1:]
-    outside = np.zeros(len(starts), bool) if path.inside is None else ~(path.inside[:-1] & path.inside[1:])
-    colors = np.where(outside[:, None], look.TIPS, look.PATH)
     ticks = np.stack([path.centers, path.centers], axis=1)
     ticks[:, 1, 2] += 0.01 * float(np.ptp(path.centers, axis=0).max())
-    marked = np.zeros(len(ticks), bool) if path.inside is None else ~path.inside
-    tints = np.where(marked[:, None], look.TIPS, look.PATH)
-    segments = np.concatenate([np.stack([starts, ends], axis=1), ticks])
-    return Detail(
-        (segments, np.concatenate([colors, tints]).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH)
-    )
+    inside = np.ones(len(ticks), bool) if path.inside is None else path.inside
+    if path.contact is not None:
+        inside = inside | ~path.contact
+    colors = [np.where(one[:, None], look.PATH, look.TIPS) for one in (inside[:-1] & inside[1:], inside)]
+    if path.unexplained is not None:
+        colors[0][path.unexplained[:-1] | path.unexplained[1:]] = look.FAULT
+        colors[1][path.unexplained] = look.FAULT
+    segments = np.concatenate([np.stack([path.centers[:-1], path.centers[1:]], axis=1), ticks])
+    return Detail((segments, np.concatenate(colors).astype(np.float32)), _tinted(np.zeros((0, 3, 3)), look.PATH))
+
+
+def _arcs(scene: Scene, path: balance_groups.Path) -> list[Detail]:
+    """Return the arc of free fall beside each flight of a path, with a cross at take-off and at landing."""
+    if path.contact is None or not scene.use_gravity:
+        return []
+    details, size = [], 0.02 * float(np.ptp(path.centers, axis=0).max())
+    for first, last in find_flights(path.contact):
+        if path.contact[first] and path.contact[last]:
+            step = (path.frames[last] - path.frames[first]) / (last - first) * scene.render.fps_base / scene.render.fps
+            ends = path.centers[[first, last]]
+            arc = ballistic_arc(*ends, last - first, step, scene.gravity)
+            crosses = ends[:, None, None] + size * np.stack([-np.eye(3), np.eye(3)], axis=1)
+            lines = np.concatenate([np.stack([arc[:-1], arc[1:]], axis=1), crosses.reshape(-1, 2, 3)])
+            details.append(Detail(_tinted(lines, look.EDGE), _tinted(np.zeros((0, 3, 3)), look.EDGE)))
+    return details
 
 
 def _faults(obj: Object, found: faults.Faults) -> Detail:
