@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Colliders as objects: made, named, updated in place, removed; what they do is stored; refusals name the object."""
+
+import bpy
+import numpy as np
+import pytest
+from body_moments.blender.session.tracking.staleness import stale_reason
+from body_moments.blender.session.tracking.stamps import Stale, of_colliders
+from body_moments.blender.settings.given import COLLIDER, COLLIDERS
+
+from tests.blender.objects import add, mesh_body, only, seen
+
+pytestmark = pytest.mark.usefixtures("scene")
+
+
+def make(**options):
+    return bpy.ops.object.body_moments_make_colliders(**options)
+
+
+def colliders(body):
+    bpy.context.view_layer.update()
+    return sorted((child for child in body.children if COLLIDER in child), key=lambda obj: obj.name)
+
+
+def test_colliders_are_hidden_children_in_their_own_collection():
+    body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5), (1.0, 2.0, -0.5))
+    before = seen(body)
+    assert make(shape="PIECES") == {"FINISHED"}
+    made = colliders(body)
+    assert len(made) > 1 and [*bpy.data.collections["Colliders"].objects] == made
+    assert all(obj.display_type == "WIRE" and obj.hide_render for obj in made)
+    points = np.concatenate([seen(obj) for obj in made])
+    assert np.abs(points.min(axis=0) - before.min(axis=0)).max() < 1e-5
+    assert np.abs(points.max(axis=0) - before.max(axis=0)).max() < 1e-5
+    assert np.array_equal(seen(body), before) and bpy.context.selected_objects == [body]
+    body.scale.x = 3.0  # hulls follow
+    bpy.context.view_layer.update()
+    points = np.concatenate([seen(obj) for obj in made])
+    assert np.abs(points.max(axis=0) - seen(body).max(axis=0)).max() < 1e-5
+
+
+@pytest.mark.parametrize("shape", ["BOX", "SPHERE", "CAPSULE", "CYLINDER"])
+def test_primitive_has_its_size_in_scaled_body(shape):
+    body = add(mesh_body(), "Body", (100, 2, 3), (0.3, 0.4, 0.5), (1.0, 2.0, -0.5))
+    assert make(shape=shape) == {"FINISHED"}
+    (collider,) = colliders(body)
+    assert np.abs(np.array(collider.matrix_world.to_scale()) - 1.0).max() < 1e-5
+    assert collider[COLLIDER]["kind"] == shape.lower()
+
+
+@pytest.mark.parametrize(
+    "engine, shape, name",
+    [
+        ("NONE", "HULL", "Body Collider 01"),
+        ("UNREAL", "HULL", "UCX_Body_01"),
+        ("UNREAL", "BOX", "UBX_Body_01"),
+        ("UNREAL", "SPHERE", "USP_Body_01"),
+        ("UNREAL", "CAPSULE", "UCP_Body_01"),
+        ("UNREAL", "CYLINDER", "UCX_Body_01"),
+        ("GODOT", "HULL", "Body_01-convcolonly"),
+        ("GODOT_MESH", "HULL", "Body_01-colonly"),
+        ("UNITY", "HULL", "Body_Collider_01"),
+    ],
+)
+def test_names_are_those_of_the_engine(engine, shape, name):
+    body = add(mesh_body(), "Body")
+    make(shape=shape, engine=engine)
+    assert [obj.name for obj in colliders(body)] == [name]
+
+
+def test_pressing_again_updates_in_place_and_removal_leaves_nothing():
+    body = add(mesh_body(), "Body")
+    counts = len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.collections)
+    make(shape="PIECES", engine="UNREAL")
+    first = colliders(body)
+    make(shape="PIECES", engine="UNREAL")
+    assert colliders(body) == first and len(bpy.data.meshes) == counts[1] + len(first)
+    make(shape="HULL")
+    assert colliders(body) == first[:1] and len(bpy.data.meshes) == counts[1] + 1
+    only(colliders(body)[0])  # the body is meant
+    assert bpy.ops.object.body_moments_remove_colliders() == {"FINISHED"}
+    assert (len(bpy.data.objects), len(bpy.data.meshes), len(bpy.data.collections)) == counts
+    assert COLLIDERS not in body
+    only(body)
+    assert bpy.ops.object.body_moments_remove_colliders() == {"CANCELLED"}
+
+
+def test_linked_meshes_share_the_meshes_of_colliders():
+    mesh = mesh_body()
+    first = add(mesh, "First", (1, 2, 3), (0.3, 0.4, 0.5))
+    second, third = add(mesh, "Second", (-7, 5, 0), (1.3, -0.4, 2.5)), add(mesh, "Third", (0, 0, 9), scale=(1, 2, 1))
+    only(first, second, third)
+    make(shape="PIECES")
+    meshes = [[obj.data for obj in colliders(body)] for body in (first, second, third)]
+    assert meshes[0] == meshes[1] and set(meshes[0]).isdisjoint(meshes[2])
+
+
+def test_stored_effect_goes_out_of_date():
+    body = add(mesh_body(), "Body")
+    make(shape="HULL")
+    stale = lambda: stale_reason(body, bpy.context.scene, of_colliders)  # noqa: E731
+    assert stale() is None and body[COLLIDERS]["volume_ratio"] > 1.0
+    body.location.x = 5.0
+    bpy.context.view_layer.update()
+    assert stale() is None
+    (collider,) = colliders(body)
+    collider.location.x += 1.0
+    assert stale() == Stale.COLLIDERS
+    collider.location.x -= 1.0
+    collider.data.vertices[0].co.x += 1.0
+    assert stale() == Stale.COLLIDERS
+    make(shape="HULL")
+    assert stale() is None
+    body.data.vertices[0].co.x -= 1.0
+    body.data.update()
+    bpy.context.view_layer.update()
+    assert stale() == Stale.GEOMETRY
+    make(shape="HULL")
+    body.scale.x = 2.0
+    bpy.context.view_layer.update()
+    assert stale() == Stale.TRANSFORM
+
+
+def test_refused_objects_are_named_and_the_others_go_on(reported):
+    body = add(mesh_body(), "Body")
+    armature = add(bpy.data.armatures.new("Bones"), "Rig")
+    flat = add(bpy.data.meshes.new("Flat"), "Flat")
+    flat.data.from_pydata([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)])
+    zero = add(mesh_body(), "Zero", scale=(1, 0, 1))
+    only(body, armature, flat, zero)
+    assert make(shape="HULL") == {"FINISHED"}
+    assert len(colliders(body)) == 1
+    assert {"Rig", "Flat", "Zero"} == {one.values["object"] for one in reported if one.code == "failure"}
+    assert not any(colliders(obj) for obj in (armature, flat, zero))
