@@ -10,7 +10,6 @@ object does.
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import bpy
@@ -19,7 +18,7 @@ from bpy.types import Context, Menu, Object, Operator
 
 from ...blender import scene, session
 from ...blender.scene.rigid_world import add_rigid_bodies, require_rigid_world
-from ...blender.settings.given import COLLIDER, COLLIDERS
+from ...blender.settings.given import COLLIDER
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding
 from .. import selection

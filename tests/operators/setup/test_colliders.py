@@ -133,3 +133,47 @@ def test_refused_objects_are_named_and_the_others_go_on(reported):
     assert len(colliders(body)) == 1
     assert {"Rig", "Flat", "Zero"} == {one.values["object"] for one in reported if one.code == "failure"}
     assert not any(colliders(obj) for obj in (armature, flat, zero))
+
+
+@pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf", "usd", "gltf"])
+def test_exports_collide_as_colliders(name, tmp_path):
+    body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5), (1, 2, 1))
+    make(shape="PIECES")
+    path = tmp_path / ("r.gltf" if name == "gltf" else "r.txt")
+    assert getattr(bpy.ops.export_scene, "body_moments_" + name)(filepath=str(path)) == {"FINISHED"}
+    text = path.read_text(encoding="utf-8")
+    pieces = len(colliders(body))
+    visual, collision = {
+        "urdf": ("<visual>", "<collision>"),
+        "sdf": ("<visual ", "<collision "),
+        "mjcf": ('group="2"', 'group="3"'),
+        "usd": ('"visual_', '"collision_'),
+        "gltf": ('"name": "Body mesh"', '"convexHull"'),
+    }[name]
+    assert pieces > 1 and text.count(visual) == 1 and text.count(collision) == pieces
+    if name in ("urdf", "sdf", "mjcf"):
+        assert len([*tmp_path.rglob("*.stl")]) == 1 + pieces
+    make(shape="BOX")
+    getattr(bpy.ops.export_scene, "body_moments_" + name)(filepath=str(path))
+    assert {"usd": "def Cube"}.get(name, "box") in path.read_text(encoding="utf-8")
+
+
+def test_rigid_body_is_a_compound_of_its_colliders():
+    body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5))
+    make(shape="PIECES")
+    before = [seen(obj) for obj in colliders(body)]
+    only(body, *colliders(body))
+    assert bpy.ops.object.body_moments_rigid_bodies() == {"FINISHED"}
+    made = colliders(body)
+    assert body.rigid_body.collision_shape == "COMPOUND"
+    assert [obj.rigid_body.collision_shape for obj in made] == ["CONVEX_HULL"] * len(before)
+    assert all(np.abs(seen(obj) - points).max() < 1e-5 for obj, points in zip(made, before))
+
+
+def test_measure_leaves_colliders_out():
+    body = add(mesh_body(), "Body")
+    make(shape="HULL")
+    (collider,) = colliders(body)
+    only(body, collider)
+    assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
+    assert "body_mass" in body and "body_mass" not in collider
