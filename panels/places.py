@@ -19,6 +19,7 @@ ORDER = (
     "density",
     "given",
     "apply",
+    "colliders",
     "stability",
     "selection",
     "assembly",

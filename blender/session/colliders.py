@@ -172,5 +172,5 @@ def collider_record(obj: Object, measurement: Measurement, context: Context) -> 
     reason = staleness.stale_reason(obj, context.scene, stamps.of_colliders)
     if reason is None and stamps.Stamp.parse(measurement.fingerprint).geometry != stamp.geometry:
         reason = stamps.Stale.GEOMETRY
-    del stored["fingerprint"], stored["digest"]
-    return {**stored, "out_of_date": None if reason is None else str(reason)}
+    inner = {"fingerprint", "digest"}
+    return {**{key: value for key, value in stored.items() if key not in inner}, "out_of_date": reason and str(reason)}
