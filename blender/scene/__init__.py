@@ -8,7 +8,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     add_center="rig",
     add_marker="node_group",
-    add_shape="colliders",
     add_volume="scan_objects",
     align_to_world="snap_targets",
     balance_mesh="sculpt_balance",

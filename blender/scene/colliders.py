@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ...core.bodies.reading import float64_matrix
 from ...core.mesh.surface import Surface
-from ...core.numerics.rotations import polar_rotation, quaternion, rotation_matrix
+from ...core.numerics.rotations import polar_rotation, quaternion
 from ...core.robots.model import Pose, Shape
 from ..read.mesh import mesh_surface
 from ..settings.given import COLLIDER
@@ -147,30 +147,11 @@ def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], u
     return shapes
 
 
-def add_shape(context: Context, obj: Object, shape: Shape) -> Object:
-    """Add an object with the shape, in the frame of `obj`, and the mass of the shape; return it."""
-    unit = context.scene.unit_settings.scale_length
-    name = "{} {}".format(obj.name, shape.kind.title())
-    new = bpy.data.objects.new(name, _shape_mesh(name, shape, unit))
-    holder = next(iter(obj.users_collection), context.scene.collection)
-    holder.objects.link(new)
-    location, turn, _scale = obj.matrix_world.decompose()
-    pose = Pose(np.array(location) * unit, rotation_matrix(turn)) @ shape.pose
-    matrix = Matrix(pose.rotation.tolist()).to_4x4()
-    matrix.translation = pose.position / unit
-    new.matrix_world = matrix
-    new.display_type, new.hide_render = "WIRE", True
-    new.body_moments.mass_from, new.body_moments.mass = "MASS", shape.mass
-    return new
-
-
 def _hull_mesh(name: str, shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
     """Return the mesh of a hull in the own coordinates of its body."""
-    triangles = shape.surface.all_triangles()[0]
-    used, corners = np.unique(triangles, return_inverse=True)
-    corners = corners.reshape(-1, 3)[:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
+    corners = shape.surface.all_triangles()[0][:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata(_local_points(shape, stretch, unit)[used], [], corners)
+    mesh.from_pydata(_local_points(shape, stretch, unit), [], corners)
     return mesh
 
 

@@ -13,6 +13,7 @@ from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core import colliders
+from ...core.colliders import Wanted
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
@@ -33,19 +34,6 @@ SAME = 1e-5  # relative: float32 matrices of turned copies differ by less
 WITHOUT_AXES = MeasureOptions(axes=False)
 
 
-@dataclass(frozen=True)
-class Request:
-    """The wanted colliders. outward, inward: largest distances, in m, or with `is_share` in parts of the size."""
-
-    shape: str
-    outward: float
-    inward: float
-    is_share: bool
-    pieces: int
-    vertices: int
-    correct: str = "none"
-
-
 @dataclass(frozen=True, eq=False)
 class Plan:
     """The colliders of an object, in its frame, with their effect. key: equal for objects that share their meshes."""
@@ -59,11 +47,12 @@ class Plan:
 
 
 def plan_colliders(
-    obj: Object, depsgraph: Depsgraph, request: Request, known: dict[str, Plan]
+    obj: Object, depsgraph: Depsgraph, wanted: Wanted, is_share: bool, correct: str, known: dict[str, Plan]
 ) -> Generator[float, None, Plan]:
     """Plan the colliders of an object, in steps that yield the completed share; MeasureError if it cannot have any.
 
-    known: plans of this run by their keys, to which this one is added.
+    is_share: the tolerances are parts of the size. correct: "NONE", "MASSES" or "VERTICES". known: plans of this run by
+    their keys, to which this one is added.
     """
     require_storable_data(obj)
     measured = measure_body(obj, depsgraph, WITHOUT_AXES)
@@ -74,26 +63,25 @@ def plan_colliders(
     key = _mesh_key(obj, measured)
     if key in known:
         return replace(known[key], obj=obj, fingerprint=measurement.fingerprint)
-    size = float(np.ptp(surface.points, axis=0).max()) if request.is_share else 1.0
-    wanted = colliders.Wanted(
-        request.shape, size * request.outward, size * request.inward, request.pieces, request.vertices
-    )
+    if is_share:
+        size = float(np.ptp(surface.points, axis=0).max())
+        wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
     shapes = yield from colliders.make_colliders(surface, body, wanted)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-    if request.correct == "vertices":
+    if correct == "VERTICES":
         shapes = colliders.correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-    if request.shape.startswith("equal_"):
+    if wanted.shape.startswith("equal_"):
         masses = [body.mass]
-    elif request.correct == "masses":
+    elif correct == "MASSES":
         masses = colliders.correct_masses(body, shapes)
     else:
         masses = colliders.uniform_masses(measurement.density, shapes)
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
     outward, inward, bound = colliders.distances(surface, shapes)
     record = {
-        "shape": request.shape,
-        "correct": request.correct,
+        "shape": wanted.shape,
+        "correct": correct.lower(),
         "count": len(shapes),
         "outward": outward,
         "inward": inward,

@@ -16,9 +16,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy.types import Context, Menu, Object, Operator
 
-from ...blender import scene, session
+from ... import core
+from ...blender import session
 from ...blender.scene.rigid_world import add_rigid_bodies, require_rigid_world
-from ...blender.settings.given import COLLIDER
+from ...blender.settings.given import COLLIDER, COLLIDERS
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError, Finding
 from .. import selection
@@ -26,7 +27,7 @@ from ..findings import PRIMITIVE_HAS_PARENT
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
-    from ...blender.session.colliders import Plan, Request
+    from ...blender.session.colliders import Plan
 
 SHAPES = (
     ("AUTOMATIC", "Automatic", "The simplest shape within the tolerances, else convex pieces"),
@@ -54,8 +55,6 @@ ENGINES = (
     ("UNITY", "Unity", "One child for each collider, to which its Collider component is added"),
 )
 MAX_SHOWN_NAMES = 4
-OUTWARD = "Largest distance by which the colliders may stand out of the object"
-INWARD = "Largest distance by which the object may stand out of the colliders"
 COLLISION_SHAPES = {"BOX": "BOX", "ELLIPSOID": "CONVEX_HULL", "CAPSULE": "CONVEX_HULL"}
 
 
@@ -76,33 +75,23 @@ class OBJECT_OT_body_moments_make_colliders(selection.OnSelectionInObjectMode, M
     tolerance: EnumProperty(
         name="Tolerance",
         description="How the largest distances are given",
-        items=(
-            ("SHARE", "Share of Size", "Parts of the object's largest extent"),
-            ("LENGTH", "Length", "The same lengths for all objects"),
-        ),
+        items=(("SHARE", "Share of Size", "Parts of the largest extent"), ("LENGTH", "Meters", "Lengths in meters")),
     )
     outward: FloatProperty(
         name="Outward",
-        description=OUTWARD,
+        description="Largest distance by which the colliders may stand out of the object",
         default=0.03,
         min=0.0,
-        soft_max=0.5,
-        precision=3,
+        precision=4,
         step=1,
     )
     inward: FloatProperty(
         name="Inward",
-        description=INWARD,
-        default=0.0,
+        description="Largest distance by which the object may stand out of the colliders",
         min=0.0,
-        soft_max=0.5,
-        precision=3,
+        precision=4,
         step=1,
     )
-    outward_length: FloatProperty(
-        name="Outward", description=OUTWARD, default=0.01, min=0.0, unit="LENGTH", precision=4
-    )
-    inward_length: FloatProperty(name="Inward", description=INWARD, default=0.0, min=0.0, unit="LENGTH", precision=4)
     pieces: IntProperty(name="Pieces", description="Largest number of convex pieces", default=16, min=1, max=1024)
     vertices: IntProperty(
         name="Vertices", description="Largest number of vertices of a hull", default=64, min=4, max=255
@@ -122,19 +111,9 @@ class OBJECT_OT_body_moments_make_colliders(selection.OnSelectionInObjectMode, M
     def draw(self, _context: Context) -> None:
         layout = self.layout
         layout.use_property_split = True
-        layout.prop(self, "shape")
-        if self.shape in HULLS:
-            layout.prop(self, "tolerance")
-            ending = "_length" if self.tolerance == "LENGTH" else ""
-            column = layout.column(align=True)
-            column.prop(self, "outward" + ending)
-            column.prop(self, "inward" + ending)
-            column = layout.column(align=True)
-            if self.shape != "HULL":
-                column.prop(self, "pieces")
-            column.prop(self, "vertices")
-        layout.prop(self, "correct")
-        layout.prop(self, "engine")
+        limits = ("tolerance", "outward", "inward", "pieces", "vertices") if self.shape in HULLS else ()
+        for name in ("shape", *limits, "correct", "engine"):
+            layout.prop(self, name)
         column = layout.column(align=True)
         for name in self.names.splitlines():
             column.label(text=name, translate=False)
@@ -143,20 +122,16 @@ class OBJECT_OT_body_moments_make_colliders(selection.OnSelectionInObjectMode, M
         self._plans: list[Plan] = []
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
-        depsgraph, known = context.evaluated_depsgraph_get(), {}
-        request = self._request(context)
+        known: dict[str, Plan] = {}
+        limits = self.outward, self.inward, self.pieces, self.vertices
+        wanted = core.colliders.Wanted(self.shape.lower(), *limits)
+        request = context.evaluated_depsgraph_get(), wanted, self.tolerance == "SHARE", self.correct, known
 
         def plan(obj: Object) -> Generator[float, None, None]:
-            self._plans.append((yield from session.plan_colliders(obj, depsgraph, request, known)))
+            self._plans.append((yield from session.plan_colliders(obj, *request)))
 
         self._steps = selection.iterate_objects(self._objects, plan, self._failures)
         return len(self._objects)
-
-    def _request(self, context: Context) -> Request:
-        is_share, unit = self.tolerance == "SHARE", context.scene.unit_settings.scale_length
-        lengths = (self.outward, self.inward) if is_share else (self.outward_length * unit, self.inward_length * unit)
-        limits = self.pieces, self.vertices
-        return session.colliders.Request(self.shape.lower(), *lengths, is_share, *limits, self.correct.lower())
 
     def _finish(self, context: Context) -> set[str]:
         made = session.store_colliders(context, self._plans, self.engine)
@@ -164,9 +139,8 @@ class OBJECT_OT_body_moments_make_colliders(selection.OnSelectionInObjectMode, M
         self.names = "\n".join([*shown, *(["…"] if len(made) > len(shown) else [])])
         done = reports.phrase("{count} collider made", "{count} colliders made", count=len(made))
         if len(self._plans) == 1:
-            record = self._plans[0].record
-            text = "volume {ratio:percent} of the object's"
-            done += "; " + reports.phrase(text, ratio=record["volume_ratio"])
+            text = "volume {share:percent} of the object's"
+            done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
         selection.redraw(context)
         return selection.summarize(self, len(self._plans), len(self._objects), done, self._failures)
 
@@ -215,7 +189,7 @@ class OBJECT_OT_body_moments_equal_inertia(selection.OnSelectionInObjectMode, Op
     def execute(self, context: Context) -> set[str]:
         objects = selection.selected_measurable(context)
         depsgraph = context.evaluated_depsgraph_get()
-        request = session.colliders.Request("equal_" + self.kind.lower(), 0.0, 0.0, True, 1, 4)
+        wanted = core.colliders.Wanted("equal_" + self.kind.lower(), 0.0, 0.0, 1, 4)
         plans: list[Plan] = []
 
         def plan(obj: Object) -> Generator[float, None, None]:
@@ -223,25 +197,26 @@ class OBJECT_OT_body_moments_equal_inertia(selection.OnSelectionInObjectMode, Op
                 raise EditRefusedError(PRIMITIVE_HAS_PARENT)
             if self.rigid_body:
                 require_rigid_world(context.scene)
-            plans.append((yield from session.plan_colliders(obj, depsgraph, request, {})))
+            plans.append((yield from session.plan_colliders(obj, depsgraph, wanted, False, "NONE", {})))
 
         failures: list[Finding] = []
         for _ in selection.iterate_objects(objects, plan, failures):
             pass
+        added = session.store_colliders(context, plans, "NONE")
         if self.rigid_body:
-            self._make_rigid(context, plans)
-        else:
-            session.store_colliders(context, plans, "NONE")
+            self._make_rigid(context, plans, added)
         done = reports.phrase("{count} shape added", "{count} shapes added", count=len(plans))
         return selection.summarize(self, len(plans), len(objects), done, failures)
 
-    def _make_rigid(self, context: Context, plans: list[Plan]) -> None:
-        added = [scene.add_shape(context, plan.obj, plan.shapes[0]) for plan in plans]
+    def _make_rigid(self, context: Context, plans: list[Plan], added: list[Object]) -> None:
         add_rigid_bodies(context, added)
         for new, plan in zip(added, plans):
+            matrix = new.matrix_world.copy()
+            new.parent, new.matrix_world = None, matrix
+            del new[COLLIDER], plan.obj[COLLIDERS]
             new.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
             new.rigid_body.mass = plan.shapes[0].mass
-            plan.obj.parent, plan.obj.matrix_parent_inverse = new, new.matrix_world.inverted()
+            plan.obj.parent, plan.obj.matrix_parent_inverse = new, matrix.inverted()
 
 
 def _menu(menu: Menu, _context: Context) -> None:
