@@ -134,7 +134,8 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
     for plan in plans:
         staleness.note_edits(plan.obj)
         marks = {"fingerprint": plan.fingerprint, "digest": colliders_digest(plan.obj), "engine": engine}
-        plan.obj[COLLIDERS] = {**{name: value for name, value in plan.record.items() if value is not None}, **marks}
+        known = {key: one for key, one in plan.record.items() if None not in (one if isinstance(one, list) else [one])}
+        plan.obj[COLLIDERS] = {**known, **marks}
     fresh = [(plan.obj, stamp) for plan in plans if (stamp := stamps.of_colliders(plan.obj)) is not None]
     staleness.mark_stamps(context, fresh)
     return made

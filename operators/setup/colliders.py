@@ -58,7 +58,42 @@ MAX_SHOWN_NAMES = 4
 COLLISION_SHAPES = {"BOX": "BOX", "ELLIPSOID": "CONVEX_HULL", "CAPSULE": "CONVEX_HULL"}
 
 
-class OBJECT_OT_body_moments_make_colliders(selection.OnSelectionInObjectMode, ModalSteps, Operator):
+class _Making(selection.OnSelectionInObjectMode, ModalSteps):
+    """Base of operators that make colliders: what is `_wanted`, for each object that passes `_check`."""
+
+    PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
+    CANCELED = "Making colliders canceled; nothing was changed"
+    tolerance, correct, engine = "LENGTH", "NONE", "NONE"
+
+    def _check(self, obj: Object) -> None:
+        """Raise MeasureError for an object that cannot have the colliders."""
+
+    def _begin(self, context: Context) -> float:
+        self._plans: list[Plan] = []
+        self._failures: list[Finding] = []
+        self._objects = bodies_of(context)
+        known: dict[str, Plan] = {}
+        depsgraph, wanted = context.evaluated_depsgraph_get(), core.colliders.Wanted(*self._wanted())
+
+        def plan(obj: Object) -> Generator[float, None, None]:
+            self._check(obj)
+            options = wanted, self.tolerance == "SHARE", self.correct, known
+            self._plans.append((yield from session.plan_colliders(obj, depsgraph, *options)))
+
+        self._steps = selection.iterate_objects(self._objects, plan, self._failures)
+        return len(self._objects)
+
+    def _finish(self, context: Context) -> set[str]:
+        self._made = session.store_colliders(context, self._plans, self.engine)
+        done = reports.phrase("{count} collider made", "{count} colliders made", count=len(self._made))
+        if len(self._plans) == 1:
+            text = "volume {share:percent} of the object's"
+            done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
+        selection.redraw(context)
+        return selection.summarize(self, len(self._plans), len(self._objects), done, self._failures)
+
+
+class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
     """Make colliders of the selected objects, or renew them, and compare their physics with the exact one"""
 
     bl_idname = "object.body_moments_make_colliders"
@@ -68,8 +103,6 @@ class OBJECT_OT_body_moments_make_colliders(selection.OnSelectionInObjectMode, M
         "center and inertia that an engine computes from them with the exact ones"
     )
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = "Making colliders: {share:.0%}. Esc to cancel"
-    CANCELED = "Making colliders canceled; nothing was changed"
 
     shape: EnumProperty(name="Shape", description="What collides in place of the object", items=SHAPES)
     tolerance: EnumProperty(
@@ -118,31 +151,14 @@ class OBJECT_OT_body_moments_make_colliders(selection.OnSelectionInObjectMode, M
         for name in self.names.splitlines():
             column.label(text=name, translate=False)
 
-    def _begin(self, context: Context) -> float:
-        self._plans: list[Plan] = []
-        self._failures: list[Finding] = []
-        self._objects = bodies_of(context)
-        known: dict[str, Plan] = {}
-        limits = self.outward, self.inward, self.pieces, self.vertices
-        wanted = core.colliders.Wanted(self.shape.lower(), *limits)
-        request = context.evaluated_depsgraph_get(), wanted, self.tolerance == "SHARE", self.correct, known
-
-        def plan(obj: Object) -> Generator[float, None, None]:
-            self._plans.append((yield from session.plan_colliders(obj, *request)))
-
-        self._steps = selection.iterate_objects(self._objects, plan, self._failures)
-        return len(self._objects)
+    def _wanted(self) -> tuple[str, float, float, int, int]:
+        return self.shape.lower(), self.outward, self.inward, self.pieces, self.vertices
 
     def _finish(self, context: Context) -> set[str]:
-        made = session.store_colliders(context, self._plans, self.engine)
-        shown = [obj.name for obj in made[:MAX_SHOWN_NAMES]]
-        self.names = "\n".join([*shown, *(["…"] if len(made) > len(shown) else [])])
-        done = reports.phrase("{count} collider made", "{count} colliders made", count=len(made))
-        if len(self._plans) == 1:
-            text = "volume {share:percent} of the object's"
-            done += "; " + reports.phrase(text, share=self._plans[0].record["volume_ratio"])
-        selection.redraw(context)
-        return selection.summarize(self, len(self._plans), len(self._objects), done, self._failures)
+        result = super()._finish(context)
+        names = [obj.name for obj in self._made[: MAX_SHOWN_NAMES + 1]]
+        self.names = "\n".join(name if index < MAX_SHOWN_NAMES else "…" for index, name in enumerate(names))
+        return result
 
 
 class OBJECT_OT_body_moments_remove_colliders(selection.OnSelectionInObjectMode, Operator):
@@ -167,7 +183,7 @@ def bodies_of(context: Context) -> list[Object]:
     return list(dict.fromkeys(obj.parent if COLLIDER in obj and obj.parent else obj for obj in chosen))
 
 
-class OBJECT_OT_body_moments_equal_inertia(selection.OnSelectionInObjectMode, Operator):
+class OBJECT_OT_body_moments_equal_inertia(_Making, Operator):
     """Add a simple shape with the mass, center of mass and inertia of each selected object"""
 
     bl_idname = "object.body_moments_equal_inertia"
@@ -186,37 +202,26 @@ class OBJECT_OT_body_moments_equal_inertia(selection.OnSelectionInObjectMode, Op
         default=False,
     )
 
-    def execute(self, context: Context) -> set[str]:
-        objects = selection.selected_measurable(context)
-        depsgraph = context.evaluated_depsgraph_get()
-        wanted = core.colliders.Wanted("equal_" + self.kind.lower(), 0.0, 0.0, 1, 4)
-        plans: list[Plan] = []
+    def _wanted(self) -> tuple[str, float, float, int, int]:
+        return "equal_" + self.kind.lower(), 0.0, 0.0, 1, 4
 
-        def plan(obj: Object) -> Generator[float, None, None]:
-            if self.rigid_body and (not obj.is_editable or obj.parent is not None):
-                raise EditRefusedError(PRIMITIVE_HAS_PARENT)
-            if self.rigid_body:
-                require_rigid_world(context.scene)
-            plans.append((yield from session.plan_colliders(obj, depsgraph, wanted, False, "NONE", {})))
-
-        failures: list[Finding] = []
-        for _ in selection.iterate_objects(objects, plan, failures):
-            pass
-        added = session.store_colliders(context, plans, "NONE")
+    def _check(self, obj: Object) -> None:
+        if self.rigid_body and (not obj.is_editable or obj.parent is not None):
+            raise EditRefusedError(PRIMITIVE_HAS_PARENT)
         if self.rigid_body:
-            self._make_rigid(context, plans, added)
-        done = reports.phrase("{count} shape added", "{count} shapes added", count=len(plans))
-        return selection.summarize(self, len(plans), len(objects), done, failures)
+            require_rigid_world(bpy.context.scene)
 
-    def _make_rigid(self, context: Context, plans: list[Plan], added: list[Object]) -> None:
-        add_rigid_bodies(context, added)
-        for new, plan in zip(added, plans):
+    def _finish(self, context: Context) -> set[str]:
+        result = super()._finish(context)
+        add_rigid_bodies(context, self._made if self.rigid_body else [])
+        for new, plan in zip(self._made, self._plans) if self.rigid_body else ():
             matrix = new.matrix_world.copy()
             new.parent, new.matrix_world = None, matrix
             del new[COLLIDER], plan.obj[COLLIDERS]
             new.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
             new.rigid_body.mass = plan.shapes[0].mass
             plan.obj.parent, plan.obj.matrix_parent_inverse = new, matrix.inverted()
+        return result
 
 
 def _menu(menu: Menu, _context: Context) -> None:
