@@ -121,6 +121,7 @@ class OBJECT_OT_body_moments_make_colliders(_Making, Operator):
     inward: FloatProperty(
         name="Inward",
         description="Largest distance by which the object may stand out of the colliders",
+        default=0.002,
         min=0.0,
         precision=4,
         step=1,

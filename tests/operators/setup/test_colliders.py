@@ -177,3 +177,44 @@ def test_measure_leaves_colliders_out():
     only(body, collider)
     assert bpy.ops.object.body_moments_measure() == {"FINISHED"}
     assert "body_mass" in body and "body_mass" not in collider
+
+
+def test_instancer_gets_colliders_around_its_instances():
+    body = add(mesh_body(), "Body", (1, 0, 0))
+    source = bpy.data.collections.new("Source")
+    source.objects.link(body)
+    shown = add(None, "Shown", (5, 6, 7), (0.1, 0.2, 0.3))
+    shown.instance_type, shown.instance_collection = "COLLECTION", source
+    bpy.context.view_layer.update()
+    assert make(shape="HULL") == {"FINISHED"}
+    (collider,) = colliders(shown)
+    place = np.array(shown.matrix_world) @ np.array(body.matrix_world)
+    points = np.array([vertex.co for vertex in body.data.vertices]) @ place[:3, :3].T + place[:3, 3]
+    assert np.abs(seen(collider).max(axis=0) - points.max(axis=0)).max() < 1e-5
+    assert not colliders(body)
+
+
+def test_colliders_are_left_out_of_measuring():
+    from body_moments.command.measure.objects import objects_to_measure
+
+    body = add(mesh_body(), "Body")
+    make(shape="PIECES")
+    made = colliders(body)
+    chosen, left_out, _ = objects_to_measure(None, False, {})
+    assert [obj for _, obj in chosen] == [body]
+    assert [entry["name"] for entry in left_out] == [obj.name for obj in made]
+
+
+def test_record_states_effect_of_colliders():
+    from body_moments.blender.session.colliders import collider_record
+
+    from tests.blender.objects import measured
+
+    body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5))
+    assert collider_record(body, measured(body), bpy.context) is None
+    make(shape="HULL", engine="UNREAL")
+    record = collider_record(body, measured(body), bpy.context)
+    assert record["count"] == 1 and record["engine"] == "UNREAL" and record["out_of_date"] is None
+    assert record["volume_ratio"] == pytest.approx(body[COLLIDERS]["volume_ratio"])
+    body.scale.z = 2.0
+    assert collider_record(body, measured(body), bpy.context)["out_of_date"] == Stale.TRANSFORM
