@@ -12,8 +12,10 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
-from ...core import colliders
-from ...core.colliders import Wanted
+from ... import core
+from ...core.colliders.distances import distances
+from ...core.colliders.physics import correct_masses, effect, uniform_masses
+from ...core.colliders.fits import Wanted, make_colliders
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
@@ -66,19 +68,19 @@ def plan_colliders(
     if is_share:
         size = float(np.ptp(surface.points, axis=0).max())
         wanted = replace(wanted, outward=size * wanted.outward, inward=size * wanted.inward)
-    shapes = yield from colliders.make_colliders(surface, body, wanted)
+    shapes = yield from make_colliders(surface, body, wanted)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     if correct == "VERTICES":
-        shapes = colliders.correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
+        shapes = core.colliders.correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     if wanted.shape.startswith("equal_"):
         masses = [body.mass]
     elif correct == "MASSES":
-        masses = colliders.correct_masses(body, shapes)
+        masses = correct_masses(body, shapes)
     else:
-        masses = colliders.uniform_masses(measurement.density, shapes)
+        masses = uniform_masses(measurement.density, shapes)
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
-    outward, inward, bound = colliders.distances(surface, shapes)
+    outward, inward, bound = distances(surface, shapes)
     record = {
         "shape": wanted.shape,
         "correct": correct.lower(),
@@ -86,7 +88,7 @@ def plan_colliders(
         "outward": outward,
         "inward": inward,
         "distance_bound": bound,
-        **colliders.effect(body, shapes, measurement.volume).as_record(),
+        **effect(body, shapes, measurement.volume).as_record(),
     }
     known[key] = Plan(obj, tuple(shapes), stretch, plain(record), measurement.fingerprint, key)
     return known[key]

@@ -7,7 +7,8 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
-from body_moments.core import colliders
+from body_moments.core.colliders.physics import correct_masses, effect, uniform_masses
+from body_moments.core.colliders.fits import Wanted, make_colliders
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
@@ -99,7 +100,7 @@ def made(name, wanted):
     surface = Surface.from_triangles(*BODIES[name])
     volume = polyhedron_moments(surface)[0]
     body = MassProperties.from_moments(volume, DENSITY)
-    return surface, volume.total, body, [stored(one) for one in run(colliders.make_colliders(surface, body, wanted))]
+    return surface, volume.total, body, [stored(one) for one in run(make_colliders(surface, body, wanted))]
 
 
 def in_mujoco(body, shapes):
@@ -123,19 +124,39 @@ def in_mujoco(body, shapes):
 def agrees(shapes, body, volume, rtol):
     """Whether MuJoCo's numbers are the stated ones; lengths relative to the radius of gyration."""
     mass, center, inertia = in_mujoco(body, shapes)
-    effect = colliders.effect(body, shapes, volume).as_record()
+    stated = effect(body, shapes, volume).as_record()
     reach = float(np.sqrt(body.principal.moments.max() / body.mass))
-    assert mass == pytest.approx(effect["mass_ratio"] * body.mass, rel=rtol)
-    assert np.abs(center - body.center - effect["center_shift"]).max() <= rtol * reach
+    assert mass == pytest.approx(stated["mass_ratio"] * body.mass, rel=rtol)
+    assert np.abs(center - body.center - stated["center_shift"]).max() <= rtol * reach
     ratios = np.linalg.eigvalsh(inertia) / body.principal.moments
-    assert ratios == pytest.approx(effect["moment_ratios"], rel=rtol)
+    assert ratios == pytest.approx(stated["moment_ratios"], rel=rtol)
     return mass, center, inertia
 
 
-@pytest.mark.parametrize("shape", ["box", "sphere", "capsule", "cylinder", "hull", "pieces", "automatic"])
-def test_mujoco_agrees_with_stated_effect(shape):
-    for name in BODIES:
-        wanted = colliders.Wanted(shape, 0.05, 0.05, 12, 64)
-        _, volume, body, shapes = made(name, wanted)
-        masses = colliders.uniform_masses(DENSITY, shapes)
+SHAPES = ("box", "axes_box", "sphere", "capsule", "cylinder")
+
+
+@pytest.mark.parametrize("name", BODIES)
+def test_mujoco_agrees_with_stated_effect_and_correction(name):
+    """With masses of pieces the body itself is there, if there are enough pieces; else what we state."""
+    number = [*BODIES].index(name)
+    for shape in (SHAPES[number % len(SHAPES)], "hull", "pieces"):
+        _, volume, body, shapes = made(name, Wanted(shape, 0.0, 0.0, 14, 64))
+        masses = uniform_masses(DENSITY, shapes)
         agrees([replace(one, mass=mass) for one, mass in zip(shapes, masses)], body, volume, 1e-6)
+    corrected = correct_masses(body, shapes)
+    assert min(corrected) >= 0.0
+    shapes = [replace(one, mass=mass) for one, mass in zip(shapes, corrected)]
+    mass, center, inertia = agrees(shapes, body, volume, 1e-6)
+    change = effect(body, shapes, volume).inertia_change
+    found = np.linalg.norm(inertia - body.inertia) / np.linalg.norm(body.inertia)
+    # MuJoCo moves the vertices of a mesh to its center in single precision before it computes the inertia.
+    assert mass == pytest.approx(body.mass, rel=1e-9) and abs(found - change) < 1e-8
+    MATCHED.append(found < 1e-9)
+
+
+MATCHED: list[bool] = []
+
+
+def test_ten_bodies_are_matched_by_masses_of_their_pieces():
+    assert sum(MATCHED) >= 10
