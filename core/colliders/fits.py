@@ -104,7 +104,7 @@ def _box(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
 
 
 def _smallest_box(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
-    """Return the smallest box along given axes, x, y and z, or with a side in a face, and along an edge, of the hull."""
+    """Return the smallest box along given axes, along x, y and z, or with a side in a face of the hull."""
     hull = convex_hull(points, max_corners=AXES_CORNERS)
     corners = hull.points[hull.triangles]
     sides = (corners[:, [1, 2, 0]] - corners).reshape(-1, 3)

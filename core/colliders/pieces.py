@@ -333,7 +333,7 @@ def _gains(piece: _Piece, planes: NDArray[np.float64]) -> NDArray[np.float64]:
     share = (a[edge, plane] / (a[edge, plane] - b[edge, plane]))[:, None]
     new = (1.0 - share) * points[edges[edge, 0]] + share * points[edges[edge, 1]]
     sets, owners = [points], [np.zeros(len(points), np.intp)]
-    count, total = len(points), 1
+    total = 1
     whose = [np.full(1, -1)]
     for sign in (1.0, -1.0):
         above = sign * height >= 0.0

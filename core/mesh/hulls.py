@@ -170,7 +170,7 @@ def _farthest(distances: NDArray, reach: NDArray, least: float) -> int:
 
 
 class _GrowingHull:
-    """Hulls on the grid, one of each set of points, and the points that are still outside, each with a face that it sees.
+    """Hulls on the grid, one of each set of points, and the points still outside, each with a face that it sees.
 
     first: (k, 4) corners of a tetrahedron in each set. owner: (n,) the set of each point, or -1 to leave it out.
     corners: (m, 3) of its faces. normals: (m, 3) exact integers. outside, seen, height: the points, their faces, and
@@ -221,7 +221,7 @@ class _GrowingHull:
         return points, faces, height
 
     def add_points(self, most: int | None = None) -> bool:
-        """Add the farthest points outside, at most so many, that do not disturb each other. Return if there were any."""
+        """Add the farthest points outside that do not disturb each other, at most so many; return if there were any."""
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))
