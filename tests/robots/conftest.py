@@ -1,5 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
+"""Each test of a written robot has a folder of its own."""
 
 import pytest
 

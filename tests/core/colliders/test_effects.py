@@ -11,7 +11,7 @@ from math import cos, radians, sin
 
 import numpy as np
 import pytest
-from body_moments.core.colliders.physics import correct_masses, effect, uniform_masses
+from body_moments.core.colliders.effects import correct_masses, effect, uniform_masses
 from body_moments.core.inertia import combine
 from body_moments.core.robots.model import Pose, Shape
 from body_moments.core.robots.shapes import moments_of
