@@ -16,7 +16,10 @@ __getattr__, __dir__, __all__ = lazy_names(
     check_stability="statics",
     lay_on_ground="statics",
     make_rigid_bodies="rigid_bodies",
+    plan_colliders="colliders",
     reframe_objects="snapping",
     remeasure="snapping",
+    remove_colliders="colliders",
+    store_colliders="colliders",
     store_measured="snapping",
 )
