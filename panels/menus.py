@@ -85,6 +85,7 @@ class VIEW3D_MT_body_moments_shape(_Groups, Menu):
             ("object.body_moments_find_symmetry", "MOD_MIRROR"),
             ("object.body_moments_find_similar", "VIEWZOOM"),
             ("object.body_moments_match_pose", "SNAP_ON"),
+            ("object.body_moments_link_copies", "LINKED"),
             ("object.body_moments_equal_inertia", "MESH_CUBE"),
         ),
     )

@@ -15,6 +15,7 @@ from collections.abc import Set
 from bpy.types import Panel
 
 ORDER = (
+    "weight",
     "inertia",
     "density",
     "given",
@@ -28,7 +29,7 @@ ORDER = (
     "shape",
     "advanced",
     "refused",
-)  # the order of CAD's mass property dialogs
+)  # what is posed, then the order of CAD's mass property dialogs
 ROOT = "body_moments"
 
 

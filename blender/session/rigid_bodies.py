@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Rigid bodies as Blender's physics engine takes them to be, for one object or a thousand.
 
-Bullet takes an object's origin as its center of mass and its axes as principal axes; Blender's own Calculate Mass
-weighs the collision shape. So mass, origin and axes belong together.
+Bullet takes an object's origin as its center of mass and its axes as principal axes, so these belong together.
 """
 
 from __future__ import annotations
@@ -41,7 +40,7 @@ PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """An object that becomes a rigid body, with the objects below it that become parts of the same body."""
+    """An object that becomes a rigid body, with the objects below it that belong to the same body."""
 
     obj: Object
     members: tuple[Object, ...] = ()
@@ -199,7 +198,7 @@ def _measured(context: Context, body: Body, ask: Callable[[Object], MeasuredBody
 
 
 def _measured_part(part: Object, ask: Callable[[Object], MeasuredBody | Stacked]) -> MeasuredBody | Stacked:
-    """Measure an object of a body as it is now; raise EditRefusedError if it cannot be part of a rigid body."""
+    """Measure a part of a body as it is now; raise EditRefusedError if it cannot belong to a rigid body."""
     require_storable_data(part)
     if part.type != "MESH":
         raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
@@ -220,7 +219,7 @@ def _calculated_masses(context: Context, measured: dict[Object, Measured]) -> di
 
 
 def _joint_in_place(context: Context, obj: Object) -> Object | None:
-    """Add an empty with a copy of the object's joint at its place and return it, or None if there is no joint."""
+    """Add an empty with a copy of the object's joint, in its place, and return it; None without a joint."""
     joint = obj.rigid_body_constraint
     if joint is None:
         return None

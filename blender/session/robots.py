@@ -81,10 +81,7 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the collection if one is named, else the selected objects, or all rendered objects.
-
-    Colliders belong to their bodies.
-    """
+    """Return the objects of the named collection, else the selected objects, else all rendered objects; no colliders."""
     chosen = [obj for obj in context.view_layer.objects if not obj.hide_render]
     if collection:
         chosen = bpy.data.collections[collection].all_objects
@@ -152,7 +149,7 @@ def collection_links(
 
 
 def bone_links(context: Context, name: str, objects: list[Object], options: MeasureOptions = AS_SET) -> SceneLinks:
-    """Return a robot with a link, in rest frame, for each bone that has a part, and joints with the bones' limits."""
+    """Return a robot with a link in rest frame for each bone that has a part; joints have the limits of the bones."""
     made, connections, findings, pieces = [], [], [], {}
     unit = options.meters_per_unit(context.scene)
     armatures = [obj for obj in objects if obj.type == "ARMATURE"]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stamps: the inputs of stored data, as digests, to be compared with the present ones by `staleness.stale_reason`.
+"""Stamps: digests of the inputs of stored data, which `staleness.stale_reason` compares with the present inputs.
 
 Results, a section and a symmetry carry theirs as text: version, geometry, transform and settings, joined by colons. In
 a saved file, EDITED stands in place of the geometry's digest if the geometry has changed since. Data in memory, such as
@@ -40,7 +40,7 @@ class Stale(StrEnum):
 
 
 class Kind(Enum):
-    """Kinds of stored data; they depend on different inputs."""
+    """The kinds of stored data, which depend on different inputs."""
 
     RESULTS = "results"
     SECTION = "section"
@@ -68,7 +68,7 @@ class Stamp(NamedTuple):
 
     @classmethod
     def parse(cls, text: str, kind: Kind = Kind.RESULTS, extra: float | None = None) -> Stamp:
-        """Return the stamp of a stored text, with an empty version if the text, such as a script's, is no stamp."""
+        """Return the stamp in a stored text, with an empty version if the text is no stamp."""
         parts = text.split(":")
         return cls(kind, *parts, extra=extra) if len(parts) == 4 else cls(kind, "")
 
@@ -83,7 +83,7 @@ _carried: SessionCache[dict[Kind, Stamp]] = SessionCache()
 
 
 def carry(obj: Object, kind: Kind, number: int, transform: str = "", settings: str = "") -> Stamp:
-    """Give an original object a stamp of data in memory, and return it. number: `updates.count` at their making."""
+    """Attach a stamp to an original object's data in memory, and return it. number: `updates.count` at their making."""
     stamp = Stamp(kind, VERSION, "{:s} {:d}".format(kind.value, number), transform, settings)
     _carried[obj] = {**(_carried.get(obj) or {}), kind: stamp}
     return stamp
