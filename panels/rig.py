@@ -102,7 +102,7 @@ class WeightPanel:
 def standing(weight: Weight, unit: float) -> tuple[str, dict[str, float], str]:
     """Return the English text on how a character stands, the lengths in it, m, and its icon."""
     support, height = weight.support, weight.contacts.height
-    if support is None and height is None:
+    if height is None:
         return "No mesh can touch the ground", {}, "INFO"
     if support is None:
         return "In the air: {height:length} above the ground", {"height": height * unit}, "INFO"

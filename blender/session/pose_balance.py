@@ -127,7 +127,7 @@ class _Search:
         if len(units) > 1 and np.linalg.svd(np.array(shifts) @ self.axes[:, :2])[1][-1] >= least:
             inverse = np.linalg.inv(np.linalg.qr(np.transpose(moves))[1])  # from moves of the bone to changes
             rows = [*self.axes[:, :2].T @ np.transpose(shifts), *([] if handle.turns else [up @ np.transpose(moves)])]
-            solve, change = inverse @ np.linalg.pinv(rows @ inverse), np.zeros(len(units))
+            solve, change, gap, slip = inverse @ np.linalg.pinv(rows @ inverse), np.zeros(len(units)), np.inf, np.inf
             for _ in range(MAX_TRIALS):
                 center, moved, slip = self.look(handle, change @ units / scale)
                 missing = [*self.gap(center), *([] if handle.turns else [up @ (head - moved)])]
@@ -171,6 +171,7 @@ def balance_pose(context: Context, armature: Object, name: str, margin: float | 
     armature.update_tag()
     context.view_layer.update()
     after = character.weight(armature, context.evaluated_depsgraph_get())
+    assert after is not None and after.support is not None
     gap, margin = float(np.linalg.norm(search.gap(after.parts.center))) * unit, after.support.margin * unit
     return MOVED, {"bone": moved.bone.name, "gap": gap, "margin": margin}
 

@@ -29,6 +29,7 @@ from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_object
 from ...write import properties
 from .. import stored
 from ..tracking import handlers
+from ..tracking.armatures import deformed_meshes
 from ..tracking.cache import SessionCache, current_value
 from ..tracking.staleness import stale_reason
 from .motion import Motion
@@ -63,11 +64,6 @@ class Parts:
         return self.centers[0] + (self.masses / self.mass) @ (self.centers - self.centers[0])
 
     @property
-    def inertias(self) -> NDArray[np.float64]:
-        """(p, 3, 3) inertia tensors of the parts, each about its center, in kg and Blender's units."""
-        return np.trace(self.spreads, axis1=1, axis2=2)[:, None, None] * np.eye(3) - self.spreads
-
-    @property
     def inertia(self) -> NDArray[np.float64]:
         """(3, 3) inertia tensor of the total about its center, in kg and Blender's units."""
         arms = self.centers - self.center
@@ -75,8 +71,8 @@ class Parts:
         return np.trace(spread) * np.eye(3) - spread
 
     @classmethod
-    def joined(cls, several: Sequence[Parts]) -> Parts:
-        """Return the parts of several characters as one."""
+    def join(cls, several: Sequence[Parts]) -> Parts:
+        """Return the parts of several as one."""
         arrays = ("masses", "centers", "spreads", "matrices")
         names = tuple(name for parts in several for name in parts.names)
         return cls(names, *(np.concatenate([getattr(parts, name) for parts in several]) for name in arrays))
@@ -157,7 +153,7 @@ class Character:
         centers = np.einsum("pij,pj->pi", linear, self.centers) + matrices[:, :3, 3]
         spreads = factors[:, None, None] * (linear @ self.spreads @ linear.transpose(0, 2, 1))
         parts = Parts(self.names, factors * self.masses, centers, spreads, matrices)
-        return Parts.joined([parts, *(self._held(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
+        return Parts.join([parts, *(self._held_part(obj, depsgraph) for obj, _ in held_objects(armature, depsgraph))])
 
     def _factors(self, armature: Object) -> NDArray[np.float64]:
         """Return (p,) factors to the total mass, 1 for bones with their own mass as long as the others keep any."""
@@ -168,7 +164,7 @@ class Character:
             return np.where(shares, rest / self.masses[shares].sum(), 1.0)
         return np.full(len(shares), total / self.masses.sum() if total else 1.0)
 
-    def _held(self, obj: Object, depsgraph: Depsgraph) -> Parts:
+    def _held_part(self, obj: Object, depsgraph: Depsgraph) -> Parts:
         """Return a held object as a part at its own place, without mass if it cannot be measured."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
@@ -263,7 +259,7 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     def stand() -> Weight | None:
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         known = character(armature, unit)
-        if known is None:
+        if known is None or any(name not in armature.pose.bones for name in known.names):  # removed in Edit Mode
             return None
         down, ground = stored.stability.down(depsgraph.scene), armature.body_moments_weight.ground
         parts = known.pose(armature, depsgraph)
@@ -307,12 +303,11 @@ def find_ground(context: Context, armature: Object) -> None:
 
 
 def contact_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str | None]]:
-    """Return (object, bone) of the meshes that may touch the ground; None as the bone of skinned ones."""
-    objects = list(depsgraph.view_layer.objects)
-    skinned = skinned_objects(armature, objects)
+    """Return (object, bone) of the meshes that may touch the ground, outside Edit Mode; None for skinned ones."""
+    skinned = deformed_meshes(armature)
     hanging = [*hanging_objects(armature, skinned), *held_objects(armature, depsgraph)]
     several = [*((obj, None) for obj in skinned), *((obj, bone) for obj, bone in hanging if obj.type == "MESH")]
-    return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get()]
+    return [(obj, bone) for obj, bone in several if not obj.hide_render and obj.visible_get() and obj.mode != "EDIT"]
 
 
 def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:

@@ -103,21 +103,64 @@ def test_center_and_inertia_equal_those_of_rigid_skin(scene):
     assert now.parts.inertia == pytest.approx(truth.inertia, abs=1e-5 * np.trace(truth.inertia))
 
 
-def test_held_object_counts_with_its_mass_where_it_is(scene):
+def held(kind, rig, bone, **place):
+    """A body that weighs 7 kg, and a constraint that holds it to a bone."""
+    stone = add(mesh_body(), **place)
+    stone.body_moments.mass_from, stone.body_moments.mass = "MASS", 7.0
+    constraint = stone.constraints.new(kind)
+    holder = constraint.targets.new() if kind == "ARMATURE" else constraint
+    holder.target, holder.subtarget = rig, bone
+    return stone, constraint
+
+
+@pytest.mark.parametrize("kind", ["CHILD_OF", "COPY_TRANSFORMS", "COPY_LOCATION", "ARMATURE"])
+def test_held_object_counts_with_its_mass_where_it_is(scene, kind):
     rig, _body = figure()
     before = shown(rig)
-    stone = add(mesh_body(), location=(0.8, 0.0, 1.4))
-    stone.scale = (0.05,) * 3
-    stone.body_moments.mass_from, stone.body_moments.mass = "MASS", 7.0
-    constraint = stone.constraints.new("CHILD_OF")
-    constraint.target, constraint.subtarget = rig, "forearm.L"
-    now = weight(rig)
+    stone, constraint = held(kind, rig, "forearm.L", location=(0.8, 0.0, 1.4), scale=(0.05,) * 3)
+    now, own = weight(rig), measured(stone).mass_properties
     assert now.parts.mass == pytest.approx(before.parts.mass + 7.0)
-    own = measured(stone).mass_properties
     center = (before.parts.mass * before.parts.center + 7.0 * own.center) / now.parts.mass
     assert now.parts.center == pytest.approx(center, abs=1e-6)
+    spread = np.trace(own.inertia) / 2.0 * np.eye(3) - own.inertia
+    assert now.parts.spreads[-1] == pytest.approx(spread, rel=1e-5, abs=1e-9)
+    rig.pose.bones["spine"].rotation_euler = 0.5, 0.0, 0.0
+    assert weight(rig).parts.centers[-1] == pytest.approx(measured(stone).mass_properties.center, abs=1e-6)
     constraint.influence = 0.0
     assert weight(rig).parts.mass == pytest.approx(before.parts.mass)
+
+
+def test_held_cane_carries(scene):
+    rig, _body = figure()
+    alone = shown(rig).support
+    held("CHILD_OF", rig, "forearm.L", location=(0.7, -0.4, 0.0), scale=(0.02, 0.02, 0.5))
+    now = weight(rig)
+    assert "forearm.L" in now.contacts.names
+    assert np.ptp(now.support.polygon, axis=0)[0] > np.ptp(alone.polygon, axis=0)[0] + 0.3
+
+
+def test_open_held_object_is_named_without_mass(scene):
+    rig, _body = figure()
+    before = shown(rig)
+    stone, _ = held("CHILD_OF", rig, "forearm.L", location=(0.8, 0.0, 1.4))
+    stone.data.clear_geometry()
+    now = weight(rig)
+    assert now.parts.names[-1] == stone.name and now.parts.masses[-1] == 0.0
+    assert now.parts.center == pytest.approx(before.parts.center)
+
+
+def test_edit_mode_of_skin_and_bones_shows_no_error(scene):
+    rig, body = figure()
+    shown(rig)
+    for obj in (body, rig):
+        bpy.context.view_layer.objects.active = obj
+        bpy.ops.object.mode_set(mode="EDIT")
+        weight(rig)
+        if obj is rig:
+            rig.data.edit_bones.remove(rig.data.edit_bones["head"])
+        bpy.ops.object.mode_set(mode="OBJECT")
+        weight(rig)
+    assert weight(rig) is None
 
 
 def test_total_mass_is_shared_by_bones_without_their_own(scene):
