@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.density_grid import density_body
+from ....core.bodies.density_grid import Samples, density_body
 from ....core.bodies.findings import (
     DENSITY_FROM_GRID,
     GRID_AS_SHELL,
@@ -22,7 +22,7 @@ from ....core.bodies.findings import (
     SAMPLES_POSITIONED,
 )
 from ....core.bodies.mesh_body import MeshBody
-from ....core.bodies.reading import Part, Reading, to_si
+from ....core.bodies.reading import Part, to_si
 from ....core.bodies.threshold import MAX_SAMPLES, ThresholdGrid, threshold_grid_body
 from ....core.density.grid_options import GridOptions
 from ....core.density.grid_values import sample_positions
@@ -89,16 +89,8 @@ def grid_body(
     density = finding(GRID_DENSITY, samples=list(reading.shape), cause=options.meaning().as_record())
     axes = [axis for axis, row in zip(AXES, positions) if row is not None]
     findings = (density, finding(SAMPLES_POSITIONED, axes=axes)) if axes else (density,)
-    return density_body(
-        _whole_axes(reading, positions),
-        shape,
-        matrix,
-        options,
-        reading.background,
-        findings,
-        order=order,
-        positions=positions,
-    )
+    samples = Samples(_whole_axes(reading, positions), shape, matrix, options, reading.background, positions=positions)
+    return density_body(samples, findings, order=order)
 
 
 def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
@@ -119,14 +111,7 @@ def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
     surface = reading.polygons()
     if not len(surface.quads):
         raise ReadError(GRID_EMPTY, grid=reading.grid)
-    shown = Reading(
-        reading.name,
-        reading.type,
-        reading.matrix,
-        reading.rotation,
-        reading.location,
-        [Part(surface, reading.matrix[None])],
-    )
+    shown = replace(reading, parts=[Part(surface, reading.matrix[None])], findings=[])
     bounded = mesh_body(shown, unit, shell=False, union=False, threads=threads)
     measured = finding(LEVEL_SET_MEASURED, grid=reading.grid, polygons=len(surface.quads))
     method = Method(bounded.method.verdict, Source.GRID)
