@@ -28,6 +28,7 @@ from ....core.density.grid_options import GridOptions
 from ....core.density.grid_values import sample_positions
 from ....core.density.spline_grid import Blocks
 from ....core.measurement.body import Body
+from ....core.measurement.settings import Settings
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.scans.positions import AXES, Positions
 from ....core.verdict.finding import ReadError, finding
@@ -60,25 +61,21 @@ def read(request: Request) -> VolumeReading | None:
 
 def body(reading: VolumeReading, request: Request) -> Body:
     """Return the body of one grid, or raise MeasureError if there is none."""
-    obj, density, options = request.obj, request.given.density, request.settings
-    order = KNOWN_ORDER if options.order is None else options.order
-    made = grid_body(
-        reading, GridOptions.from_settings(obj.body_moments, density), request.settings.unit, options.threads, order
-    )
+    obj, density = request.obj, request.given.density
+    made = _grid_body(reading, GridOptions.from_settings(obj.body_moments, density), request.settings)
     key = grid_key(obj, density) if obj.type == "VOLUME" else density_key(obj, (), request.scene)
     source = None if made.mass is None else finding(DENSITY_FROM_GRID, grid=reading.grid)
     return replace(made, density_from=source, density_key=key)
 
 
-def grid_body(
-    reading: VolumeReading, options: GridOptions, unit: float, threads: int = 1, order: int = KNOWN_ORDER
-) -> Body:
+def _grid_body(reading: VolumeReading, options: GridOptions, settings: Settings) -> Body:
     """Return the body of one grid, with its mass moments to an order. Raises MeasureError if the grid has no body."""
+    unit, order = settings.unit, KNOWN_ORDER if settings.order is None else settings.order
     if options.threshold is not None:
         options.needs_even_samples(reading.grid)
         return threshold_grid_body(threshold_grid(reading, unit), options, order=order)
     if options.solid:
-        return _solid(reading, unit, threads)
+        return _solid(reading, unit, settings.threads)
     if reading.level_set:
         raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
     positions = sample_positions(options, reading.grid, reading.low, reading.shape)
