@@ -88,7 +88,7 @@ def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[
     if member is None:
         depsgraph = context.evaluated_depsgraph_get()
     before = {
-        root: _member_bodies(members_of(root, depsgraph)) for root in stored if not staleness.stale_reason(root, scene)
+        root: _member_bodies(members_of(root, depsgraph)) for root in stored if staleness.was_current(root, scene)
     }
     if member is not None:
         before = {root: bodies for root, bodies in before.items() if member in bodies}

@@ -26,8 +26,9 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from ....core.measurement.settings import VERSION, digest
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
-from ...read.fingerprint import has_transform, matrix_hash, scale_hash, settings_hash
+from ...read.fingerprint import colliders_digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
+from ...settings.given import COLLIDERS
 from ...write import properties
 from . import handlers, stamps, updates
 from .cache import SessionCache, current_value
@@ -89,6 +90,10 @@ def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
     return stamp.extra == shortest_decimal(scene.unit_settings.scale_length)
 
 
+def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
+    return obj[COLLIDERS].get("digest") == colliders_digest(obj)
+
+
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
     parts = _digests_of_parts(root, scene)
     return parts is None or stamp.settings == parts[0]
@@ -104,7 +109,18 @@ def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str
     return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
 
 
-def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
+def was_current(root: Object | Collection, scene: Scene) -> bool:
+    """Return whether a total was up to date before the settings of members changed, of which Blender tells later."""
+    stamp, parts = stamps.of_results(root), _digest_parts(root, scene, (None, Stale.SETTINGS))
+    if stamp is None or stamp.version != VERSION or not _has_matrix(root, stamp, scene):
+        return False
+    return parts is None or parts == (stamp.settings, stamp.geometry)
+
+
+def _digest_parts(
+    root: Object | Collection, scene: Scene, current: tuple[Stale | None, ...] = (None,)
+) -> tuple[str, str] | None:
+    """Compute `_digests_of_parts`. current: the reasons with which a member counts as up to date."""
     if isinstance(root, Object) and root.type == "ARMATURE":
         return read.rig.rig_hash(root, read.rig.rig_objects(root, scene.objects), scene), ""
     depsgraph = bpy.context.view_layer.depsgraph
@@ -114,7 +130,7 @@ def _digest_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | 
     member = assembly.members_of(root, depsgraph)
     measured = [part.data for part in member.walk() if part.kind == assembly.MemberKind.OBJECT and part.is_measured]
     texts = {obj: properties.fingerprint(obj) for obj in measured}
-    is_stale = any(stale_reason(obj, scene) for obj in measured)
+    is_stale = any(stale_reason(obj, scene) not in current for obj in measured)
     key = assembly.members_key(member, texts)
     return assembly.structure_hash(member), "" if is_stale else digest(key.encode())
 
@@ -132,6 +148,12 @@ CHECKS = {
     Kind.MOMENTS: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
     Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
     Kind.SETTINGS: ((Stale.SETTINGS, _has_settings),),
+    Kind.COLLIDERS: (
+        (Stale.SETTINGS, _has_settings),
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.TRANSFORM, _has_transform),
+        (Stale.COLLIDERS, _has_colliders),
+    ),
 }
 
 
