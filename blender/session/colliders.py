@@ -12,10 +12,15 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
-from ... import core
-from ...core.colliders.distances import distances
-from ...core.colliders.fits import Wanted, make_colliders
-from ...core.colliders.physics import correct_masses, effect, uniform_masses
+from ...core.colliders import (
+    Wanted,
+    correct_masses,
+    correct_vertices,
+    distances,
+    effect,
+    make_colliders,
+    uniform_masses,
+)
 from ...core.measurement.documents import plain
 from ...core.measurement.measurement import Measurement
 from ...core.measurement.settings import digest
@@ -71,7 +76,7 @@ def plan_colliders(
     shapes = yield from make_colliders(surface, body, wanted)
     shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     if correct == "VERTICES":
-        shapes = core.colliders.correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
+        shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
     if wanted.shape.startswith("equal_"):
         masses = [body.mass]

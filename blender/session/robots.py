@@ -81,7 +81,7 @@ class SceneLinks:
 
 
 def candidates(context: Context, collection: str, selected: bool) -> list[Object]:
-    """Return the objects of the named collection, else the selected, else all rendered ones; colliders are no links."""
+    """Return the objects of the named collection, else the selected ones, else all rendered ones; no colliders."""
     chosen = [obj for obj in context.view_layer.objects if not obj.hide_render]
     if collection:
         chosen = bpy.data.collections[collection].all_objects

@@ -221,7 +221,7 @@ class _GrowingHull:
         return points, faces, height
 
     def add_points(self, most: int | None = None) -> bool:
-        """Add the farthest points outside whose visible faces do not touch, at most so many; return if there were any."""
+        """Add at most so many farthest points whose visible faces do not touch. Return whether there were any."""
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))

@@ -3,6 +3,7 @@
 """Make Colliders by its button: progress and Esc, undo and redo, what the panel and the redo panel show."""
 
 from tests.window.conftest import OPEN
+from tests.window.test_selection import CLOSE_OTHERS
 
 CHAIR = """
 import bpy
@@ -37,8 +38,9 @@ def chairs(window, count):
 
 def test_button_makes_colliders_that_undo_removes(window):
     chairs(window, 1)
-    window.ask(OPEN)
+    window.ask(OPEN + CLOSE_OTHERS)
     window.open_tab("Moments")
+    window.ask("bpy.ops.object.body_moments_measure()")
     window.press("object.body_moments_make_colliders")
     window.wait(COUNT + " > 0")
     assert window.get("bpy.context.mode") == "OBJECT" and window.get(
