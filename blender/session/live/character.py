@@ -182,7 +182,8 @@ class Character:
         may_touch = np.array([not named or name in named for name in names] + [not named])  # last: without a weight
         reach, lowest, places, bones = REACH * self.size, np.inf, [np.zeros((0, 3))], [np.zeros(0, np.intp)]
         for obj, bone in contact_objects(armature, depsgraph):
-            points, matrix = _points(obj, depsgraph)
+            evaluated = obj.evaluated_get(depsgraph)
+            points, matrix = vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
             heights = points @ (-down @ matrix[:3, :3]).astype(np.float32) - (down @ matrix[:3, 3] + ground)
             if named:
                 heights = np.where(may_touch[self._bones_of(obj, bone, names, depsgraph)], heights, np.inf)
@@ -316,9 +317,3 @@ def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]
     posed = np.empty((len(evaluated.pose.bones), 4, 4), np.float32)
     evaluated.pose.bones.foreach_get("matrix", posed.ravel())  # column by column
     return float64_matrix(evaluated.matrix_world) @ posed.transpose(0, 2, 1)
-
-
-def _points(obj: Object, depsgraph: Depsgraph) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
-    """Return the evaluated (n, 3) points of a mesh object in its own coordinates, and its matrix in the world."""
-    evaluated = obj.evaluated_get(depsgraph)
-    return vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
