@@ -9,7 +9,7 @@ from body_moments.blender.session.tracking.staleness import stale_reason
 from body_moments.blender.session.tracking.stamps import Stale, of_colliders
 from body_moments.blender.settings.given import COLLIDER, COLLIDERS
 
-from tests.blender.objects import add, mesh_body, only, seen
+from tests.blender.objects import add, measured, mesh_body, only, seen
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -208,8 +208,6 @@ def test_colliders_are_left_out_of_measuring():
 def test_record_states_effect_of_colliders():
     from body_moments.blender.session.colliders import collider_record
 
-    from tests.blender.objects import measured
-
     body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5))
     assert collider_record(body, measured(body), bpy.context) is None
     make(shape="HULL", engine="UNREAL")
@@ -218,3 +216,26 @@ def test_record_states_effect_of_colliders():
     assert record["volume_ratio"] == pytest.approx(body[COLLIDERS]["volume_ratio"])
     body.scale.z = 2.0
     assert collider_record(body, measured(body), bpy.context)["out_of_date"] == Stale.TRANSFORM
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.001])
+def test_corrections_bring_colliders_nearer_to_the_body(unit):
+    bpy.context.scene.unit_settings.scale_length = unit
+    body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5), (2, 1, 1))
+    make(shape="HULL")
+    before = body[COLLIDERS]["inertia_change"]
+    make(shape="HULL", correct="VERTICES", outward=0.3, inward=0.3)
+    effect = body[COLLIDERS]
+    assert effect["mass_ratio"] == pytest.approx(1.0, abs=0.01) and effect["inertia_change"] < 0.3 * before
+    make(shape="PIECES", correct="MASSES")
+    masses = [obj[COLLIDER]["mass"] for obj in colliders(body)]
+    assert len(masses) > 1 and min(masses) >= 0.0
+    assert sum(masses) == pytest.approx(measured(body).mass_properties.mass, rel=1e-6)
+
+
+def test_sphere_keeps_its_shape_without_vertices_to_move():
+    body = add(mesh_body(), "Body")
+    make(shape="SPHERE")
+    size = list(colliders(body)[0][COLLIDER]["size"])
+    make(shape="SPHERE", correct="VERTICES")
+    assert list(colliders(body)[0][COLLIDER]["size"]) == size
