@@ -20,6 +20,7 @@ ORDER = (
     "density",
     "given",
     "apply",
+    "colliders",
     "stability",
     "selection",
     "assembly",

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The body that B-spline patches bound, measured from their control points instead of their display mesh.
 
-Volumes are measured once for each surface and mapped to its places. Areas, and sheets of real thickness, do not follow
-a map that stretches unevenly: for each different map of this kind, the control points are mapped.
+Volumes map to all places of a surface; areas and sheets of real thickness are found anew for each uneven map.
 """
 
 from __future__ import annotations
@@ -25,12 +24,7 @@ from ...core.bodies.instances import (
     singular_instances_message,
 )
 from ...core.bodies.mesh_body import MeshBody, extend_input_error
-from ...core.bodies.reading import (
-    Part,
-    Reading,
-    SplineReading,
-    to_si,
-)
+from ...core.bodies.reading import Part, Reading, SplineReading, to_si
 from ...core.measurement.body import Body
 from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.mesh.surface import Surface
@@ -56,7 +50,7 @@ HEIGHTS = {"inward": (-1.0, 0.0), "outward": (0.0, 1.0), "centered": (-0.5, 0.5)
 
 @dataclass(frozen=True, eq=False)
 class PatchBody(Body):
-    """A body bounded by patches, and polygons beside them.
+    """A body bounded by patches, and by polygons if some parts have no patches.
 
     `reading`: the whole object; `surfaces` yields its display mesh.
     `pieces`: the parts that are patches, each with the (k, 4, 4) maps to its places. `polygons`: the other parts.
@@ -85,13 +79,13 @@ class PatchBody(Body):
         return sum_moments(volumes), sum_moments(areas) if area else None
 
     def surfaces(self, sheets: bool) -> Iterator[Surface]:
-        """Yield the display mesh in its place: callers need polygons."""
+        """Yield the display mesh in its place, because callers need polygons."""
         return mesh_body(self.reading, self.unit, shell=sheets, union=False, threads=self.threads).surfaces(sheets)
 
 
 @dataclass(frozen=True, eq=False)
 class PatchSheetBody(Body):
-    """Thin sheets that are patches, and polygons beside them: `parts` and `polygons`, as in `PatchBody`."""
+    """Thin sheets of patches, and of polygons if some parts have no patches; fields as in `PatchBody`."""
 
     any_order: ClassVar[bool] = True
 
@@ -112,7 +106,7 @@ class PatchSheetBody(Body):
 
 
 def _patches(part: Part) -> tuple[Face, ...]:
-    """Return the patches of a part that has some."""
+    """Return the patches of a part, which must have some."""
     return cast(SplineReading, part.splines).patches
 
 
@@ -149,7 +143,7 @@ def nurbs_body(
     threads: int,
     compare: bool,
 ) -> Body:
-    """Return the body that an object's surfaces, some of them B-spline patches, bound, or their sheets.
+    """Return the body bounded by an object's surfaces, at least one of them a B-spline patch, or their sheets.
 
     unit: meters per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
     shells that overlap are united, which needs polygons. compare: also measure the volume of the display mesh.
@@ -227,12 +221,12 @@ def _source(reading: Reading) -> Source:
 
 
 def _moments_to_order(measure: PatchIntegrals, order: int) -> Moments:
-    """Return the volume's moments to another order."""
+    """Return the moments of the volume to another order."""
     return extend_input_error(volume_moments(measure.patches, order, measure.volume.about)[0], measure.volume)
 
 
 def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Moments]:
-    """Yield the area moments of a part's images."""
+    """Yield the area moments of each place of a part."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield sum_of_images(area, matrices[even])
@@ -242,7 +236,7 @@ def _image_areas(part: Part, area: Moments, matrices: NDArray) -> Iterator[Momen
 
 
 def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, threads: int) -> Body:
-    """Return the body of thin sheets, or of walls inward or outward of the surfaces or centered on them."""
+    """Return the body of thin sheets, or of walls inside, outside or on both sides of the surfaces."""
     patch_parts, meshes = _split_parts(reading)
     if meshes.parts and wall != "thin":
         raise ReadError(WALL_UNSUPPORTED, quantity="A mixture of NURBS surfaces and meshes")
@@ -291,7 +285,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
 
 
 def _distinct_images(patches: Sequence[Face], matrices: NDArray) -> Iterator[tuple[list[Face], NDArray]]:
-    """Yield the patches under each different linear map, facing as before, and (k, 4, 4) translations to the places."""
+    """Yield the patches under each distinct linear map, facing as before, with (k, 4, 4) translations to the places."""
     for linear, members in distinct_linear_parts(matrices):
         turn = np.eye(4)
         turn[:3, :3] = linear

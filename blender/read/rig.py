@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A skinned character: the meshes that an armature deforms, and the objects parented to bones.
-
-Panels and handlers ask for them, so numpy is not loaded.
-"""
+"""A skinned character: the meshes that an armature deforms, and the objects parented to bones. Loads no numpy."""
 
 from __future__ import annotations
 
@@ -38,7 +35,7 @@ def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
 
 
 def is_skin_of(obj: Object, armature: Object) -> bool:
-    """Return whether an armature deforms an object, by a modifier that is shown or as its parent."""
+    """Return whether an armature deforms an object, by an enabled modifier or as its parent."""
     if obj.parent == armature and obj.parent_type == "ARMATURE":
         return True
     return any(
@@ -54,7 +51,7 @@ def skinned_objects(armature: Object, objects: Iterable[Object]) -> list[Object]
 
 
 def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[Object, str]]:
-    """Return (object, bone) of measurable objects parented to bones, and of their children, without `skinned`."""
+    """Return (object, bone) of measurable objects below bones, except those in `skinned`."""
     skinned, found = set(skinned), []
     for child in sorted(armature.children, key=lambda obj: obj.name):
         if child.parent_type == "BONE" and child.parent_bone:
@@ -89,7 +86,7 @@ def _holding_bone(obj: Object, armature: Object, depsgraph: Depsgraph) -> str:
 
 
 def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:
-    """Return a digest of the bones, the armature's scale and the objects' settings, without the shapes of meshes."""
+    """Return a digest of the bones, the armature's scale and the objects' settings, but not of the meshes."""
     keys = []
     for bone in armature.data.bones:
         settings = armature.pose.bones[bone.name].body_moments
@@ -109,7 +106,7 @@ def rig_objects(armature: Object, objects: Iterable[Object]) -> list[Object]:
 
 
 def require_armature(obj: Object | None) -> Object:
-    """Return the armature object, or raise ReadError for anything else, or if it is in Edit Mode."""
+    """Return the armature object; ReadError for any other object, and for an armature in Edit Mode."""
     if obj is None or obj.type != "ARMATURE":
         raise ReadError(NO_ACTIVE_ARMATURE)
     if obj.mode == "EDIT":

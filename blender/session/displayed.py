@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here.
-
-Panels of stored numbers are drawn without numpy; live numbers are computed by other modules.
-"""
+"""The displayed numbers of objects, and the trust in them: panels, list and overlay ask here. Loads no numpy."""
 
 from __future__ import annotations
 
@@ -120,7 +117,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object at its current place, a character's in its current pose.
+    """Return the displayed numbers of an original object at its current place, or of a character in its current pose.
 
     None if there are no numbers, or the mass is 0.
     """
@@ -128,7 +125,7 @@ def drawn(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]:
-    """Return `drawn` of many objects. An answer is kept until there is a report about its object."""
+    """Return `drawn` of many objects, cached until Blender or the session reports a change of the object."""
     global _drawn_in
     settings = scene.body_moments
     key = scene.session_uid, scene.unit_settings.scale_length, settings.default_material, settings.default_density
@@ -144,7 +141,7 @@ def all_drawn(objects: Iterable[Object], scene: Scene) -> list[Displayed | None]
 
 
 def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | None:
-    """Return `drawn` of an object, and keep it if it depends on no other. before: the numbers before a mere move."""
+    """Return `drawn` of an object; keep it if it depends on no other object. before: its numbers before it moved."""
     if obj.type == "ARMATURE":
         shown = displayed(obj, scene)
         if shown is not None and not shown.is_posed:  # its own stored numbers are of the rest pose
@@ -166,14 +163,14 @@ def _draw(obj: Object, scene: Scene, before: Displayed | None) -> Displayed | No
 
 
 def note_updates(events: handlers.Updates) -> None:
-    """Forget the drawn numbers of objects that Blender has evaluated anew; mere moves leave all but the place."""
+    """Drop the cached numbers of objects that Blender has evaluated again; after a move, only the place."""
     for uid in (*events.reshaped, *events.others):
         _drawn.pop(uid, None)
     _moved.update(_drawn.keys() & events.moved)
 
 
 def forget_drawn(data: ID | None = None) -> None:
-    """Forget the drawn numbers of an object, or of all."""
+    """Drop the cached numbers of an object, or of all."""
     if data is None:
         _drawn.clear()
         _moved.clear()

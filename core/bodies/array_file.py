@@ -21,7 +21,6 @@ from ..scans.findings import SCAN_UNSTATED
 from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..scans.positions import Positions, place_samples, read_all_positions
 from ..verdict.finding import Finding, ReadError, finding
-from .bare_file import about_file, bare_reading
 from .density_grid import density_body
 from .findings import (
     DENSITY_FROM_SAMPLES,
@@ -31,13 +30,8 @@ from .findings import (
     GRID_TOO_LARGE,
     SAMPLES_POSITIONED,
 )
-from .measure import measure_reading
-from .threshold import (
-    MAX_SAMPLES,
-    TRILINEAR,
-    ThresholdGrid,
-    threshold_grid_body,
-)
+from .reading import about_file, bare_reading, measure_reading
+from .threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
 
 
 @dataclass(frozen=True)

@@ -21,11 +21,7 @@ from ..scans.positions import EVEN, Positions
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Source, Verdict
-from .findings import (
-    GRID_EMPTY,
-    GRID_WITHOUT_SURFACE,
-    MASS_OVERFLOW,
-)
+from .findings import GRID_EMPTY, GRID_WITHOUT_SURFACE, MASS_OVERFLOW
 from .mesh_body import MAX_MASS_MOMENT
 
 

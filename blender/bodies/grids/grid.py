@@ -113,7 +113,7 @@ def _whole_axes(reading: VolumeReading, positions: Positions) -> Blocks:
 
 
 def _solid(reading: VolumeReading, unit: float, threads: int) -> MeshBody:
-    """Return the body that a level set bounds, by its polygons."""
+    """Return the body inside a level set, by its polygons."""
     if reading.level_set is False:
         raise ReadError(GRID_IS_NOT_LEVEL_SET, grid=reading.grid)
     surface = reading.polygons()

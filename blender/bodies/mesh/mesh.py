@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body that polygons bound, with all its instances: each surface is measured once and mapped to its places."""
+"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places."""
 
 from __future__ import annotations
 
@@ -10,9 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.instances import (
-    singular_instances_message,
-)
+from ....core.bodies.instances import singular_instances_message
 from ....core.bodies.mesh_body import MeshBody, triangle_count
 from ....core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
 from ....core.bodies.reading import Reading
@@ -29,13 +27,7 @@ from ....core.verdict.method import Method, Verdict
 from ...read.union import union_surface
 from ...read.visibility import shows_flat_region
 from ..density.varying_density import weigh
-from ..findings import (
-    DISPLAY_MESH_NEEDED,
-    OPEN_COMPONENTS_UNITED,
-    UNION_BY_BOOLEAN,
-    UNION_FAILED,
-    ZERO_SCALE,
-)
+from ..findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
 from ..request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
@@ -44,7 +36,7 @@ REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # reported of bodi
 
 
 def read(request: Request) -> Reading | None:
-    """Return the polygons that an object shows, or None if it has patches of one density, which are better."""
+    """Return the polygons that an object shows, or None if it has NURBS patches of one density (see `nurbs.py`)."""
     reading, density, obj = request.surfaces, request.density, request.obj
     if reading.has_patches:
         if density is None:
@@ -68,7 +60,7 @@ def body(reading: Reading, request: Request) -> Body:
 
 
 def mesh_body(reading: Reading, unit: float, *, shell: bool, union: bool, threads: int) -> MeshBody:
-    """Return the body that an object's surfaces bound, united first if `union`, or with `shell` their sheets."""
+    """Return the body bounded by an object's surfaces, united first if `union`, or with `shell` their sheets."""
     if shell:
         return sum_of_instances(reading, unit, True, threads)
     flat = reading.singular_instance_count
@@ -103,7 +95,7 @@ def _single_surface_body(
 
 
 def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
-    """Return the body of all parts in their places, united by Blender's exact Boolean if they have a volume."""
+    """Return the body of all parts in their places; parts with a volume are united by Blender's exact Boolean."""
     before = sum_of_instances(reading, unit, False, threads)
     if not before.volume.total > 0.0:
         return before

@@ -27,7 +27,7 @@ from ...bodies.measure_object import measure_body
 from ...bodies.mesh.hull import object_hull
 from ...read.objects import read_object
 from ...scene.findings import OPEN_OBJECT
-from ...settings.resolve import object_settings
+from ...settings.options import object_settings
 from ..tracking import updates
 
 MAX_SAMPLES = 200  # for a shape-key mix: with more keys each frame is measured

@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Balance groups: objects whose center of mass was followed over frames, as keys of an empty.
 
-The path is drawn from the empty's keys, so that it is the same when the file is opened again. The support polygons are
-remembered while the file is open.
+The path is drawn from these keys. The support polygons are remembered while the file is open.
 """
 
 from __future__ import annotations
@@ -56,14 +55,14 @@ _supports: SessionCache[Mapping[int, Support]] = SessionCache()
 
 
 def groups(scene: bpy.types.Scene) -> Iterator[Object]:
-    """Yield the empties of a scene that show balance groups."""
+    """Yield the empties of a scene that hold balance groups."""
     for obj in scene.objects:
         if obj.type == "EMPTY" and BALANCE_GROUP in obj:
             yield obj
 
 
 def find(scene: bpy.types.Scene, objects: Iterable[Object]) -> Object | None:
-    """Return the empty that shows these objects, None if there is none."""
+    """Return the empty of these objects' balance group, None if there is none."""
     text = group_text(objects)
     return next((empty for empty in groups(scene) if empty[BALANCE_GROUP] == text), None)
 
@@ -126,7 +125,7 @@ def path(empty: Object) -> Path | None:
 
 
 def support(empty: Object, frame: int) -> Support | None:
-    """Return the support polygon of a group at a frame, or None if none is remembered."""
+    """Return the support polygon of a group at a frame, or None if none is cached."""
     return (_supports.get(empty) or {}).get(frame)
 
 
