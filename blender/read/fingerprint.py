@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import struct
+from array import array
 from dataclasses import replace
 
 import bpy
@@ -16,6 +17,7 @@ from mathutils import Matrix
 
 from ...core.measurement.settings import Settings, digest
 from ..settings.density import density_key
+from ..settings.given import COLLIDER
 from ..settings.options import object_settings
 
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
@@ -83,6 +85,18 @@ def scale_hash(obj: bpy.types.Object) -> str:
     products = [sum([i * j for i, j in zip(a, b)]) for a in axes for b in axes]
     largest = max(map(abs, products)) or 1.0
     return digest(struct.pack("<9d", *[round(product / largest * 1e5) / 1e5 + 0.0 for product in products]))
+
+
+def colliders_digest(obj: bpy.types.Object) -> str:
+    """Return a digest of the meshes and places of an object's colliders."""
+    parts = []
+    for child in obj.children:
+        if COLLIDER in child:
+            points = array("f", bytes(12 * len(child.data.vertices)))
+            child.data.vertices.foreach_get("co", points)
+            places = matrix_bytes(child.matrix_parent_inverse) + matrix_bytes(child.matrix_basis)
+            parts.append(digest(places + points.tobytes()))
+    return digest("".join(sorted(parts)).encode())
 
 
 def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:

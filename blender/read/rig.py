@@ -16,6 +16,8 @@ from .fingerprint import matrix_bytes, settings_hash
 from .tracking import tracking_paused
 from .visibility import measurable
 
+HOLDING = {"CHILD_OF", "COPY_TRANSFORMS", "COPY_LOCATION", "ARMATURE"}  # constraints that put objects into a hand
+
 
 @contextmanager
 def rest_pose(context: Context, armature: Object) -> Iterator[Depsgraph]:
@@ -57,6 +59,30 @@ def hanging_objects(armature: Object, skinned: Iterable[Object]) -> list[tuple[O
                 if obj not in skinned and measurable(obj):
                     found.append((obj, child.parent_bone))
     return found
+
+
+def held_objects(armature: Object, depsgraph: Depsgraph) -> list[tuple[Object, str]]:
+    """Return (object, bone) of measurable objects that a constraint holds to a bone as evaluated, and their children.
+
+    Objects that the armature deforms, and those parented to its bones, are parts of the character already.
+    """
+    found: dict[Object, str] = {}
+    for obj in depsgraph.view_layer.objects:
+        bone = _holding_bone(obj, armature, depsgraph) if len(obj.constraints) else ""
+        if bone and not obj.hide_render:
+            found.update((one, bone) for one in (obj, *obj.children_recursive) if measurable(one))
+    own = rig_objects(armature, depsgraph.view_layer.objects) if found else ()
+    return [(obj, bone) for obj, bone in found.items() if obj not in own]
+
+
+def _holding_bone(obj: Object, armature: Object, depsgraph: Depsgraph) -> str:
+    """Return the bone that a constraint holds an object to, or "" if there is none."""
+    for constraint in obj.evaluated_get(depsgraph).constraints:
+        if constraint.type in HOLDING and not constraint.mute and constraint.influence > 0.0:
+            for target in constraint.targets if constraint.type == "ARMATURE" else (constraint,):
+                if target.target is not None and target.target.original == armature and target.subtarget:
+                    return target.subtarget
+    return ""
 
 
 def rig_hash(armature: Object, objects: Iterable[Object], scene: Scene) -> str:

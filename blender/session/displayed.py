@@ -7,9 +7,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
+from ...core.lazy import loaded_module
 from ...core.measurement.trust import Trust, open_body_caveats, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
@@ -88,6 +90,9 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
     scene: sets the unit scale.
     """
+    weighed = _weighed(obj, scene) if obj.type == "ARMATURE" else None
+    if weighed is not None:
+        return weighed
     if obj.type == "ARMATURE" and armatures.stands_for_meshes(obj):
         total = _as_one(obj, scene, [displayed(mesh, scene) for mesh in armatures.deformed_meshes(obj)])
         if total is not None:
@@ -205,6 +210,21 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     own = world.in_object(armature.matrix_world, unit)
     worst = max(known, key=lambda part: tuple(Trust).index(part.trust))
     return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
+
+
+def _weighed(armature: Object, scene: Scene) -> Displayed | None:
+    """Return a character whose weight is shown, by its bones in the present pose; None for others."""
+    depsgraph, character = bpy.context.view_layer.depsgraph, loaded_module(live, "character")
+    if not armature.body_moments_weight.show or character is None or depsgraph is None:
+        return None
+    weight = character.weight(armature, depsgraph)
+    if weight is None:
+        return None
+    unit = shortest_decimal(scene.unit_settings.scale_length)
+    method, findings, reason = properties.method(armature), properties.findings(armature), stale_reason(armature, scene)
+    trust = trust_of(method, findings) if reason is None else Trust.OUT_OF_DATE
+    own = weight.body.in_object(armature.matrix_world, unit)
+    return Displayed(own, weight.body, unit, method, findings, trust, reason, is_posed=True)
 
 
 def shown_objects(context: Context) -> list[Object]:

@@ -23,14 +23,18 @@ from ..bodies.stacks.stack import Stacked
 from ..read.tracking import tracking_paused
 from ..scene import reframe
 from ..scene.changes import require_storable_data
+from ..scene.colliders import colliders_by_body
 from ..scene.findings import OPEN_OBJECT, RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
 from ..scene.rigid_world import MIN_MASS, add_joint, add_rigid_bodies, remove_joint, require_rigid_world
 from ..scene.snap_targets import POSE, SnapTarget, matrix_along_axes, matrix_at_center
+from ..settings.given import COLLIDER
 from ..write import properties, reports
 from .snapping import store_measured
 from .stored import assembly
 from .tracking import staleness
 
+# Blender's collision shapes of colliders that are primitives; all others are convex hulls.
+COLLISION_SHAPES = {"box": "BOX", "sphere": "SPHERE", "capsule": "CAPSULE", "cylinder": "CYLINDER"}
 PROBE_DENSITY = 1e6  # for Calculate Mass: high, as Blender's rigid bodies weigh no less than a gram
 
 
@@ -133,15 +137,19 @@ def _place(context: Context, measured: dict[Object, Measured], frame: str) -> li
 def _add(context: Context, measured: dict[Object, Measured], type: str, shape: str) -> list[Object]:
     """Add rigid bodies and set collision shapes. Return the objects that had no rigid body before."""
     parts = [part for one in measured.values() for part in (one.body.obj, *one.body.members)]
+    colliders = colliders_by_body(context.scene.objects) if shape == "KEEP" else {}
+    added = [collider for part in parts for collider in colliders.get(part, ())]
     new = [obj for obj in parts if obj.rigid_body is None]
-    add_rigid_bodies(context, new, type)
+    add_rigid_bodies(context, [*new, *(obj for obj in added if obj.rigid_body is None)], type)
+    for collider in added:
+        collider.rigid_body.collision_shape = COLLISION_SHAPES.get(collider[COLLIDER]["kind"], "CONVEX_HULL")
     fresh = set(new)
     for one in measured.values():
         inner = {part.parent for part in one.body.members}
         for part in (one.body.obj, *one.body.members):
             if part in fresh:
                 part.rigid_body.collision_shape = "CONVEX_HULL"
-            if part in inner:
+            if part in inner or part in colliders:
                 part.rigid_body.collision_shape = "COMPOUND"
             elif shape != "KEEP":
                 part.rigid_body.collision_shape = shape

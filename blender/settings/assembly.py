@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of the mass of an assembly, and of a pose bone.
+"""The settings of the masses of assemblies and of pose bones, and of the weight of characters.
 
 An assembly is a collection, or an empty with its children; the rows of its tree are kept beside its settings.
 """
@@ -91,11 +91,51 @@ class BodyMomentsBoneSettings(PropertyGroup):
         "Density in kg/m³ of what is skinned to the bone, independent of the scene units", part_changed
     )
     mass: mass_property("Mass of the bone's part in kilograms, independent of the scene units", part_changed)
+    is_contact: BoolProperty(
+        name="Contact",
+        description="Only such bones touch the ground. If no bone of the armature is one, every bone may",
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
 
 
-CLASSES = (BodyMomentsAssemblyRow, BodyMomentsAssemblySettings, BodyMomentsBoneSettings)
+class BodyMomentsWeightSettings(PropertyGroup):
+    """Settings of an armature's weight: what the viewport shows, its total mass and its ground."""
+
+    show: BoolProperty(
+        name="Weight",
+        description="Draw center of mass, plumb line and support polygon of the character as it is posed",
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
+    mass: FloatProperty(
+        name="Total Mass",
+        description="Mass of all bones in kilograms; those with a mass of their own keep it. At 0, the measured mass",
+        default=0.0,
+        min=0.0,
+        step=10,
+        precision=3,
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
+    ground: FloatProperty(
+        name="Ground",
+        description="Height of the ground, against gravity from the world origin. Show Weight finds it",
+        unit="LENGTH",
+        override={"LIBRARY_OVERRIDABLE"},
+        update=part_changed,
+    )
+
+
+CLASSES = (
+    BodyMomentsAssemblyRow,
+    BodyMomentsAssemblySettings,
+    BodyMomentsBoneSettings,
+    BodyMomentsWeightSettings,
+)
 POINTERS = {
     (Collection, "body_moments"): BodyMomentsAssemblySettings,
     (Object, "body_moments_assembly"): BodyMomentsAssemblySettings,
+    (Object, "body_moments_weight"): BodyMomentsWeightSettings,
     (PoseBone, "body_moments"): BodyMomentsBoneSettings,
 }

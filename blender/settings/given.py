@@ -16,6 +16,8 @@ from .hooks import Hook, changed
 
 GIVEN_PROPERTIES = ("use_center", "given_center", "use_inertia", "given_inertia_diagonal", "given_inertia_products")
 Row = tuple[float, ...]
+COLLIDER = "body_collider"  # ID property of a collider: kind, size in m and mass in kg; its parent is the body
+COLLIDERS = "body_colliders"  # ID property of a body with colliders: what they do to its physics
 
 
 def mass_property(description: str, update: Hook, name: str = "Mass") -> Any:

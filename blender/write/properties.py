@@ -82,6 +82,7 @@ LENGTHS = {
     "body_error_bound": 8,
 }
 BALANCE_GROUP = "body_balance_group"  # on an empty that shows a group: the names of its objects, one a line
+BALANCE_SPANS = "body_balance_spans"  # on it: first frame, last frame, N·s and N·m·s from nothing, span after span
 OPTIONAL = ("body_length", "body_display_volume")  # for wires, and for bodies measured without their display mesh
 ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 

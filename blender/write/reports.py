@@ -25,6 +25,14 @@ MAX_REPORTED = 3  # findings that a report names; it counts the others
 LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "ERROR"}
 
 
+class Refused(Exception):
+    """The reason why an operator does nothing: an English text, filled with values."""
+
+    def __init__(self, text: str, **values: Any):
+        super().__init__(text)
+        self.text, self.values = text, values
+
+
 def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
     """Return an interface text, translated and filled as sentences are; plural: for a `count` other than 1."""
     return fill(template, plural, values, bpy.app.translations.pgettext_rpt, _length)

@@ -12,6 +12,7 @@ from typing import Any
 
 import bpy
 
+from ...blender import session
 from ...blender.bodies.measure_object import Measured
 from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.total_caveats import operands_of, total_caveats
@@ -19,6 +20,7 @@ from ...blender.read.tracking import tracking_paused
 from ...blender.session.tracking.staleness import mark_up_to_date
 from ...blender.settings import properties as settings
 from ...blender.settings.density import unset_density
+from ...blender.settings.given import COLLIDERS
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.findings import FILE_NOT_WRITTEN
 from ...blender.write.properties import store
@@ -208,6 +210,8 @@ class Scene:
             *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
         )
         named = replace(measurement, name=label, findings=findings)
+        colliders = session.colliders.collider_record(obj, measurement, bpy.context) if COLLIDERS in obj else None
+        more |= {} if colliders is None else {"colliders": colliders}
         if self.options.thumbnails:
             more["thumbnail"] = thumbnail_of(obj, measurement, measure_options.unit_scale)
         return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)

@@ -15,6 +15,7 @@ from bpy.types import Object
 
 from ... import read
 from ...read.tracking import tracking_paused
+from ...settings.given import COLLIDER
 from ...write import properties
 from . import handlers, staleness
 from .cache import SessionCache, current_value
@@ -41,9 +42,13 @@ def deformed_meshes(armature: Object) -> tuple[Object, ...]:
 
 
 def subjects(objects: Iterable[Object]) -> list[Object]:
-    """Return original objects, each once, with the deformed meshes in place of posed armatures."""
+    """Return original objects, each once, with the deformed meshes in place of posed armatures.
+
+    Colliders are left out, unless nothing else is among the objects.
+    """
     found: dict[Object, None] = {}
-    for obj in objects:
+    chosen = list(objects)
+    for obj in [obj for obj in chosen if COLLIDER not in obj] or chosen:
         found.update(dict.fromkeys(deformed_meshes(obj) if stands_for_meshes(obj) else (obj,)))
     return list(found)
 

@@ -26,8 +26,9 @@ from bpy.types import Collection, Context, Depsgraph, Object, Scene
 from ....core.measurement.settings import VERSION, digest
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
-from ...read.fingerprint import has_transform, matrix_hash, scale_hash, settings_hash
+from ...read.fingerprint import colliders_digest, has_transform, matrix_hash, scale_hash, settings_hash
 from ...read.tracking import tracking_paused
+from ...settings.given import COLLIDERS
 from ...write import properties
 from . import handlers, stamps, updates
 from .cache import SessionCache, current_value
@@ -89,6 +90,10 @@ def _has_unit(_obj: Object, stamp: Stamp, scene: Scene) -> bool:
     return stamp.extra == shortest_decimal(scene.unit_settings.scale_length)
 
 
+def _has_colliders(obj: Object, _stamp: Stamp, _scene: Scene) -> bool:
+    return obj[COLLIDERS].get("digest") == colliders_digest(obj)
+
+
 def _has_structure(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
     parts = _digests_of_parts(root, scene)
     return parts is None or stamp.settings == parts[0]
@@ -143,6 +148,12 @@ CHECKS = {
     Kind.MOMENTS: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
     Kind.HULL: ((Stale.GEOMETRY, _has_geometry),),
     Kind.SETTINGS: ((Stale.SETTINGS, _has_settings),),
+    Kind.COLLIDERS: (
+        (Stale.SETTINGS, _has_settings),
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.TRANSFORM, _has_transform),
+        (Stale.COLLIDERS, _has_colliders),
+    ),
 }
 
 

@@ -17,6 +17,7 @@ from bpy.types import Collection, Object
 
 from ....core.measurement.settings import VERSION
 from ....core.verdict.method import Verdict
+from ...settings.given import COLLIDERS
 from ...write import properties, section
 from .cache import SessionCache
 
@@ -35,6 +36,7 @@ class Stale(StrEnum):
     MEMBER = "A member changed, or was measured anew"
     MEMBERS = "Members were added, removed or moved, or given masses changed"
     BONES = "Bones, settings or objects changed"
+    COLLIDERS = "Colliders changed"
 
 
 class Kind(Enum):
@@ -45,6 +47,7 @@ class Kind(Enum):
     SYMMETRY = "symmetry"
     ASSEMBLY = "assembly"
     BONES = "bones"
+    COLLIDERS = "colliders"
     MOMENTS = "moments"  # in memory, as are the following
     HULL = "hull"
     SETTINGS = "settings"  # live numbers and failed measurements
@@ -117,17 +120,28 @@ def of_symmetry(obj: Object) -> Stamp | None:
     return Stamp.parse(text, Kind.SYMMETRY) if text else None
 
 
+def of_colliders(obj: Object) -> Stamp | None:
+    """Return the stamp of what an object's colliders do, None if there is none."""
+    group = obj.get(COLLIDERS)
+    text = str(group.get("fingerprint", "")) if hasattr(group, "get") else ""
+    return Stamp.parse(text, Kind.COLLIDERS) if text else None
+
+
 def with_geometry(obj: Object) -> dict[str, Kind]:
     """Return the texts and kinds of an original object's stamps, except those of assemblies and bones."""
-    found = [of_results(obj), of_section(obj), of_symmetry(obj), *(_carried.get(obj) or {}).values()]
+    found = [*_stored(obj), *(_carried.get(obj) or {}).values()]
     return {
         stamp.text: stamp.kind for stamp in found if stamp is not None and stamp.kind not in (Kind.ASSEMBLY, Kind.BONES)
     }
 
 
+def _stored(obj: Object) -> tuple[Stamp | None, ...]:
+    return of_results(obj), of_section(obj), of_symmetry(obj), of_colliders(obj)
+
+
 def write_edited(obj: Object, edited: Container[str]) -> None:
     """Put EDITED into the stored stamps of an original, editable object whose texts are in `edited`."""
-    for stamp in (of_results(obj), of_section(obj), of_symmetry(obj)):
+    for stamp in _stored(obj):
         if stamp is None or not stamp.version or stamp.text not in edited:
             continue
         text = stamp._replace(geometry=EDITED).text
@@ -135,5 +149,7 @@ def write_edited(obj: Object, edited: Container[str]) -> None:
             obj.body_moments_symmetry.fingerprint = text
         elif stamp.kind == Kind.SECTION:
             obj[section.KEY]["fingerprint"] = text
+        elif stamp.kind == Kind.COLLIDERS:
+            obj[COLLIDERS]["fingerprint"] = text
         else:
             obj["body_fingerprint"] = text
