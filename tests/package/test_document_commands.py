@@ -67,6 +67,10 @@ def runnable_of(document: Path) -> list[str]:
     return [text for text in commands_of(document) if USAGE not in text and not text.startswith(tuple(NOT_RUN))]
 
 
+def blocks_of(document: str, language: str = "python") -> list[str]:
+    return re.findall(r"```{}\n(.*?)```".format(language), (ROOT / "docs" / document).read_text(encoding="utf-8"), re.S)
+
+
 def write_script(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -117,6 +121,7 @@ def made(tmp_path_factory):
     save_cube(folder / "demo/bracket.blend", "Bracket")
     header = "NRRD0004\ntype: float\ndimension: 3\nsizes: 4 4 4\nencoding: raw\nendian: little\nspacings: 1 1 1\n\n"
     (folder / "scan.nrrd").write_bytes(header.encode() + np.ones(64, "<f4").tobytes())
+    (folder / "swing.py").write_text(blocks_of("tutorial-arm.md")[0])
     (folder / "arm.urdf").write_text(URDF)
     (folder / "gripper.xml").write_text(MJCF)
     done = run("blender -b -c body_moments measure parts/ --format jsonl --output old.jsonl", folder)
@@ -176,6 +181,26 @@ def test_corner_of_the_hypercube_has_the_printed_moments(made, tmp_path):
     moments = json.loads(record)["moments"]
     assert moments["0,0,0,0"] == pytest.approx(1 / 24, rel=1e-14)
     assert moments["1,0,0,0"] == pytest.approx(1 / 120, rel=1e-14)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs a shell of POSIX")
+@pytest.mark.parametrize("simulator", ["mujoco", "pybullet", "newton"])
+def test_arm_of_the_tutorial_falls_as_printed(made, tmp_path, simulator):
+    """Pythons with simulators: this one, that of the tests of robots, and those that BODY_MOMENTS_SIMULATORS names."""
+    named = os.environ.get("BODY_MOMENTS_SIMULATORS", "").split(os.pathsep)
+    pythons = [sys.executable, str(ROOT / ".envs" / "robots" / "bin" / "python"), *filter(None, named)]
+    finds = "import importlib.util, sys; sys.exit(importlib.util.find_spec('{}') is None)".format(simulator)
+    able = [one for one in pythons if Path(one).exists() and not subprocess.run([one, "-c", finds]).returncode]
+    if not able:
+        pytest.skip("needs a simulator: " + simulator)
+    folder = tmp_path / "checkout"
+    shutil.copytree(made, folder, symlinks=True)
+    for command in runnable_of(ROOT / "docs" / "tutorial-arm.md"):
+        assert run(command, folder).returncode == 0, command
+    (code,) = [block for block in blocks_of("tutorial-arm.md") if "import {}\n".format(simulator) in block]
+    done = subprocess.run([able[0], "-c", code], cwd=folder, capture_output=True, encoding="utf-8")
+    (printed,) = blocks_of("tutorial-arm.md", "text")
+    assert done.returncode == 0 and done.stdout.splitlines()[-1].endswith(": " + printed.strip()), done
 
 
 def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
