@@ -11,6 +11,7 @@ import stat
 import subprocess
 import sys
 from pathlib import Path
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -213,6 +214,22 @@ def test_python_for_blender_prints_the_cubes_moments(registered, capsys):
     mass, numbers = capsys.readouterr().out.strip().splitlines()[-2:]
     assert float(mass) == pytest.approx(8000.0)
     assert numbers.startswith("exact") and float(numbers.split()[-2]) == pytest.approx((2 / 5) ** 3)
+
+
+def test_notebook_example_prints_and_draws_a_part(registered, capsys, tmp_path, monkeypatch):
+    """A stand-in for matplotlib takes the lines; the numbers are those of a cube of 40 mm."""
+    write_cube(tmp_path / "part.stl", 40.0)
+    monkeypatch.chdir(tmp_path)
+    plt = MagicMock()
+    for name in ("matplotlib", "matplotlib.pyplot"):
+        monkeypatch.setitem(sys.modules, name, plt)
+    plt.pyplot = plt
+    examples = [block for block in blocks_of("python.md") if "part.stl" in block or "matplotlib" in block]
+    exec(compile("\n".join(examples), "python.md", "exec"), {})
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "exact []" and lines[1].startswith("mass 0.1728 kg, center [0.02 0.02 0.02]")
+    drawn = plt.figure.return_value.add_subplot.return_value.plot.call_args_list
+    assert len(drawn) == 3 and np.ptp(np.transpose(drawn[0].args), axis=0).max() < 0.04
 
 
 def test_agents_get_the_printed_answer(registered, capsys):
