@@ -25,7 +25,8 @@ from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
 from . import audit_gate
-from .options import option_types, targets
+from .files import output
+from .options import option_types
 from .parser import COMMANDS, Parser
 from .supervisor.progress import Progress
 
@@ -53,10 +54,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     add = parser.add_argument
     add("command", metavar="audit")
     add("files", nargs="+", type=Path, metavar="FILE")
-    for name, told in (
-        ("--package-path", "packages and meshes may be in it; repeatable"),
-        ("--root", argparse.SUPPRESS),
-    ):
+    where = "packages and meshes may be in it; repeatable"
+    for name, told in (("--package-path", where), ("--root", argparse.SUPPRESS)):
         add(name, dest="root", action="append", type=Path, default=[], metavar="FOLDER", help=told)
     add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")
     add("--repair", type=Path, metavar="FOLDER", help="write repaired copies there, of what has a repair")
@@ -91,7 +90,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
             parser.error("--baseline: {} cannot be read: {}".format(options.baseline, error))
     if options.repair is not None:
         _check_repair(options, parser)
-    targets.check_targets(options, [*options.names], parser.error)
+    output.check_targets(options, [*options.names], parser.error)
     return options
 
 

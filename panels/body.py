@@ -99,7 +99,7 @@ def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
     _verdict(layout, text, "GROUP", shown.trust)
     posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
     numbers = shown.numbers if posed is None else posed.world
-    _answer(layout, context, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume)
+    _answer(layout, context, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume if shown.count else None)
     material_row(layout, context, context.object)
     _buttons(layout, context)
     if posed is not None and properties.optional(context.object, "body_mass") is not None:

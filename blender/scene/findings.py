@@ -71,6 +71,12 @@ BOUND_TO_ARMATURE = error(
     "bound_to_armature",
     "Bound to the armature “{armature}”, which would not move along. Rotate the armature, or apply its modifier.",
 )
+OWN_AXES_USED = error(
+    "own_axes_used", "“{cause}” depends on the object's own origin or axes, which would change. Apply or remove it."
+)
+COPY_DIFFERS = error(
+    "copy_differs", "Equal to “{object}” in shape, but not in {aspects}. Allow that under May Differ, or make it equal."
+)
 SHAPE_WOULD_CHANGE = error(
     "shape_would_change", "The shape would change. Apply the scale, or use Object > Convert > Mesh."
 )
