@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
-from bpy.types import Context, Depsgraph, Object
+from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
@@ -27,6 +27,7 @@ from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
 from ...write import properties
+from ...write.reports import Refused
 from .. import stored
 from ..tracking import handlers
 from ..tracking.armatures import deformed_meshes
@@ -37,6 +38,7 @@ from .motion import Motion
 REACH = 0.01  # contact with the ground within this height, relative to the character's size
 OUTLINE = 1e-4  # corners of the support polygon, relative to its extent, that count
 UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a weight
+NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,8 +280,16 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
 
 
+def require_gravity(scene: Scene) -> None:
+    """Raise Refused if nothing weighs anything in a scene."""
+    if not (scene.use_gravity and any(scene.gravity)):
+        raise Refused(NO_GRAVITY)
+
+
 def prepare(context: Context, armature: Object) -> Rig | None:
     """Measure a character unless its results are up to date; find its ground unless it is shown. Return a new Rig."""
+    if not armature.body_moments_weight.show:
+        require_gravity(context.scene)
     is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
     rig = None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
     if not armature.body_moments_weight.show:
