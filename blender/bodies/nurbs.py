@@ -122,40 +122,14 @@ def read(request: Request) -> Reading:
 def body(reading: Reading, request: Request) -> Body:
     """Return the body that patches bound, or their sheets or walls, or raise MeasureError if there is none."""
     settings = request.settings
-    return nurbs_body(
-        reading,
-        settings.unit,
-        wall=settings.wall if settings.kind == "shell" else None,
-        thickness=settings.thickness,
-        union=settings.overlap == "union",
-        threads=settings.threads,
-        compare=settings.compare,
-    )
-
-
-def nurbs_body(
-    reading: Reading,
-    unit: float,
-    *,
-    wall: str | None,
-    thickness: float,
-    union: bool,
-    threads: int,
-    compare: bool,
-) -> Body:
-    """Return the body bounded by an object's surfaces, at least one of them a B-spline patch, or their sheets.
-
-    unit: meters per Blender unit. wall: of a shell, as in `MeasureOptions`; None for solids. thickness: m. union:
-    shells that overlap are united, which needs polygons. compare: also measure the volume of the display mesh.
-    MeasureError if there is nothing to measure.
-    """
-    if wall is not None:
-        return _sheet_body(reading, unit, wall, thickness, threads)
+    unit, threads = settings.unit, settings.threads
+    if settings.kind == "shell":
+        return _sheet_body(reading, unit, settings.wall, settings.thickness, threads)
     if reading.all_singular:
         raise ReadError(ZERO_SCALE)
     patch_parts, meshes = _split_parts(reading)
     measures = [measure_patches(_patches(part), area_order=3, stored=_stored(part)) for part in patch_parts]
-    if union and (reading.instance_count > 1 or measures[0].health.components > 1):
+    if settings.overlap == "union" and (reading.instance_count > 1 or measures[0].health.components > 1):
         united = mesh_body(reading, unit, shell=False, union=True, threads=threads)
         return replace(united, findings=(finding(DISPLAY_MESH_NEEDED, purpose="a union"), *united.findings))
     rest = mesh_body(meshes, unit, shell=False, union=False, threads=threads) if meshes.parts else None
@@ -174,7 +148,7 @@ def nurbs_body(
         healths.append((rest.health, 1, rest.area.total))
         verdicts.append(rest.method.verdict)
     display = None
-    if compare:
+    if settings.compare:
         with suppress(MeasureError):  # a display mesh that cannot be measured compares with nothing
             display = mesh_body(reading, unit, shell=False, union=False, threads=threads).volume.total
     return PatchBody(
@@ -271,13 +245,7 @@ def _sheet_body(reading: Reading, unit: float, wall: str, thickness: float, thre
         healths.append((polygons.health, 1, polygons.area.total))
         findings += polygons.findings
     area = sum_moments(areas)
-    nothing = replace(
-        area,
-        raw=np.zeros_like(area.raw),
-        rounding_error=np.zeros_like(area.raw),
-        input_error=np.zeros_like(area.raw),
-        measure=Measure.VOLUME,
-    )
+    nothing = Moments(np.zeros_like(area.raw), area.about, Measure.VOLUME)
     common = (nothing, area, merge_health(healths), Method(Verdict.SHELL, _source(reading)), tuple(each_once(findings)))
     if wall != "thin":
         return Body(*common, wall=sum_moments(sheets), estimated=True)

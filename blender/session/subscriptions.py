@@ -13,17 +13,11 @@ from .live.following import followed
 from .stored import outcome
 from .tracking import armatures, handlers, staleness, updates
 
-
-def _follow_live(events: handlers.Updates) -> None:
-    if len(followed):
-        live.live.note_updates(events)
-
-
 SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_update, updates.note_updates),
     (handlers.on_update, armatures.note_updates),
     (handlers.on_update, displayed.note_updates),
-    (handlers.on_update, _follow_live),
+    (handlers.on_update, lambda events: live.live.note_updates(events) if len(followed) else None),
     (handlers.on_note, displayed.forget_drawn),
     (handlers.before_undo, staleness.note_all_edits),
     (handlers.on_undo, updates.note_undo),

@@ -16,6 +16,7 @@ from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Reading, to_si
 from ....core.density.polynomial import Polynomial
 from ....core.density.polynomial_mass import find_negative_point, local_coordinates, polynomial_mass_of_images
+from ....core.measurement.settings import Settings
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import translation_matrices
 from ....core.moments.moments import Moments
@@ -43,10 +44,10 @@ class _Piece:
 
 
 def polynomial_mass_result(
-    reading: Reading, body: MeshBody, density: DensityField, *, unit: float, shell: bool, threads: int, order: int
+    reading: Reading, body: MeshBody, density: DensityField, settings: Settings, order: int
 ) -> tuple[list[Moments], list[Finding]]:
     """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
-    polynomial, findings = _polynomial(density), []
+    polynomial, findings, unit, shell = _polynomial(density), [], settings.unit, settings.kind == "shell"
     pieces = list(
         _sheet_pieces(reading, density.in_world, unit)
         if shell
@@ -64,7 +65,7 @@ def polynomial_mass_result(
             area_order=order if shell else None,
             about=piece.about,
             exact=True,
-            threads=threads,
+            threads=settings.threads,
             allow_open=True,
         )
         moments = volume if area is None else area

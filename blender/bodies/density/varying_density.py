@@ -117,10 +117,8 @@ def _thickness(request: Request) -> float:
 
 
 def _by_polynomial(reading: Reading, body: MeshBody, request: Request, order: int) -> _Weighed:
-    density, shell = _field(request), request.settings.kind == "shell"
-    parts, findings = polynomial_mass_result(
-        reading, body, density, unit=request.settings.unit, shell=shell, threads=request.settings.threads, order=order
-    )
+    density = _field(request)
+    parts, findings = polynomial_mass_result(reading, body, density, request.settings, order)
     mass = sum_moments(parts) * _thickness(request)
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError(MASS_OVERFLOW)
