@@ -3,7 +3,7 @@
 """Operators on characters: the parts of their bones, rigid bodies for them, their center of mass and balance."""
 
 from bpy.props import EnumProperty, FloatProperty, StringProperty
-from bpy.types import Context, Operator, Scene
+from bpy.types import Context, Operator
 
 from ..blender import bodies, read, scene, session
 from ..blender.bodies.findings import BONE_PARTS_IMPOSSIBLE
@@ -17,7 +17,7 @@ from . import selection
 from .assembly import report_cleared
 
 NOTABLE = Severity.WARNING, Severity.ERROR
-NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
+BALANCED = "Nothing to do: the center of mass is over its target"
 
 
 class OnArmature:
@@ -36,11 +36,6 @@ class InPoseMode:
     def poll(cls, context: Context) -> bool:
         is_posed = context.object is not None and stands_for_meshes(context.object)
         return is_posed or reports.unavailable(cls, "Select an armature, and switch to Pose Mode")
-
-
-def has_gravity(scene: Scene) -> bool:
-    """Return whether anything weighs something in a scene."""
-    return scene.use_gravity and any(scene.gravity)
 
 
 class OBJECT_OT_body_moments_measure_bones(OnArmature, Operator):
@@ -137,8 +132,6 @@ class POSE_OT_body_moments_show_weight(InPoseMode, Operator):
     def execute(self, context: Context) -> set[str]:
         armatures = [obj for obj in context.selected_objects if stands_for_meshes(obj)] or [context.object]
         shown = not context.object.body_moments_weight.show
-        if shown and not has_gravity(context.scene):
-            return selection.refuse(self, NO_GRAVITY)
         rigs = list(filter(None, [live.character.prepare(context, armature) for armature in armatures]))
         shown = shown or bool(rigs)  # numbers that were out of date are shown anew
         for armature in armatures:
@@ -177,18 +170,12 @@ class POSE_OT_body_moments_balance_pose(InPoseMode, Operator):
 
     @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        if not has_gravity(context.scene):
-            return selection.refuse(self, NO_GRAVITY)
-        if self.bone and self.bone not in context.object.pose.bones:
-            return selection.refuse(self, "There is no bone “{name}”. Choose another one.", name=self.bone)
         margin = self.margin if self.target == "INSIDE" else None
-        text, values = session.balance_pose(context, context.object, self.bone, margin)
-        is_moved = text == session.MOVED
-        if not (is_moved or text == session.BALANCED):
-            return selection.refuse(self, text, **values)
-        selection.report(self, reports.phrase(text, **values))
+        values = session.balance_pose(context, context.object, self.bone, margin)
+        text = "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside the support"
+        selection.report(self, reports.phrase(text if values else BALANCED, **values))
         selection.redraw(context)
-        return {"FINISHED" if is_moved else "CANCELLED"}
+        return {"FINISHED" if values else "CANCELLED"}
 
 
 CLASSES = (

@@ -220,6 +220,7 @@ class KeyedFlight(ModalDialog, OnArmature):
 
     bl_options = {"REGISTER", "UNDO"}
     PROGRESS = "Following the character: {share:percent}. Esc to cancel"
+    CANCELED = "Following canceled; nothing was changed"
     TURNS = False
     DONE = ""
     blend, keep = 0, "TIMES"  # properties of subclasses
@@ -281,7 +282,6 @@ class POSE_OT_body_moments_parabola(KeyedFlight, Operator):
 
     bl_idname = "pose.body_moments_parabola"
     bl_label = "Put on Parabola"
-    CANCELED = "Put on Parabola canceled; nothing was changed"
     DONE = "The center of “{name}” falls freely from frame {start} to {end}"
 
     keep: EnumProperty(
@@ -300,7 +300,6 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
 
     bl_idname = "pose.body_moments_keep_spin"
     bl_label = "Keep Spin"
-    CANCELED = "Keep Spin canceled; nothing was changed"
     DONE = "“{name}” keeps its angular momentum from frame {start} to {end}"
     TURNS = True
 
@@ -316,8 +315,7 @@ class KeyedPath(ModalSteps, OnArmature):
     """Base of operators that key the path of a character's center on an empty."""
 
     bl_options = {"REGISTER", "UNDO"}
-    PROGRESS = KeyedFlight.PROGRESS
-    CANCELED = "Following canceled; nothing was changed"
+    PROGRESS, CANCELED = KeyedFlight.PROGRESS, KeyedFlight.CANCELED
     CURVES = False
 
     def _begin(self, context: Context) -> int:

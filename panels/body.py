@@ -216,7 +216,8 @@ class ApplyPanel:
         button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not obj.rigid_body
         rows.button(layout, context, "object.body_moments_add_nodes", "GEOMETRY_NODES")
-        rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
+        if context.mode == "EDIT_MESH":
+            rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
 VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel)

@@ -61,10 +61,11 @@ class CollidersPanel:
         )
         rows.title(layout, "Off by")
         column = layout.column(align=True)
-        rows.quantities(column, units, [("Center", "length", dist(stored["center_shift"], (0.0, 0.0, 0.0)))])
+        lengths = dist(stored["center_shift"], (0.0, 0.0, 0.0)), stored["outward"], stored["inward"]
+        size = max(body.dimensions) * context.scene.unit_settings.scale_length  # rounding is shown as 0
+        rows.values(column, units, ("Center", "Outward", "Inward"), "length", lengths, size)
         turn = degrees(stored["axes_turn"])
-        rows.table(column, [("Axes", "{:.4g}°".format(turn), repr(turn), "")])
-        rows.quantities(column, units, [(label, "length", stored[label.lower()]) for label in ("Outward", "Inward")])
+        rows.table(column, [("Axes", "{:.3f}°".format(turn), repr(turn), "")])
 
 
 def _body(obj: Object) -> Object:

@@ -67,6 +67,7 @@ def _density_source(column: UILayout, settings: PropertyGroup) -> None:
         rows.setting(column, settings, "density_from")
         return
     grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    grid.use_property_split = False  # each choice has its name on it
     for source in ("VALUE", "MATERIALS", "ATTRIBUTE", "VOLUME"):
         grid.prop_enum(settings, "density_from", source)
 

@@ -39,7 +39,7 @@ from .findings import (
     DENSITY_COORDINATES,
     FOLLOWS_MOVED,
     MODIFIERS_CHANGE_SHAPE,
-    RENDER_ONLY_MODIFIER,
+    OWN_AXES_USED,
     SHAPE_WOULD_CHANGE,
     SHOWS_INSTANCES,
     TRANSFORM_CONSTRAINED,
@@ -100,7 +100,7 @@ def check(obj: Object) -> None:
         if modifier.show_render and not modifier.show_viewport and modifier.type not in FRAME_INDEPENDENT_MODIFIERS
     ]
     if unseen:
-        raise EditRefusedError(RENDER_ONLY_MODIFIER, modifier=unseen[0])
+        raise EditRefusedError(OWN_AXES_USED, cause=unseen[0])
     if density_anchor(obj) == "own":
         raise EditRefusedError(DENSITY_COORDINATES, frame="object")
     if abs(np.linalg.det(world(obj)[:3, :3])) == 0.0:

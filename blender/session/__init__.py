@@ -6,10 +6,8 @@ from ...core.lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    BALANCED="pose_balance",
     BalanceGroup="balance_group",
     CharacterMotion="character_motion",
-    MOVED="pose_balance",
     SimilarSearch="similar",
     balance_pose="pose_balance",
     bill_csv="bill",

@@ -76,10 +76,8 @@ class CharacterMotion(BalanceGroup):
 
     def clear(self, rows: Sequence[int] = ()) -> None:
         """Forget all frames but those of some rows."""
-        lists = [self.centers, self.supports, self._parts]
-        lists += [] if self.carrier is None else [self.carrier.world, self.carrier.basis, self.carrier.values]
-        for one in lists:
-            one[:] = [one[row] for row in rows]
+        for kept in (self.centers, self.supports, self._parts, [] if self.carrier is None else self.carrier.frames):
+            kept[:] = [kept[row] for row in rows if kept]
 
     def _add_frame(self, _motion: object, depsgraph: Depsgraph) -> None:
         parts, down = self.known.pose(self.armature, depsgraph), stability.down(depsgraph.scene)
@@ -135,7 +133,7 @@ class CharacterMotion(BalanceGroup):
         yield from self.follow(scene, frames)
         if self.failure is not None:
             return
-        self.first, self.last = flight or self._find_flight(frames, scene.frame_current)
+        self.first, self.last = flight or self._find_flight(scene.frame_current)
         count, rows = self.last - self.first, slice(self.first - frames[0], self.last - frames[0] + 1)
         if keep_height:
             count = max(2, round(motion.frames_of_height(np.array(self.centers[rows]), self.step, self.gravity)))
@@ -148,9 +146,9 @@ class CharacterMotion(BalanceGroup):
             self.clear()
             yield from (len(frames) for _ in self.follow(scene, self.times))
 
-    def _find_flight(self, frames: range, current: int) -> tuple[int, int]:
+    def _find_flight(self, current: int) -> tuple[int, int]:
         """Return take-off and landing of the flight at the current frame, else of the longest one."""
-        touching = self.touching
+        touching, frames = self.touching, self.frames
         found = [flight for flight in motion.find_flights(touching) if touching[list(flight)].all()]
         if not found:
             raise Refused(NO_FLIGHT, name=self.armature.name, start=frames[0], end=frames[-1])
@@ -218,14 +216,12 @@ class CharacterMotion(BalanceGroup):
 class Carrier:
     """A root bone or an armature object whose location and rotation carry all parts of a character.
 
-    world, basis: its (4, 4) matrices at each frame so far, in the world and of its channels. values: of the channels.
+    frames: its (4, 4) matrices in the world and of its channels, and the values of these, at each frame so far.
     """
 
     armature: Object
     owner: PoseBone | Object
-    world: list[NDArray] = field(default_factory=list)
-    basis: list[NDArray] = field(default_factory=list)
-    values: list[dict[str, NDArray]] = field(default_factory=list)
+    frames: list[tuple[NDArray, NDArray, dict[str, NDArray]]] = field(default_factory=list)
 
     @property
     def rotation(self) -> str:
@@ -247,10 +243,9 @@ class Carrier:
         evaluated = self.armature.evaluated_get(depsgraph)
         owner = evaluated.pose.bones[self.owner.name] if self.is_bone else evaluated
         place = float64_matrix(evaluated.matrix_world)
-        self.world.append(place @ float64_matrix(owner.matrix) if self.is_bone else place)
-        self.basis.append(float64_matrix(owner.matrix_basis))
-        names = ("location", self.rotation, "scale")
-        self.values.append({name: np.array(getattr(owner, name), np.float64) for name in names})
+        world = place @ float64_matrix(owner.matrix) if self.is_bone else place
+        values = {name: np.array(getattr(owner, name), np.float64) for name in ("location", self.rotation, "scale")}
+        self.frames.append((world, float64_matrix(owner.matrix_basis), values))
 
     def require_free(self, turns: bool) -> None:
         """Raise Refused unless keys on the channels have an effect and are allowed."""
@@ -291,16 +286,15 @@ class Carrier:
                 setattr(self.owner, name, values)
             context.view_layer.update()
         expected = move @ before.matrices
-        off = np.linalg.norm((after.matrices - expected) @ np.append(np.zeros(3), 1.0), axis=1)
-        turned = np.abs(after.matrices - expected)[:, :3, :3].max(axis=(1, 2)) / np.abs(expected[:, :3, :3]).max()
-        off = np.maximum(off / known.size, turned)
+        units = [np.abs(expected[:, :3, :3]).max()] * 3 + [known.size]
+        off = (np.abs(after.matrices - expected)[:, :3] / units).max(axis=(1, 2))
         return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
 
     def moved(self, moves: Sequence[NDArray]) -> dict[str, NDArray]:
         """Return (f, k) values of the channels for a (4, 4) move in the world at each frame read."""
         values: dict[str, list] = {"location": [], self.rotation: []}
         mode, last = self.owner.rotation_mode, None
-        for move, world, basis, old in zip(moves, self.world, self.basis, self.values):
+        for move, (world, basis, old) in zip(moves, self.frames):
             wanted = basis @ np.linalg.inv(world) @ move @ world
             turn = Quaternion(quaternion(wanted[:3, :3] / old["scale"]))
             last = old[self.rotation] if last is None else last
@@ -325,7 +319,7 @@ class Carrier:
             if not fcurves.is_keyed(armature, self.path(name), values[name].shape[1]):
                 self.owner.keyframe_insert(name, frame=first)
             if as_layer:
-                old = [each[name] for each in self.values]
+                old = [each[name] for _world, _basis, each in self.frames]
                 pairs = zip(map(Quaternion, old), map(Quaternion, values[name]))
                 is_turn = name == "rotation_quaternion"
                 values[name] = np.array([a.inverted() @ b for a, b in pairs]) if is_turn else values[name] - old

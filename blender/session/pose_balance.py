@@ -17,7 +17,10 @@ from numpy.typing import NDArray
 
 from ...core.numerics.float32 import shortest_decimal
 from ...core.statics.support import ground_axes
+from ...core.verdict.finding import EditRefusedError
 from ..read.tracking import tracking_paused
+from ..write.reports import Refused
+from .findings import NO_SUCH_NAME
 from .live import character
 from .live.character import Character, Weight, bone_matrices
 
@@ -31,9 +34,6 @@ FARTHEST = 1.0  # moves and, in radians, turns of a bone
 TORN = 0.05  # share of the mass above a bone that its location may leave behind
 MAX_TRIALS = 60
 
-Outcome = tuple[str, dict[str, object]]  # an English text and its values
-MOVED = "Moved “{bone}”: the center is {gap:length} from its target, {margin:length} inside the support"
-BALANCED = "Nothing to do: the center of mass is over its target"
 UNMOVABLE = (
     "No bone that may move leaves the contacts in place. Unlock the hips, remove drivers, give the legs inverse "
     "kinematics, or choose another bone."
@@ -76,7 +76,7 @@ class _Search:
         assert weight.support is not None
         self.context, self.armature, self.known = context, armature, known
         self.unit = shortest_decimal(context.scene.unit_settings.scale_length)
-        self.failure: Outcome = UNMOVABLE, {}
+        self.failure = Refused(UNMOVABLE)
         self.axes = ground_axes(-weight.support.up)
         self.target = weight.support.target(margin)
         is_carried = weight.contacts.bones >= 0
@@ -138,42 +138,46 @@ class _Search:
                     head = head - (1.05 * slip + tolerance / 2.0) * up
                 change = solve @ (np.array(rows) @ change + missing)
                 change *= min(1.0, FARTHEST * size / max(np.linalg.norm(change), size))
-            values = {"bone": handle.bone.name, "gap": gap * self.unit, "slip": slip * self.unit}
-            if not self.failure[1]:
-                self.failure = TOO_FAR if slip <= tolerance else STRETCHED, values
+            if self.failure.text == UNMOVABLE:
+                values = {"bone": handle.bone.name, "gap": gap * self.unit, "slip": slip * self.unit}
+                self.failure = Refused(TOO_FAR if slip <= tolerance else STRETCHED, **values)
         setattr(handle.bone, handle.channel, handle.start)
         return False
 
 
-def balance_pose(context: Context, armature: Object, name: str, margin: float | None) -> Outcome:
-    """Move a bone of a posed character so that it is balanced, or leave it; return the outcome.
+def balance_pose(context: Context, armature: Object, name: str, margin: float | None) -> dict[str, str | float]:
+    """Move a bone of a posed character so that it is balanced, or leave it and raise Refused or MeasureError.
 
     name: of the bone, "" for the active one or another that is fit. margin: in Blender's units, None for the middle.
+    Return the bone, the gap that is left and the margin, m; nothing if the character is balanced already.
     """
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
+    character.require_gravity(context.scene)
+    if name and name not in armature.pose.bones:
+        raise EditRefusedError(NO_SUCH_NAME, kind="bone", name=name)
     character.prepare(context, armature)
     weight, known = character.weight(armature, context.evaluated_depsgraph_get()), character.character(armature, unit)
     assert weight is not None and known is not None
     if weight.contacts.height is None:
-        return NO_CONTACT, {"armature": armature.name}
+        raise Refused(NO_CONTACT, armature=armature.name)
     if weight.support is None:
-        return IN_AIR, {"height": weight.contacts.height * unit}
+        raise Refused(IN_AIR, height=weight.contacts.height * unit)
     search = _Search(context, armature, known, weight, margin)
     if np.linalg.norm(search.gap(weight.parts.center)) <= REACHED * known.size:
-        return BALANCED, {}
+        return {}
     with tracking_paused():
         moved = next(filter(search.balance, _handles(context, armature, known, name)), None)
         context.view_layer.update()
     if moved is None:
-        return search.failure
+        raise search.failure
     if context.scene.tool_settings.use_keyframe_insert_auto:
         moved.bone.keyframe_insert(moved.channel)
     armature.update_tag()
     context.view_layer.update()
     after = character.weight(armature, context.evaluated_depsgraph_get())
     assert after is not None and after.support is not None
-    gap, margin = float(np.linalg.norm(search.gap(after.parts.center))) * unit, after.support.margin * unit
-    return MOVED, {"bone": moved.bone.name, "gap": gap, "margin": margin}
+    gap = float(np.linalg.norm(search.gap(after.parts.center)))
+    return {"bone": moved.bone.name, "gap": gap * unit, "margin": after.support.margin * unit}
 
 
 def _handles(context: Context, armature: Object, known: Character, name: str) -> Iterator[_Handle]:

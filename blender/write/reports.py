@@ -43,7 +43,7 @@ def text(*parts: Finding | str) -> str:
     joined = ""
     for part in parts:
         added = part if isinstance(part, str) else sentence(part, bpy.app.translations.pgettext_rpt, _length)
-        between = " " if joined.endswith(".") else ". " if added.endswith(".") else "; "
+        between = " " if joined.endswith((".", ":")) else ". " if added.endswith(".") else "; "
         joined += between + added if joined else added
     return joined
 

@@ -63,14 +63,13 @@ def make_colliders(surface: Surface, body: MassProperties, wanted: Wanted) -> Ge
     area = float(triangle_areas(hull.points, hull.triangles).sum())
     # Steiner's formula bounds the volume of all places this near to the hull; its mean width is below its diagonal.
     most = volume_and_center(whole)[0] + area * reach + 2.0 * pi * size * reach**2 + 4.0 / 3.0 * pi * reach**3
-    for number, shape in enumerate(SIMPLE):
+    for shape in SIMPLE:
         shapes = yield from _make(whole, body, wanted, shape)
         if moments_of(shapes[0]).raw[0] > most:
             continue
         outward, inward, _ = distances(surface, shapes)
         if outward <= wanted.outward and inward <= wanted.inward:
             return shapes
-        yield 0.05 * (number + 1)
     return (yield from _make(surface, body, wanted, "pieces"))
 
 

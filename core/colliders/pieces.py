@@ -13,8 +13,9 @@ bound the new face in the plane.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,12 +24,14 @@ from ..mesh.hulls import ConvexHull, convex_hull, hull_volumes
 from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, normals
 from ..numerics.graph import connected_components
+from ..robots.plausibility import spread_directions
 
 ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
 HULL_RTOL = 1e-6  # of exact hulls
 SEARCH_RTOL = 1e-4  # of hulls that are only compared
 COARSE_POINTS = 96  # of the copy that planes are compared on
 MAX_PLANES = 24  # through concave edges
+DIRECTIONS, LIKELY_PLANES = 120, 6  # that choose the planes that are compared exactly
 SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece evenly
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
@@ -184,10 +187,10 @@ def _connected(piece: _Piece) -> Iterator[_Piece]:
         owner[i] = min(around, key=volumes.__getitem__, default=i)
     for i in sorted({*owner}):
         members = [part for part, whose in zip(parts, owner) if whose == i]
-        yield members[0] if len(members) == 1 else _joined(members)
+        yield members[0] if len(members) == 1 else _join(members)
 
 
-def _joined(parts: Sequence[_Piece]) -> _Piece:
+def _join(parts: Sequence[_Piece]) -> _Piece:
     points = np.cumsum([0, *(len(part.points) for part in parts)])
     faces = np.cumsum([0, *(len(part.normals) for part in parts)])
     return _Piece(
@@ -247,8 +250,11 @@ def _best_of(coarse: _Piece, piece: _Piece) -> tuple[float, NDArray[np.float64]]
     """Return the largest reduction of the hulls by one plane, and the plane."""
     size = float(np.ptp(piece.points, axis=0).max())
     planes = np.concatenate([_concave_planes(piece, size), _even_planes(piece.points, SHARES)])
+    planes = planes[np.argsort(-_gains(coarse, planes, _rough_volumes), kind="stable")[:LIKELY_PLANES]]
     gains = _gains(coarse, planes)
     best = planes[gains.argmax()]
+    if coarse is piece:
+        return float(gains.max()), best
     shifts = size * np.array([-0.06, -0.03, -0.015, 0.015, 0.03, 0.06])
     near = np.concatenate([best[None], best + shifts[:, None] * (0.0, 0.0, 0.0, 1.0)])
     gains = _gains(coarse, near)
@@ -323,8 +329,10 @@ def _even_planes(points: NDArray[np.float64], shares: NDArray[np.float64]) -> ND
     return np.column_stack([axes.repeat(len(shares), axis=0), levels.ravel()])
 
 
-def _gains(piece: _Piece, planes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return by how much each plane reduces the volume of the hulls, counted for each connected part."""
+def _gains(
+    piece: _Piece, planes: NDArray[np.float64], measure: Callable[..., NDArray[np.float64]] = hull_volumes
+) -> NDArray[np.float64]:
+    """Return by how much each plane reduces the volume of the hulls of connected parts, for each part it adds."""
     points, edges = piece.points, piece.edges()
     height = points @ planes[:, :3].T - planes[:, 3]  # (n, k)
     height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(points, axis=0).max()] = 0.0
@@ -355,26 +363,50 @@ def _gains(piece: _Piece, planes: NDArray[np.float64]) -> NDArray[np.float64]:
         owner[label] = np.concatenate([of, plane])
         whose.append(owner)
         total += parts
-    owner, place = np.concatenate(owners), np.concatenate(sets)
+    owner, place, whose = np.concatenate(owners), np.concatenate(sets), np.concatenate(whose)
     order = np.argsort(owner, kind="stable")
     starts = np.searchsorted(owner[order], np.arange(total))
-    place = place[order]
-    volumes = hull_volumes(place, starts, SEARCH_RTOL)
-    volumes = np.where(_is_nested(place, starts, np.concatenate(whose)), 0.0, volumes)
-    return volumes[0] - np.bincount(np.concatenate(whose)[1:], volumes[1:], len(planes))
+    around = _boxes_around(place[order], starts, whose)
+    order = order[np.argsort(around[owner[order]], kind="stable")]
+    outer, starts = np.unique(around[owner[order]], return_index=True)
+    volumes = measure(place[order], starts, SEARCH_RTOL)
+    parts = np.bincount(whose[outer[1:]], minlength=len(planes))
+    return (volumes[0] - np.bincount(whose[outer[1:]], volumes[1:], len(planes))) / np.maximum(parts - 1, 1)
 
 
-def _is_nested(points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return whether the box of each set of points is in the box of another one of the same plane: it has no hull."""
+@lru_cache(maxsize=1)
+def _directions() -> ConvexHull:
+    return convex_hull(spread_directions(DIRECTIONS), 1e-9)
+
+
+def _rough_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], _: float) -> NDArray[np.float64]:
+    """Return about the volumes of hulls: those of polyhedra of the farthest points in some directions."""
+    ball = _directions()
+    sizes = np.diff(np.append(starts, len(points)))
+    reach = points @ ball.points.T
+    row, direction = np.nonzero(reach >= np.maximum.reduceat(reach, starts).repeat(sizes, axis=0))
+    farthest = np.empty((len(starts), len(ball.points), 3))
+    farthest[np.arange(len(starts)).repeat(sizes)[row], direction] = points[row]
+    farthest -= farthest[:, :1].copy()
+    a, b, c = (farthest[:, ball.triangles[:, k]] for k in range(3))
+    return np.einsum("ijk,ijk->i", a, np.cross(b, c)) / 6.0
+
+
+def _boxes_around(points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return, for each set of points, the set of the same plane with the largest box around its box, or itself.
+
+    A hole or a cavity belongs to the part around it. Another part in its box only seems to: then the plane gains more.
+    """
     low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
+    size = (high - low).sum(axis=1)
+    around = np.arange(len(starts))
     order = np.argsort(plane, kind="stable")
-    nested = np.zeros(len(starts), bool)
     for group in np.split(order, np.flatnonzero(np.diff(plane[order])) + 1):
         if len(group) > 2:
             inside = (low[group] <= low[group, None]).all(axis=2) & (high[group] >= high[group, None]).all(axis=2)
-            inside &= (low[group] < low[group, None]).any(axis=2) | (high[group] > high[group, None]).any(axis=2)
-            nested[group] = inside.any(axis=1)
-    return nested
+            largest = np.where(inside, size[group], -1.0).argmax(axis=1)
+            around[group] = np.where(size[group][largest] > size[group], group[largest], group)
+    return around
 
 
 def _merge(sets: list[NDArray[np.float64]], most: int, volume: float) -> list[NDArray[np.float64]]:

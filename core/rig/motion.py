@@ -20,9 +20,9 @@ from ..numerics.rotations import polar_rotation, quaternion, rotation_matrix
 Flight = tuple[int, int]  # indices of the last frame on the ground, or the first of all, and of the first one again
 Span = tuple[int, int, float, float]  # indices of the first and last frame; linear and angular momentum from nothing
 
-NODES, DEGREE = 10, 9  # of the polynomial through the frames around a velocity
+NODES, DEGREE = 9, 8  # of the polynomial through the frames around a velocity
 CLOSE, CLOSE_DEGREE = 0.02, 5  # seconds: closer frames turn less, and are captured, with noise that averages out
-AVERAGED = 4  # velocities between frames that those at a frame are computed from
+AVERAGED = 3  # velocities between frames that those at a frame are computed from
 UNEXPLAINED = 0.2  # of the weight: more force than that, without a contact, comes from nothing
 SMOOTHED = 0.1  # seconds over which noise of captured motion averages out
 TRIALS, CORRECTIONS = 12, 10  # of a turn between two frames, and of all turns
@@ -48,11 +48,6 @@ class Course:
         """(f, 3) centers of mass."""
         first = self.centers[0, 0]
         return first + np.einsum("p,fpi->fi", self.masses / self.masses.sum(), self.centers - first)
-
-    @property
-    def places(self) -> tuple[NDArray[np.float64], ...]:
-        """The arrays with a row for each frame."""
-        return self.centers, self.spreads, self.linear
 
     def turned(self, turns: NDArray[np.float64]) -> Course:
         """Return the body turned about its center by a (3, 3) rotation at each frame."""
@@ -188,7 +183,8 @@ def turns_of_constant_spin(course: Course, first: int, last: int) -> NDArray[np.
             half = turns[index] @ _rotation(0.5 * step * rate)
             rate = inverse[index] @ (half.T @ kept - angular[index])
         turns[index + 1] = turns[index] @ _rotation(step * rate)
-    section = Course(step, course.masses, *(each[first : last + 1] for each in course.places))
+    arrays = course.centers, course.spreads, course.linear
+    section = Course(step, course.masses, *(array[first : last + 1] for array in arrays))
     for _ in range(CORRECTIONS):
         motion, inertia = momenta_between(section.turned(turns), 0, last - first)
         missing = kept - motion[:, 3:6]

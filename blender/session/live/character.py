@@ -13,7 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
-from bpy.types import Context, Depsgraph, Object
+from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
 from ....core.bodies.reading import float64_matrix
@@ -27,6 +27,7 @@ from ...read.bones import RestBones
 from ...read.mesh import vertex_points
 from ...read.rig import hanging_objects, held_objects, rest_pose, skinned_objects
 from ...write import properties
+from ...write.reports import Refused
 from .. import stored
 from ..tracking import handlers
 from ..tracking.armatures import deformed_meshes
@@ -37,6 +38,7 @@ from .motion import Motion
 REACH = 0.01  # contact with the ground within this height, relative to the character's size
 OUTLINE = 1e-4  # corners of the support polygon, relative to its extent, that count
 UNKNOWN, NO_BONE = -2, -1  # bones of vertices: not looked up yet, and without a weight
+NO_GRAVITY = "The scene has no gravity, so nothing weighs anything. Turn it on in Scene Properties > Gravity."
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +184,8 @@ class Character:
         may_touch = np.array([not named or name in named for name in names] + [not named])  # last: without a weight
         reach, lowest, places, bones = REACH * self.size, np.inf, [np.zeros((0, 3))], [np.zeros(0, np.intp)]
         for obj, bone in contact_objects(armature, depsgraph):
-            points, matrix = _points(obj, depsgraph)
+            evaluated = obj.evaluated_get(depsgraph)
+            points, matrix = vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)
             heights = points @ (-down @ matrix[:3, :3]).astype(np.float32) - (down @ matrix[:3, 3] + ground)
             if named:
                 heights = np.where(may_touch[self._bones_of(obj, bone, names, depsgraph)], heights, np.inf)
@@ -277,8 +280,16 @@ def weight(armature: Object, depsgraph: Depsgraph) -> Weight | None:
     return current_value(_weights, armature, (handlers.generation(), depsgraph.scene.session_uid), stand)
 
 
+def require_gravity(scene: Scene) -> None:
+    """Raise Refused if nothing weighs anything in a scene."""
+    if not (scene.use_gravity and any(scene.gravity)):
+        raise Refused(NO_GRAVITY)
+
+
 def prepare(context: Context, armature: Object) -> Rig | None:
     """Measure a character unless its results are up to date; find its ground unless it is shown. Return a new Rig."""
+    if not armature.body_moments_weight.show:
+        require_gravity(context.scene)
     is_known = weight(armature, context.evaluated_depsgraph_get()) is not None
     rig = None if is_known and stale_reason(armature, context.scene) is None else measure(context, armature)
     if not armature.body_moments_weight.show:
@@ -316,9 +327,3 @@ def bone_matrices(armature: Object, depsgraph: Depsgraph) -> NDArray[np.float64]
     posed = np.empty((len(evaluated.pose.bones), 4, 4), np.float32)
     evaluated.pose.bones.foreach_get("matrix", posed.ravel())  # column by column
     return float64_matrix(evaluated.matrix_world) @ posed.transpose(0, 2, 1)
-
-
-def _points(obj: Object, depsgraph: Depsgraph) -> tuple[NDArray[np.float32], NDArray[np.float64]]:
-    """Return the evaluated (n, 3) points of a mesh object in its own coordinates, and its matrix in the world."""
-    evaluated = obj.evaluated_get(depsgraph)
-    return vertex_points(evaluated.data), float64_matrix(evaluated.matrix_world)

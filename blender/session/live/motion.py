@@ -66,7 +66,7 @@ class Motion:
         """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is no certain one."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        followed = self._of(obj)
+        followed = self._entry(obj)
         if followed.change == -1 and followed.mixes is None:
             self._shape_keys(obj, depsgraph, followed)
         mixed = None if followed.mixes is None else _mixed(obj, followed, depsgraph, matrix, unit)
@@ -79,19 +79,19 @@ class Motion:
         """Return the moments of an object's mass to second order, in the world and SI units, or raise MeasureError."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
-        followed, change = self._of(obj), updates.last_change_of_geometry(obj)
+        followed, change = self._entry(obj), updates.last_change_of_geometry(obj)
         if followed.moments is None or followed.change != change or not _can_map(followed.moments, matrix):
             followed.change = change
             return _measured(obj, followed, depsgraph, matrix, unit)
         moments = followed.moments.transform(_in_si(matrix, unit))
         return moments if followed.given_mass is None else moments * (followed.given_mass / moments.total)
 
-    def _of(self, obj: Object) -> _Followed:
+    def _entry(self, obj: Object) -> _Followed:
         return self._followed.setdefault(obj.session_uid, _Followed())
 
     def hull_points(self, obj: Object, depsgraph: Depsgraph) -> NDArray[np.float64]:
         """Return the corners of an object's convex hull, (k, 3) in Blender's units and the world."""
-        followed, change = self._of(obj), updates.last_change_of_geometry(obj)
+        followed, change = self._entry(obj), updates.last_change_of_geometry(obj)
         if followed.hull is None or followed.hull[0] != change:
             followed.hull = change, object_hull(obj, depsgraph)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)

@@ -200,9 +200,11 @@ def test_thrown_rigid_body_keeps_its_momentum(scene):
     assert "body_balance_spans" not in balance()
     speed = np.stack([curve[:, 1] for curve in signal("velocity")], axis=1)
     exact = velocity + GRAVITY * STEP * np.arange(40)[:, None]
-    assert np.abs(speed - exact).max() < 2e-5 * 8.0  # matrices are float32: 5 µm / 1/24 s
+    print("MEASURED", np.abs(speed - exact).max() / 8)
+    assert np.abs(speed - exact).max() < 3e-6 * 8.0  # matrices are float32
     spin = np.stack([curve[:, 1] for curve in signal("angular_momentum")], axis=1)
-    assert np.abs(spin[:, 2] - spin[:, 2].mean()).max() < 1e-4 * spin[:, 2].mean()
+    print("MEASURED", np.ptp(spin, axis=0) / spin[:, 2].mean(), np.abs(spin - spin.mean(0)).max(1) / spin[:, 2].mean())
+    assert np.ptp(spin[:, 2]) < 3e-5 * spin[:, 2].mean()
 
 
 def test_floaty_jump_is_listed_and_its_parabola_is_not(scene):
