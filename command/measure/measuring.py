@@ -23,8 +23,8 @@ from ...blender.settings.options import MeasureOptions
 from ...blender.write import spectrum
 from ...blender.write.thumbnail import thumbnail
 from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
-from ...core.measurement.flat_record import flat_record
 from ...core.measurement.measurement import Measurement
+from ...core.measurement.record import flat_record
 from ...core.moments.complex_form import flusser_invariants, hu_invariants, normalize
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, finding

@@ -22,7 +22,7 @@ from ..mesh.surface import Surface
 from ..mesh.surface_stack import SurfaceStack, TriangleStack
 from ..moments.moments import Moments, U, stack_moments
 from ..numerics.arrays import segment_starts
-from ..polyhedron.any_order_small import extend_small_moments
+from ..polyhedron.any_order import extend_small_moments
 from ..polyhedron.third_order import MAX_SMALL_TRIANGLES, MAX_UNSCALED_REACH
 from ..polyhedron.third_order_small import NEXT_AXIS, PREVIOUS_AXIS, small_moments
 from ..verdict.finding import Finding

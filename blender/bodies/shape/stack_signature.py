@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ....core.mesh.surface_stack import TriangleStack
 from ....core.moments.affine_maps import are_similarities
 from ....core.numerics.arrays import segment_starts
-from ....core.polyhedron.any_order_small import extend_small_moments
+from ....core.polyhedron.any_order import extend_small_moments
 from ....core.polyhedron.third_order_small import small_moments
 from ....core.shape.signatures import Signature, signatures
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR
