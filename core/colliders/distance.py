@@ -16,7 +16,7 @@ from ..mesh.bvh import Bvh, sort_components
 from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.point_triangle import triangle_distances
 from ..mesh.surface import Surface, normals
-from ..polyhedron.first_order import volume_and_center
+from ..polyhedron.integration import volume_and_center
 from ..robots.model import Shape
 from ..robots.plausibility import spread_directions
 

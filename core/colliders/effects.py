@@ -62,7 +62,7 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
 
     MeasureError if the colliders have no mass.
     """
-    shares, rows = _rows(body, shapes)
+    shares, rows = _ten_sums(body, shapes)
     sums = rows @ [shape.mass for shape in shapes]
     if not sums[0] > 0.0:
         raise MeasureError(NO_CERTAIN_VOLUME)
@@ -93,7 +93,7 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
 
     MeasureError if the colliders have no volume, or the body has no mass.
     """
-    volumes, rows = _rows(body, shapes)
+    volumes, rows = _ten_sums(body, shapes)
     if not sum(volumes) > 0.0 or not body.mass > 0.0:
         raise MeasureError(NO_CERTAIN_VOLUME)
     weights = np.sqrt(volumes / sum(volumes))
@@ -114,7 +114,7 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
     return (body.mass * weights * roots).tolist()
 
 
-def _rows(body: MassProperties, shapes: Sequence[Shape]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _ten_sums(body: MassProperties, shapes: Sequence[Shape]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return (n,) volumes of colliders, and (10, n) moments by their masses, about the body's center."""
     moments = [moments_of(shape).truncate(2) for shape in shapes]
     volumes = np.array([float(one.total) for one in moments])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..inertia.mass_properties import MassProperties
 from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.surface import Surface, normals, triangle_areas
-from ..polyhedron.first_order import volume_and_center
+from ..polyhedron.integration import volume_and_center
 from ..robots.model import Inertial, Pose, Shape
 from ..robots.primitives import equal_inertia_shape
 from ..robots.shapes import moments_of, primitive_moments

@@ -187,10 +187,10 @@ def _connected(piece: _Piece) -> Iterator[_Piece]:
         owner[i] = min(around, key=volumes.__getitem__, default=i)
     for i in sorted({*owner}):
         members = [part for part, whose in zip(parts, owner) if whose == i]
-        yield members[0] if len(members) == 1 else _joined(members)
+        yield members[0] if len(members) == 1 else _join(members)
 
 
-def _joined(parts: Sequence[_Piece]) -> _Piece:
+def _join(parts: Sequence[_Piece]) -> _Piece:
     points = np.cumsum([0, *(len(part.points) for part in parts)])
     faces = np.cumsum([0, *(len(part.normals) for part in parts)])
     return _Piece(

@@ -31,10 +31,9 @@ from ..numerics.arguments import check_type
 from ..numerics.compensated import compensated_normals
 from ..numerics.quadrature import triangle_rule
 from .nufft import WIDTHS, Spreading, aliasing
-from .spectrum import APPROXIMATE, Spectrum
 from .transform import Transform
 from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans
-from .wave_vectors import FrequencyGrid, ListWaves
+from .wave_vectors import APPROXIMATE, FrequencyGrid, ListWaves, Spectrum
 
 POINTS_PER_CHUNK = 1 << 14  # points that are spread between two steps
 MAX_POINTS_PER_SIDE = 24  # Gauss points along a side at most

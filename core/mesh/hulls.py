@@ -205,7 +205,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return outside points, the faces they are highest above (`counts` from `firsts` on), and the heights."""
+        """Return outside points, the face each is highest above (of `counts` from `firsts` on), and their heights."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]
@@ -221,7 +221,7 @@ class _GrowingHull:
         return points, faces, height
 
     def add_points(self, most: int | None = None) -> bool:
-        """Add the farthest points outside that do not disturb each other, at most so many; return if there were any."""
+        """Add at most so many farthest points whose visible faces do not touch. Return whether there were any."""
         if not len(self.outside):
             return False
         farthest = np.zeros(len(self.corners))

@@ -100,8 +100,9 @@ class Audit:
     links: tuple[LinkAudit, ...]
 
     def repairs(self) -> list[tuple[StatedLink, StatedInertial]]:
-        """Return the links with a corrected inertial."""
-        return [(one.link, one.repaired) for one in self.links if one.repaired is not None]
+        """Return the links with a corrected inertial, if the file itself holds the inertial."""
+        found = [(one.link, one.repaired) for one in self.links if one.link.span is not None]
+        return [(link, repaired) for link, repaired in found if repaired is not None]
 
 
 @dataclass(frozen=True, eq=False)
