@@ -261,7 +261,7 @@ def by_coacd(part: Part, queue: multiprocessing.Queue) -> None:
 def hull_sum(sets) -> float:
     from body_moments.core import Surface
     from body_moments.core.mesh import convex_hull
-    from body_moments.core.polyhedron.first_order import volume_and_center
+    from body_moments.core.polyhedron.integration import volume_and_center
 
     hulls = [convex_hull(points) for points in sets]
     return sum(volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0] for hull in hulls)
@@ -271,7 +271,7 @@ def main(names: list[str]) -> None:
     load_package()
     from body_moments.core import Surface
     from body_moments.core.colliders.pieces import cut_into_pieces
-    from body_moments.core.polyhedron.first_order import volume_and_center
+    from body_moments.core.polyhedron.integration import volume_and_center
 
     ratios = []
     cache = Path(tempfile.gettempdir(), "body-moments-coacd.json")
