@@ -35,6 +35,7 @@ DIRECTIONS, LIKELY_PLANES = 120, 6  # that choose the planes that are compared e
 SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece evenly
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
+HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
 SPARE = 2  # pieces made for each wanted piece, before they are merged
 
 
@@ -239,11 +240,13 @@ def _best_plane(piece: _Piece, outward: float, volume: float) -> tuple[float, ND
     if outward > 0.0 and _gap(coarse) <= outward:
         return 0.0, np.zeros(4)
     gain, best = _best_of(coarse, piece)
-    if gain > LEAST_GAIN * volume or _hull_volume(piece) < (1.0 + LEAST_EXCESS) * piece.volume():
+    excess = _hull_volume(piece) - piece.volume()
+    if gain > LEAST_GAIN * volume or excess < LEAST_EXCESS * piece.volume():
         return gain, best
     middle = _even_planes(coarse.points, np.array([0.5]))
     gains = [sum(_best_of(part, part)[0] for part in _cut(coarse, plane)) for plane in middle]
-    return max(gains), middle[int(np.argmax(gains))]
+    # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is merged again.
+    return max(*gains, HOPE * excess), middle[int(np.argmax(gains))]
 
 
 def _best_of(coarse: _Piece, piece: _Piece) -> tuple[float, NDArray[np.float64]]:
@@ -275,12 +278,13 @@ def _coarse(piece: _Piece) -> _Piece:
     points, cells = piece.points, 16
     if len(points) <= COARSE_POINTS:
         return piece
-    low, size = points.min(axis=0), np.ptp(points, axis=0).max()
+    low, extent = points.min(axis=0), np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     while True:
-        cell = np.minimum((points - low) / size * cells, cells - 1).astype(np.intp) @ (cells * cells, cells, 1)
+        number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)  # a thin body keeps both of its sides
+        cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (cells * cells, cells, 1)
         _, first, which = np.unique(cell[far], return_index=True, return_inverse=True)
-        if len(first) <= COARSE_POINTS:
+        if len(first) <= COARSE_POINTS or cells == 2:
             break
         cells -= 1
     chosen = np.empty(len(points), np.intp)
