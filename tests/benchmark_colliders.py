@@ -5,7 +5,7 @@
     python tests/benchmark_colliders.py [NAME ...]
 
 Needs numpy and coacd. Times are the processor's. Prints a row for each concave body, then the median and the largest
-ratio, the time of a body with 10,000 faces, and the time of 1,000 small objects with Automatic.
+ratio. CoACD's results are kept in the folder of temporary files.
 """
 
 from __future__ import annotations
@@ -150,8 +150,19 @@ def bodies() -> dict[str, Part]:
         [np.sin(turn) + 2 * np.sin(2 * turn), np.cos(turn) - 2 * np.cos(2 * turn), -np.sin(3 * turn)], axis=1
     )
     helix = np.linspace(0.0, 4.0 * np.pi, 70)
-    fingers = [(0, 0), (4, 0), (4.2, 1.5), (5.8, 3), (5.3, 3.5), (4, 2.6), (4, 5.5), (3.2, 5.5), (3.1, 3), (2.9, 3), (2.8, 6.2),
-               (2, 6.2), (1.95, 3), (1.8, 3), (1.7, 6), (0.9, 6), (0.85, 3), (0.7, 3), (0.5, 5), (-0.2, 4.8)]  # fmt: skip
+    fingers = [(0, 0), (4, 0), (4.2, 1.5), (5.8, 3), (5.3, 3.5), (4, 2.6), (4, 5.5), (3.2, 5.5), (3.1, 3), (2.9, 3)]
+    fingers += [
+        (2.8, 6.2),
+        (2, 6.2),
+        (1.95, 3),
+        (1.8, 3),
+        (1.7, 6),
+        (0.9, 6),
+        (0.85, 3),
+        (0.7, 3),
+        (0.5, 5),
+        (-0.2, 4.8),
+    ]
     cup = [(0, 0), (1, 0), (1.2, 2), (1.1, 2), (0.9, 0.15), (0, 0.15)]
     goblet = [
         (0, 0),
@@ -167,8 +178,26 @@ def bodies() -> dict[str, Part]:
     ]
     bowl = np.concatenate([circle(12, 1.0, -np.pi / 2, 0.0, True), circle(12, 0.85, 0.0, -np.pi / 2, True)])
     donut = circle(16) * 0.35 + (1.0, 0.0)
+    weight = [
+        (0, 0),
+        (0.6, 0.1),
+        (0.8, 0.6),
+        (0.6, 1),
+        (0.2, 1.1),
+        (0.2, 2.5),
+        (0.6, 2.6),
+        (0.8, 3),
+        (0.6, 3.5),
+        (0, 3.6),
+    ]
+    moon = np.concatenate([circle(24, 1.0, 0.6, 5.7, True), circle(20, 0.75, 5.5, 0.8, True) + (0.25, 0)])
+    outer, inner = (
+        np.stack([(0.25 * spiral + w) * np.cos(spiral), (0.25 * spiral + w) * np.sin(spiral)], axis=1)
+        for w in (0.35, 0.0)
+    )
+    bend = [(1 - np.cos(a), 0, 2 + np.sin(a)) for a in np.linspace(0.2, 3.6, 16)]
     legs = ["#...#", ".....", ".....", ".....", "#...#"]
-    seat = " ".join(["#####"] * 5)
+    seat, back = " ".join(["#####"] * 5), "##### " + " ".join(["....."] * 4)
     return {
         "L": cells("### #.. #.."),
         "U": cells("#.# #.# ###"),
@@ -180,7 +209,7 @@ def bodies() -> dict[str, Part]:
         "frame": cells("#### #..# #..# ####"),
         "blind hole": cells("### ### ###", "### #.# ###", "### #.# ###"),
         "table": cells(" ".join(legs), " ".join(legs), " ".join(legs), seat),
-        "chair": cells(" ".join(legs), " ".join(legs), seat, "##### " + " ".join(["....."] * 4), "##### " + " ".join(["....."] * 4)),
+        "chair": cells(" ".join(legs), " ".join(legs), seat, back, back),
         "shelf": cells("#### ####", "#... #...", "#### ####", "#... #...", "#### ####"),
         "comb": cells("#.#.#.#.# #.#.#.#.# #########"),
         "torus": revolve(donut),
@@ -188,16 +217,16 @@ def bodies() -> dict[str, Part]:
         "cup": revolve(cup),
         "goblet": revolve(goblet, 24),
         "bowl": revolve(bowl, 24),
-        "dumbbell": revolve([(0, 0), (0.6, 0.1), (0.8, 0.6), (0.6, 1), (0.2, 1.1), (0.2, 2.5), (0.6, 2.6), (0.8, 3), (0.6, 3.5), (0, 3.6)], 24),
+        "dumbbell": revolve(weight, 24),
         "star": extrude(circle(10) * np.where(np.arange(10) % 2, 0.4, 1.0)[:, None], 0.4),
         "gear": extrude(circle(96) * wave[:, None], 0.3),
-        "crescent": extrude(np.concatenate([circle(24, 1.0, 0.6, 5.7, True), circle(20, 0.75, 5.5, 0.8, True) + (0.25, 0)]), 0.4),
+        "crescent": extrude(moon, 0.4),
         "arrow": extrude([(0, -0.2), (2, -0.2), (2, -0.7), (3, 0), (2, 0.7), (2, 0.2), (0, 0.2)], 0.3),
         "hand": extrude(fingers, 0.8),
-        "spiral": extrude(np.concatenate([np.stack([(0.25 * spiral + w) * np.cos(spiral), (0.25 * spiral + w) * np.sin(spiral)], 1)[::s] for w, s in ((0.35, 1), (0.0, -1))]), 0.5),
+        "spiral": extrude(np.concatenate([outer, inner[::-1]]), 0.5),
         "helix": tube(np.stack([np.cos(helix), np.sin(helix), helix / 10], axis=1), 0.2),
         "knot": tube(knot, 0.35, closed=True),
-        "hook": tube([(0, 0, 0), (0, 0, 2), *[(1 - np.cos(a), 0, 2 + np.sin(a)) for a in np.linspace(0.2, 3.6, 16)]], 0.25, 16),
+        "hook": tube([(0, 0, 0), (0, 0, 2), *bend], 0.25, 16),
     }  # fmt: skip
 
 

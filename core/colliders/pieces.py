@@ -35,6 +35,7 @@ DIRECTIONS, LIKELY_PLANES = 120, 6  # that choose the planes that are compared e
 SHARES = np.array([1, 2, 3]) / 4.0  # of the extent, where planes divide a piece evenly
 LEAST_GAIN = 1e-3  # relative to the body's volume: a smaller reduction is none
 LEAST_EXCESS = 0.01  # of the hull over the volume of a piece that is worth two cuts
+HOPE = 0.02  # The gain of a cut that gains nothing yet, relative to the excess.
 SPARE = 2  # pieces made for each wanted piece, before they are merged
 
 
@@ -239,11 +240,13 @@ def _best_plane(piece: _Piece, outward: float, volume: float) -> tuple[float, ND
     if outward > 0.0 and _gap(coarse) <= outward:
         return 0.0, np.zeros(4)
     gain, best = _best_of(coarse, piece)
-    if gain > LEAST_GAIN * volume or _hull_volume(piece) < (1.0 + LEAST_EXCESS) * piece.volume():
+    excess = _hull_volume(piece) - piece.volume()
+    if gain > LEAST_GAIN * volume or excess < LEAST_EXCESS * piece.volume():
         return gain, best
     middle = _even_planes(coarse.points, np.array([0.5]))
     gains = [sum(_best_of(part, part)[0] for part in _cut(coarse, plane)) for plane in middle]
-    return max(gains), middle[int(np.argmax(gains))]
+    # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is merged again.
+    return max(*gains, HOPE * excess), middle[int(np.argmax(gains))]
 
 
 def _best_of(coarse: _Piece, piece: _Piece) -> tuple[float, NDArray[np.float64]]:
@@ -275,12 +278,13 @@ def _coarse(piece: _Piece) -> _Piece:
     points, cells = piece.points, 16
     if len(points) <= COARSE_POINTS:
         return piece
-    low, size = points.min(axis=0), np.ptp(points, axis=0).max()
+    low, extent = points.min(axis=0), np.maximum(np.ptp(points, axis=0), np.finfo(float).tiny)
     far = np.argsort(-((points - points.mean(axis=0)) ** 2).sum(axis=1), kind="stable")
     while True:
-        cell = np.minimum((points - low) / size * cells, cells - 1).astype(np.intp) @ (cells * cells, cells, 1)
+        number = np.maximum(np.ceil(cells * extent / extent.max()), 2.0)  # a thin body keeps both of its sides
+        cell = np.minimum((points - low) / extent * number, number - 1.0).astype(np.intp) @ (cells * cells, cells, 1)
         _, first, which = np.unique(cell[far], return_index=True, return_inverse=True)
-        if len(first) <= COARSE_POINTS:
+        if len(first) <= COARSE_POINTS or cells == 2:
             break
         cells -= 1
     chosen = np.empty(len(points), np.intp)
@@ -340,7 +344,8 @@ def _gains(
     edge, plane = np.nonzero(a * b < 0.0)
     share = (a[edge, plane] / (a[edge, plane] - b[edge, plane]))[:, None]
     new = (1.0 - share) * points[edges[edge, 0]] + share * points[edges[edge, 1]]
-    sets, owners = [points], [np.zeros(len(points), np.intp)]
+    sets, owners, inward = [points], [np.zeros(len(points), np.intp)], [np.zeros(1, bool)]
+    out = np.stack([np.bincount(piece.start, column[piece.face], len(points)) for column in piece.normals.T], axis=1)
     total = 1
     whose = [np.full(1, -1)]
     for sign in (1.0, -1.0):
@@ -358,6 +363,7 @@ def _gains(
             np.concatenate([ends[link[0], 1, link[1]], inner]),
         )
         sets += [points[vertex], new]
+        inward.append(_face_inward(points[vertex], out[vertex], label[: len(vertex)], parts))
         owners.append(total + label)
         owner = np.empty(parts, np.intp)
         owner[label] = np.concatenate([of, plane])
@@ -366,7 +372,7 @@ def _gains(
     owner, place, whose = np.concatenate(owners), np.concatenate(sets), np.concatenate(whose)
     order = np.argsort(owner, kind="stable")
     starts = np.searchsorted(owner[order], np.arange(total))
-    around = _boxes_around(place[order], starts, whose)
+    around = _boxes_around(place[order], starts, whose, np.concatenate(inward))
     order = order[np.argsort(around[owner[order]], kind="stable")]
     outer, starts = np.unique(around[owner[order]], return_index=True)
     volumes = measure(place[order], starts, SEARCH_RTOL)
@@ -392,20 +398,28 @@ def _rough_volumes(points: NDArray[np.float64], starts: NDArray[np.intp], _: flo
     return np.einsum("ijk,ijk->i", a, np.cross(b, c)) / 6.0
 
 
-def _boxes_around(points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return, for each set of points, the set of the same plane with the largest box around its box, or itself.
+def _face_inward(points: NDArray, out: NDArray, label: NDArray[np.intp], parts: int) -> NDArray[np.bool_]:
+    """Return a (parts,) mask of the parts whose faces look at the middle: walls of holes. out: (n, 3) normals."""
+    count = np.bincount(label, minlength=parts)
+    flux = np.bincount(label, np.einsum("ij,ij->i", points, out), parts)
+    for place, normal in zip(points.T, out.T):
+        flux -= np.bincount(label, place, parts) * np.bincount(label, normal, parts) / np.maximum(count, 1)
+    return flux < 0.0
 
-    A hole or a cavity belongs to the part around it. Another part in its box only seems to: then the plane gains more.
-    """
+
+def _boxes_around(
+    points: NDArray, starts: NDArray[np.intp], plane: NDArray[np.intp], inward: NDArray[np.bool_]
+) -> NDArray[np.intp]:
+    """Return, for each set of points, itself, or of walls of a hole the set of the same plane around its box."""
     low, high = np.minimum.reduceat(points, starts), np.maximum.reduceat(points, starts)
     size = (high - low).sum(axis=1)
     around = np.arange(len(starts))
     order = np.argsort(plane, kind="stable")
     for group in np.split(order, np.flatnonzero(np.diff(plane[order])) + 1):
-        if len(group) > 2:
+        if inward[group].any():
             inside = (low[group] <= low[group, None]).all(axis=2) & (high[group] >= high[group, None]).all(axis=2)
             largest = np.where(inside, size[group], -1.0).argmax(axis=1)
-            around[group] = np.where(size[group][largest] > size[group], group[largest], group)
+            around[group] = np.where(inward[group] & (size[group][largest] > size[group]), group[largest], group)
     return around
 
 
