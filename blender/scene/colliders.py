@@ -69,6 +69,7 @@ def as_stored(shape: Shape, stretch: NDArray[np.float64], unit: float) -> Shape:
 
 
 def _local_points(shape: Shape, stretch: NDArray[np.float64], unit: float) -> NDArray[np.float64]:
+    assert shape.surface is not None
     points = shape.surface.points @ shape.pose.rotation.T + shape.pose.position
     return (np.linalg.solve(stretch, points.T).T / unit).astype(np.float32).astype(np.float64)
 
@@ -149,6 +150,7 @@ def read_colliders(colliders: Iterable[Object], rotation: NDArray[np.float64], u
 
 def _hull_mesh(name: str, shape: Shape, stretch: NDArray[np.float64], unit: float) -> Mesh:
     """Return the mesh of a hull in the own coordinates of its body."""
+    assert shape.surface is not None
     corners = shape.surface.all_triangles()[0][:, :: -1 if np.linalg.det(stretch) < 0.0 else 1]
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(_local_points(shape, stretch, unit), [], corners)
@@ -169,8 +171,8 @@ def _shape_mesh(name: str, shape: Shape, unit: float) -> Mesh:
         size = size[0], size[0], size[0] if shape.kind == "capsule" else size[1]
     half = shape.size[1] / 2.0 if shape.kind == "capsule" else 0.0
     for vertex in made.verts:
-        vertex.co = [value * length / unit for value, length in zip(vertex.co, size)]
-        vertex.co.z += (half if vertex.co.z > 0.0 else -half) / unit
+        x, y, z = (value * length / unit for value, length in zip(vertex.co, size))
+        vertex.co = x, y, z + (half if z > 0.0 else -half) / unit
     mesh = bpy.data.meshes.new(name)
     made.to_mesh(mesh)
     made.free()

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from bpy.types import Context, Depsgraph, Object, PoseBone, Scene
@@ -76,10 +77,11 @@ class CharacterMotion(BalanceGroup):
 
     def clear(self, rows: Sequence[int] = ()) -> None:
         """Forget all frames but those of some rows."""
-        for kept in (self.centers, self.supports, self._parts, [] if self.carrier is None else self.carrier.frames):
+        lists: list[list[Any]] = [self.centers, self.supports, self._parts]
+        for kept in (*lists, [] if self.carrier is None else self.carrier.frames):
             kept[:] = [kept[row] for row in rows if kept]
 
-    def _add_frame(self, _motion: object, depsgraph: Depsgraph) -> None:
+    def _add_frame(self, motion: object, depsgraph: Depsgraph) -> None:
         parts, down = self.known.pose(self.armature, depsgraph), stability.down(depsgraph.scene)
         if self._parts and parts.names != self._parts[0].names:
             several = set(parts.names).symmetric_difference(self._parts[0].names)
@@ -95,9 +97,9 @@ class CharacterMotion(BalanceGroup):
     @property
     def course(self) -> motion.Course:
         """The frames, in Blender's units."""
-        arrays = (np.array([getattr(parts, name) for parts in self._parts]) for name in ("centers", "spreads"))
+        centers, spreads = (np.array([getattr(one, name) for one in self._parts]) for name in ("centers", "spreads"))
         linear = np.array([parts.matrices[:, :3, :3] for parts in self._parts])
-        return motion.Course(self.step, self._parts[0].masses, *arrays, linear)
+        return motion.Course(self.step, self._parts[0].masses, centers, spreads, linear)
 
     @property
     def touching(self) -> NDArray[np.bool_]:
@@ -290,7 +292,7 @@ class Carrier:
         off = (np.abs(after.matrices - expected)[:, :3] / units).max(axis=(1, 2))
         return before.names[int(off.argmax())] if off.max() > FOLLOWS else ""
 
-    def moved(self, moves: Sequence[NDArray]) -> dict[str, NDArray]:
+    def moved(self, moves: Sequence[NDArray] | NDArray) -> dict[str, NDArray]:
         """Return (f, k) values of the channels for a (4, 4) move in the world at each frame read."""
         values: dict[str, list] = {"location": [], self.rotation: []}
         mode, last = self.owner.rotation_mode, None

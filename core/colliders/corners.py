@@ -62,6 +62,7 @@ def correct_vertices(
 
 def _corners(shape: Shape) -> NDArray[np.float64]:
     """Return (n, 3) points of a mesh in the frame of its link."""
+    assert shape.surface is not None
     return shape.surface.points * shape.size @ shape.pose.rotation.T + shape.pose.position
 
 

@@ -233,4 +233,4 @@ class _stencils:
     def __call__(self, values: NDArray) -> NDArray[np.float64]:
         """Return (k, ...) combinations."""
         weights = self.weights[self.kinds].reshape(len(self.starts), -1, *(1,) * (values.ndim - 1))
-        return sum(weights[:, node] * values[self.starts + node] for node in range(weights.shape[1]))
+        return np.sum([weights[:, node] * values[self.starts + node] for node in range(weights.shape[1])], axis=0)

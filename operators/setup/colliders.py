@@ -65,6 +65,10 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
     CANCELED = "Making colliders canceled; nothing was changed"
     tolerance, correct, engine = "LENGTH", "NONE", "NONE"
 
+    def _wanted(self) -> tuple[str, float, float, int, int]:
+        """Return the fields of `Wanted`."""
+        raise NotImplementedError
+
     def _check(self, obj: Object) -> None:
         """Raise MeasureError for an object that cannot have the colliders."""
 

@@ -108,10 +108,11 @@ def _differing_aspects(
     maps = {"POINT": found.vertices, "EDGE": found.edges, "FACE": found.faces, "CORNER": found.corners}
     for name in first.layers.keys() | second.layers.keys():
         one, other = first.layers.get(name), second.layers.get(name)
-        data_type, domain, values = one or other
         if one is None or other is None:
+            data_type, domain, values = one or other or ("", "", maps["POINT"])
             is_alike = not values.any()  # a layer that is missing has zeros
         else:
+            data_type, domain, values = one
             is_alike = one[:2] == other[:2] and domain in maps and _agree(values, other[2][maps[domain]])
         if not is_alike:
             differing.add(_aspect(name, data_type, domain))

@@ -22,17 +22,15 @@ from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
 from .. import stored
-from ..findings import DENSITY_DEFAULT_KEPT
 from ..tracking import staleness, stamps
 
 if TYPE_CHECKING:
     from ....core.measurement.measurement import Measurement
 
 DEFAULTS = {  # notes on an unset density, by the setting
-    "density": finding(DENSITY_DEFAULT_KEPT, density="1000 kg/m³"),
-    "linear_density": finding(DENSITY_DEFAULT_KEPT, density="1 kg/m"),
+    "density": finding(DENSITY_DEFAULTED, slight=True, density="1000 kg/m³"),
+    "linear_density": finding(DENSITY_DEFAULTED, slight=True, density="1 kg/m"),
 }
-OF_DEFAULT_DENSITY = frozenset({DENSITY_DEFAULTED, DENSITY_DEFAULT_KEPT})
 
 
 def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
@@ -45,7 +43,7 @@ def noted(obj: Object, measurement: Measurement, scene: Scene) -> Measurement:
 
 def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Finding, ...]:
     """Return findings with the note on the setting `unset`, unless one of them is about it."""
-    if OF_DEFAULT_DENSITY.intersection([found.code for found in findings]):
+    if DENSITY_DEFAULTED in [found.code for found in findings]:
         return findings
     return (*findings, DEFAULTS[unset])
 
@@ -102,7 +100,7 @@ def _can_store(obj: Object) -> bool:
 def _findings(obj: Object, scene: Scene) -> list[Finding]:
     """Return the stored findings, with a note if the density is unset."""
     settings = obj.body_moments
-    kept = [found for found in properties.findings(obj) if found.code not in OF_DEFAULT_DENSITY]
+    kept = [found for found in properties.findings(obj) if found.code != DENSITY_DEFAULTED]
     if settings.mass_from == "MASS":
         return kept
     name = "linear_density" if settings.kind == "WIRE" else "density"
