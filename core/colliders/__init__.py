@@ -4,14 +4,4 @@
 
 from ..lazy import lazy_names
 
-__getattr__, __dir__, __all__ = lazy_names(
-    __name__,
-    Effect="effects",
-    Wanted="fits",
-    correct_masses="effects",
-    correct_vertices="corners",
-    distances="distance",
-    effect="effects",
-    make_colliders="fits",
-    uniform_masses="effects",
-)
+__getattr__, __dir__, __all__ = lazy_names(__name__)

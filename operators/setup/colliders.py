@@ -77,7 +77,7 @@ class _Making(selection.OnSelectionInObjectMode, ModalSteps):
         self._failures: list[Finding] = []
         self._objects = bodies_of(context)
         known: dict[str, Plan] = {}
-        depsgraph, wanted = context.evaluated_depsgraph_get(), core.colliders.Wanted(*self._wanted())
+        depsgraph, wanted = context.evaluated_depsgraph_get(), core.colliders.fits.Wanted(*self._wanted())
 
         def plan(obj: Object) -> Generator[float, None, None]:
             self._check(obj)
