@@ -29,43 +29,43 @@ PAIRS_PER_BLOCK = 1 << 20
 INSIDE_RTOL = 1e-9  # of the size
 
 
-def distances(surface: Surface, shapes: Sequence[Shape]) -> tuple[float, float, float]:
+def distances(surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None = None) -> tuple[float, float, float]:
     """Return the largest distance of the colliders from the body, outward, and of the body from them, inward, in m.
 
-    surface: closed and outward. The third number bounds by how much either may be too small. The distance from a convex
-    body is largest at a corner, so that only others are sampled.
+    surface: closed and outward. hull: its hull, if that is known. The third number bounds by how much either may be too
+    small. The distance from a convex body is largest at a corner, so that only others are sampled.
     """
+    hull = hull or convex_hull(surface.points)
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
-    size = float(np.ptp(points, axis=0).max())
-    hulls = [_polyhedron(shape) for shape in shapes]
-    solids = [hull for hull, _ in hulls]
-    tree = Bvh(points, sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1), np.ones(1, bool))
-    samples, step = (points[np.unique(triangles)], 0.0) if len(solids) == 1 else _samples(points, triangles, size)
+    size = float(np.ptp(hull.points, axis=0).max())
+    solids, sags = zip(*map(_polyhedron, shapes))
+    samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size)
     inward = float(_distances_from_union(samples, solids, size).max(initial=0.0))
-    outward, steps, is_convex = 0.0, [step], _is_convex(surface)
-    for i, hull in enumerate(solids):
-        places, step = hull.points, 0.0
-        if not is_convex:
-            places, step = _samples(hull.points, hull.triangles, max(size, float(np.ptp(hull.points, axis=0).max())))
+    if hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull):
+        corners = np.concatenate([solid.points for solid in solids])
+        return float(_distances_from_union(corners, [hull], size).max()), inward, step + max(sags)
+    tree = Bvh(points, sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1), np.ones(1, bool))
+    outward, steps = 0.0, [step]
+    for i, solid in enumerate(solids):
+        reach = max(size, float(np.ptp(solid.points, axis=0).max()))
+        places, step = _samples(solid.points, solid.triangles, reach)
         covered = np.zeros(len(places), bool)
         for j, other in enumerate(solids):
             if j != i:
                 covered |= _heights(places, other).max(axis=1) < -INSIDE_RTOL * size
         places = places[~covered] - tree.origin
-        alone = np.zeros(len(places), np.intp)
-        winding, sure = tree.winding_numbers(places, alone, INSIDE_RTOL * size)
+        winding, sure = tree.winding_numbers(places, np.zeros(len(places), np.intp), INSIDE_RTOL * size)
         places = places[~((winding != 0) & sure)]
         if len(places):
             outward = max(outward, float(tree.distances(places, np.zeros(len(places), np.intp)).max()))
         steps.append(step)
-    return outward, inward, max(steps) + max(sag for _, sag in hulls)
+    return outward, inward, max(steps) + max(sags)
 
 
-def _is_convex(surface: Surface) -> bool:
-    hull = convex_hull(surface.points, CONVEX_RTOL)
-    whole = volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0]
-    return whole - volume_and_center(surface)[0] <= CONVEX_RTOL * whole
+def hull_volume(hull: ConvexHull) -> float:
+    """Return the volume of a hull."""
+    return volume_and_center(Surface.from_triangles(hull.points, hull.triangles))[0]
 
 
 @lru_cache(maxsize=1)

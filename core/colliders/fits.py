@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 from math import pi
 
@@ -15,11 +16,10 @@ from numpy.typing import NDArray
 from ..inertia.mass_properties import MassProperties
 from ..mesh.hulls import ConvexHull, convex_hull
 from ..mesh.surface import Surface, normals, triangle_areas
-from ..polyhedron.integration import volume_and_center
 from ..robots.model import Inertial, Pose, Shape
 from ..robots.primitives import equal_inertia_shape
-from ..robots.shapes import moments_of, primitive_moments
-from .distance import distances
+from ..robots.shapes import primitive_moments
+from .distance import distances, hull_volume
 from .pieces import cut_into_pieces
 
 AXES_CORNERS = 48  # of the hull whose faces and edges give the directions of boxes
@@ -55,40 +55,52 @@ def make_colliders(surface: Surface, body: MassProperties, wanted: Wanted) -> Ge
         frame = body.principal
         inertial = Inertial.with_agreeing_axes(body.mass, body.center, body.inertia, frame.moments, frame.axes)
         return [equal_inertia_shape(inertial, wanted.shape.removeprefix(EQUAL))]
-    if wanted.shape != "automatic":
-        return (yield from _make(surface, body, wanted, wanted.shape))
     hull = convex_hull(surface.points)
-    whole = Surface.from_triangles(hull.points, hull.triangles)
-    size, reach = float(np.linalg.norm(np.ptp(hull.points, axis=0))), wanted.outward
-    area = float(triangle_areas(hull.points, hull.triangles).sum())
-    # Steiner's formula bounds the volume of all places this near to the hull; its mean width is below its diagonal.
-    most = volume_and_center(whole)[0] + area * reach + 2.0 * pi * size * reach**2 + 4.0 / 3.0 * pi * reach**3
-    for shape in SIMPLE:
-        shapes = yield from _make(whole, body, wanted, shape)
-        if moments_of(shapes[0]).raw[0] > most:
-            continue
-        outward, inward, _ = distances(surface, shapes)
-        if outward <= wanted.outward and inward <= wanted.inward:
-            return shapes
-    return (yield from _make(surface, body, wanted, "pieces"))
+    fits = _Fits(hull, body.principal.axes, wanted.vertices)
+    if wanted.shape not in ("automatic", "pieces"):
+        return [fits.make(wanted.shape)]
+    if wanted.shape == "automatic":
+        size, reach = float(np.linalg.norm(np.ptp(hull.points, axis=0))), wanted.outward
+        area = float(triangle_areas(hull.points, hull.triangles).sum())
+        # Steiner's formula bounds the volume of all places this near to the hull; its mean width is below its diagonal.
+        most = hull_volume(hull) + area * reach + 2.0 * pi * size * reach**2 + 4.0 / 3.0 * pi * reach**3
+        for name in SIMPLE:
+            shape = fits.make(name)
+            if shape.kind == "mesh" or _volume(shape) <= most:
+                outward, inward, _ = distances(surface, [shape], hull)
+                if outward <= wanted.outward and inward <= wanted.inward:
+                    return [shape]
+    hulls = yield from cut_into_pieces(surface, wanted.outward, wanted.pieces, wanted.vertices)
+    return [_hull_shape(hull) for hull in hulls]
 
 
-def _make(surface: Surface, body: MassProperties, wanted: Wanted, shape: str) -> Generator[float, None, list[Shape]]:
-    if shape == "pieces":
-        hulls = yield from cut_into_pieces(surface, wanted.outward, wanted.pieces, wanted.vertices)
-        return [_hull_shape(hull) for hull in hulls]
-    points = convex_hull(surface.points).points
-    if shape == "hull":
-        return [_hull_shape(convex_hull(points, max_corners=wanted.vertices))]
-    axes = body.principal.axes
-    fits: dict[str, Callable[[], Shape]] = {
-        "axes_box": lambda: _box(points, axes),
-        "box": lambda: _smallest_box(points, axes),
-        "sphere": lambda: _sphere(points),
-        "capsule": lambda: _smallest_round(points, axes, _capsule),
-        "cylinder": lambda: _smallest_round(points, axes, _cylinder),
-    }
-    return [fits[shape]()]
+class _Fits:
+    """The shapes around a hull. axes: principal axes as columns. corners: of a simpler hull, at most."""
+
+    def __init__(self, hull: ConvexHull, axes: NDArray[np.float64], corners: int) -> None:
+        self.hull, self.points, self.axes, self.corners = hull, hull.points, axes, corners
+
+    @cached_property
+    def box(self) -> Shape:
+        """The smallest box."""
+        return _smallest_box(self.points, self.axes)
+
+    def make(self, shape: str) -> Shape:
+        """Return the shape of this name in `Wanted`."""
+        if shape == "hull":
+            is_simple = len(self.points) <= self.corners
+            return _hull_shape(self.hull if is_simple else convex_hull(self.points, max_corners=self.corners))
+        if shape == "box":
+            return self.box
+        if shape == "axes_box":
+            return _box(self.points, self.axes)
+        if shape == "sphere":
+            center, radius = enclosing_ball(self.points)
+            return Shape("sphere", (radius,), Pose(center))
+        fit = _capsule if shape == "capsule" else _cylinder
+        frames = (self.axes, self.box.pose.rotation, np.eye(3))
+        turned = [frame[:, order] for frame in frames for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1])]
+        return min((fit(self.points, frame) for frame in turned), key=_volume)
 
 
 def _hull_shape(hull: ConvexHull) -> Shape:
@@ -127,18 +139,6 @@ def _volume(shape: Shape) -> float:
 
 def _units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     return vectors / np.linalg.norm(vectors, axis=1)[:, None]
-
-
-def _sphere(points: NDArray[np.float64]) -> Shape:
-    center, radius = enclosing_ball(points)
-    return Shape("sphere", (radius,), Pose(center))
-
-
-def _smallest_round(points: NDArray, axes: NDArray, fit: Callable[[NDArray, NDArray], Shape]) -> Shape:
-    """Return the smallest round shape along a principal axis, an axis of the smallest box, or x, y or z."""
-    frames = (axes, _smallest_box(points, axes).pose.rotation, np.eye(3))
-    turned = [frame[:, order] for frame in frames for order in ([0, 1, 2], [1, 2, 0], [2, 0, 1])]
-    return min((fit(points, frame) for frame in turned), key=_volume)
 
 
 def _cylinder(points: NDArray[np.float64], axes: NDArray[np.float64]) -> Shape:
