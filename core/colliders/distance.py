@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from math import pi
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,11 +29,13 @@ PAIRS_PER_BLOCK = 1 << 20
 INSIDE_RTOL = 1e-9  # of the size
 
 
-def distances(surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None = None) -> tuple[float, float, float]:
+def distances(
+    surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None = None, enough: float = inf
+) -> tuple[float, float, float]:
     """Return the largest distance of the colliders from the body, outward, and of the body from them, inward, in m.
 
-    surface: closed and outward. hull: its hull, if that is known. The third number bounds by how much either may be too
-    small. The distance from a convex body is largest at a corner, so that only others are sampled.
+    surface: closed and outward. hull: its hull, if that is known. enough: outward distances above it may be too small.
+    The third number bounds by how much others may be too small. The distance from a convex body is largest at a corner, so that only others are sampled.
     """
     hull = hull or convex_hull(surface.points)
     triangles = surface.all_triangles()[0].astype(np.intp)
@@ -42,11 +44,13 @@ def distances(surface: Surface, shapes: Sequence[Shape], hull: ConvexHull | None
     solids, sags = zip(*map(_polyhedron, shapes))
     samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size)
     inward = float(_distances_from_union(samples, solids, size).max(initial=0.0))
-    if hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull):
-        corners = np.concatenate([solid.points for solid in solids])
-        return float(_distances_from_union(corners, [hull], size).max()), inward, step + max(sags)
+    corners = np.concatenate([solid.points for solid in solids])
+    outward = float(_distances_from_union(corners, [hull], size).max())
+    is_convex = hull_volume(hull) - volume_and_center(surface)[0] <= CONVEX_RTOL * hull_volume(hull)
+    if is_convex or outward > enough:
+        return outward, inward, step + max(sags)
     tree = Bvh(points, sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1), np.ones(1, bool))
-    outward, steps = 0.0, [step]
+    steps = [step]
     for i, solid in enumerate(solids):
         reach = max(size, float(np.ptp(solid.points, axis=0).max()))
         places, step = _samples(solid.points, solid.triangles, reach)

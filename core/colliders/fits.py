@@ -67,7 +67,7 @@ def make_colliders(surface: Surface, body: MassProperties, wanted: Wanted) -> Ge
         for name in SIMPLE:
             shape = fits.make(name)
             if shape.kind == "mesh" or _volume(shape) <= most:
-                outward, inward, _ = distances(surface, [shape], hull)
+                outward, inward, _ = distances(surface, [shape], hull, wanted.outward)
                 if outward <= wanted.outward and inward <= wanted.inward:
                     return [shape]
     hulls = yield from cut_into_pieces(surface, wanted.outward, wanted.pieces, wanted.vertices)
