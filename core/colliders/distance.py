@@ -35,7 +35,8 @@ def distances(
     """Return the largest distance of the colliders from the body, outward, and of the body from them, inward, in m.
 
     surface: closed and outward. hull: its hull, if that is known. enough: outward distances above it may be too small.
-    The third number bounds by how much others may be too small. The distance from a convex body is largest at a corner, so that only others are sampled.
+    The third number bounds by how much others may be too small. The distance from a convex body is largest at a corner,
+    so that only others are sampled.
     """
     hull = hull or convex_hull(surface.points)
     triangles = surface.all_triangles()[0].astype(np.intp)

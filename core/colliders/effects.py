@@ -153,7 +153,7 @@ def _nonnegative(system: NDArray[np.float64], target: NDArray[np.float64], x: ND
     for _ in range(10 * size + 10):
         while True:
             best = np.zeros(size)
-            best[free] = np.linalg.lstsq(system[:, free], target)[0]
+            best[free] = np.linalg.lstsq(system[:, free], target, rcond=None)[0]
             if not (best[free] <= 0.0).any():
                 break
             falls = free & (best <= 0.0)
