@@ -174,7 +174,7 @@ def _distances_from_hull(points: NDArray, hull: ConvexHull, nearest: NDArray, si
 
 
 def _samples(points: NDArray, triangles: NDArray, step: float) -> tuple[NDArray[np.float64], float]:
-    """Return places on triangles about a step apart, and a bound of the distance of any other place from the nearest of them.
+    """Return places on triangles, a step apart or more, and a bound of any other place's distance from the nearest.
 
     A place in a triangle is at most 1/√3 of its longest side from the nearest corner.
     """

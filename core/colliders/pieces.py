@@ -106,12 +106,29 @@ def cut_into_pieces(
 def _from_surface(surface: Surface) -> _Piece:
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
+    triangles = _join_open_edges(points, triangles)
     normal = normals(points, triangles)
     real = np.linalg.norm(normal, axis=1) > 0.0
     triangles, normal = triangles[real], normal[real]
     face = np.arange(len(triangles)).repeat(3)
     start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
     return _Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
+
+
+def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return triangles whose open edges share points that coincide: lids of curves and texts have points of their own.
+
+    Other points stay apart, so that parts that only touch do not become one.
+    """
+    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    is_open = ~np.isin(start * len(points) + end, end * len(points) + start)
+    ends = np.unique(np.concatenate([start[is_open], end[is_open]]))
+    if not len(ends):
+        return triangles
+    _, first, which = np.unique(points[ends] + 0.0, axis=0, return_index=True, return_inverse=True)
+    number = np.arange(len(points))
+    number[ends] = ends[first[which.ravel()]]
+    return number[triangles]
 
 
 def _cut(piece: _Piece, plane: NDArray[np.float64]) -> Iterator[_Piece]:
