@@ -57,6 +57,7 @@ def distances(
     if is_convex or outward > enough:
         return max(outward, 0.0), inward, step + max(sags)
     tree = Bvh(points, sort_components(points, triangles, np.zeros(len(triangles), np.intp), 1), np.ones(1, bool))
+    own_step = 0.0
     for fineness in (COARSE_STEPS, STEPS) if enough < inf else (STEPS,):
         places, own_step = _outer_samples(solids, size, fineness)
         component = np.zeros(len(places), np.intp)
