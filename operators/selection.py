@@ -50,6 +50,8 @@ def poll_selection(cls: type[Operator], context: Context) -> bool:
 class InObjectMode:
     """Base of operators that need Object Mode."""
 
+    bl_options = {"REGISTER", "UNDO"}
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return poll_object_mode(cls, context)
@@ -58,6 +60,8 @@ class InObjectMode:
 class OnSelection:
     """Base of operators that need selected objects, in any mode."""
 
+    bl_options = {"REGISTER", "UNDO"}
+
     @classmethod
     def poll(cls, context: Context) -> bool:
         return poll_selection(cls, context)
@@ -65,6 +69,8 @@ class OnSelection:
 
 class OnSelectionInObjectMode:
     """Base of operators that need selected objects in Object Mode."""
+
+    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

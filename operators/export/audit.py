@@ -35,11 +35,11 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         description="A folder that meshes may be in, besides that of the file and of its package",
         subtype="DIR_PATH",
     )
-    allow_outside: BoolProperty(name="Meshes Anywhere", description="Read meshes wherever they are", default=False)
+    allow_outside: BoolProperty(name="Meshes Anywhere", description="Read meshes wherever they are")
     write_copy: BoolProperty(
-        name="Write Repaired Copy", description="Write a copy with _repaired in its name beside the file", default=False
+        name="Write Repaired Copy", description="Write a copy with _repaired in its name beside the file"
     )
-    write_page: BoolProperty(name="Write HTML", description="Write the report as a page beside the file", default=False)
+    write_page: BoolProperty(name="Write HTML", description="Write the report as a page beside the file")
 
     @selection.report_refusals
     def execute(self, _context: Context) -> set[str]:

@@ -21,7 +21,6 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     bl_idname = "object.body_moments_import_surfaces"
     bl_label = "Import Surfaces"
-    bl_options = {"REGISTER", "UNDO"}
 
     filter_glob: StringProperty(default="*.igs;*.iges;*.obj", options={"HIDDEN"})
     directory: StringProperty(subtype="DIR_PATH", options={"HIDDEN", "SKIP_SAVE"})

@@ -40,7 +40,6 @@ class _Settings:
     )
     of: EnumProperty(
         name="Domain",
-        default="BODY",
         description="What the transform integrates over",
         items=(
             ("BODY", "Body", "∫ exp(−i q·x) dV in m³. For shells, area times thickness"),
@@ -50,7 +49,6 @@ class _Settings:
     )
     frame: EnumProperty(
         name="Frame",
-        default="WORLD",
         description="Axes and origin of the frequencies",
         items=(
             ("WORLD", "World", "World axes and origin"),
@@ -66,7 +64,6 @@ class _Settings:
     )
     largest: FloatProperty(
         name="Max Frequency",
-        default=0.0,
         min=0.0,
         soft_max=1e6,
         precision=4,

@@ -71,7 +71,6 @@ class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
     thickness: FloatProperty(
         name="Thickness",
         description="Thickness of the shell. At 0, that of the object's settings",
-        default=0.0,
         min=0.0,
         precision=6,
         unit="LENGTH",

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from ...blender.session.similar import Match
 
 MAX_LISTED_BODIES = 20
-MIRRORED = BoolProperty(name="Ignore Mirroring", default=False, description="Rank mirror images like copies")
-SCALED = BoolProperty(name="Ignore Size", default=False, description="Rank scaled copies like copies")
+MIRRORED = BoolProperty(name="Ignore Mirroring", description="Rank mirror images like copies")
+SCALED = BoolProperty(name="Ignore Size", description="Rank scaled copies like copies")
 
 
 class BodyMomentsSimilar(PropertyGroup):
