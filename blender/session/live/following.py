@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from bpy.types import Object
 
-from ....core.measurement.settings import VERSION
+from ....core import measurement as measuring
 from .. import live
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
@@ -33,8 +33,7 @@ class Lag(StrEnum):
     BEHIND = "behind"
 
 
-@dataclass(frozen=True, eq=False)
-class LiveResult:
+class LiveResult(NamedTuple):
     """An object's current numbers.
 
     measurement: None if it was refused. refusal: the reason for that. seconds: duration of the measurement. settings:
@@ -86,7 +85,7 @@ def current_numbers(obj: Object) -> LiveResult | None:
 def stamp_of(obj: Object) -> Stamp | None:
     """Return a stamp of the settings of live numbers, as Blender does not report every change of a setting."""
     now = current_numbers(obj)
-    return None if now is None else Stamp(Kind.SETTINGS, VERSION, settings=now.settings)
+    return None if now is None else Stamp(Kind.SETTINGS, measuring.settings.VERSION, settings=now.settings)
 
 
 def lag(obj: Object) -> Lag:
