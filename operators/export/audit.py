@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty, StringProperty
-from bpy.types import Context, Menu, Operator
+from bpy.types import Context, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ...blender.write import reports
@@ -79,10 +79,6 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
         return str(target)
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    text = "Robot Description for Audit (.urdf/.sdf/.xml/.usda)"
-    menu.layout.operator(IMPORT_SCENE_OT_body_moments_audit.bl_idname, text=text)
-
-
 CLASSES = (IMPORT_SCENE_OT_body_moments_audit,)
-MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)
+ENTRY = selection.menu_entry(*CLASSES, text="Robot Description for Audit (.urdf/.sdf/.xml/.usda)")
+MENUS = ((bpy.types.TOPBAR_MT_file_import, ENTRY),)

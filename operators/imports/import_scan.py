@@ -8,7 +8,7 @@ from types import ModuleType
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntVectorProperty, StringProperty
-from bpy.types import Context, Menu, Operator
+from bpy.types import Context, Operator
 from bpy_extras.io_utils import ImportHelper
 
 from ... import core
@@ -134,9 +134,6 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
         return [*texts, *placed.findings]
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    menu.layout.operator(OBJECT_OT_body_moments_import_scan.bl_idname, text="Scan of Densities (.nii/.nrrd/.npy)")
-
-
 CLASSES = (OBJECT_OT_body_moments_import_scan,)
-MENUS = ((bpy.types.TOPBAR_MT_file_import, _menu),)
+ENTRY = selection.menu_entry(*CLASSES, text="Scan of Densities (.nii/.nrrd/.npy)")
+MENUS = ((bpy.types.TOPBAR_MT_file_import, ENTRY),)

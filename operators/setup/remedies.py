@@ -214,9 +214,7 @@ class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
         objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
         if not objects:
             return {"CANCELLED"}
-        for obj in context.view_layer.objects:
-            obj.select_set(obj in objects)
-        context.view_layer.objects.active = objects[0]
+        selection.select_only(context, objects, objects[0])
         return {"FINISHED"}
 
 

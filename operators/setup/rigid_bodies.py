@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
-from bpy.types import Context, Menu, Operator
+from bpy.types import Context, Operator
 
 from ...blender import session
 from ...blender.write import reports
@@ -122,9 +122,5 @@ def _compare_masses(context: Context, made: "RigidBodies") -> str:
     return "\n".join(lines)
 
 
-def _menu(menu: Menu, _context: Context) -> None:
-    menu.layout.operator(OBJECT_OT_body_moments_rigid_bodies.bl_idname, icon="RIGID_BODY")
-
-
 CLASSES = (OBJECT_OT_body_moments_rigid_bodies,)
-MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, _menu),)
+MENUS = ((bpy.types.VIEW3D_MT_object_rigid_body, selection.menu_entry(*CLASSES, icon="RIGID_BODY")),)

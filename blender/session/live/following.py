@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -16,13 +15,9 @@ from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from ....core.measurement.measurement import Measurement
-    from ....core.nurbs.tracked_solid import TrackedSolid
     from ....core.verdict.finding import Finding
-    from .moving_surface import MovingSurface
+    from .live import Followed
 
 
 class Lag(StrEnum):
@@ -44,28 +39,6 @@ class LiveResult(NamedTuple):
     refusal: Finding | None
     seconds: float
     settings: str
-
-
-@dataclass(eq=False)
-class Followed:
-    """An object with Live on.
-
-    matrix, transform, number: at the measurement, matrix_world, transform key and number of the last update. tracked:
-    the body, if edits are followed rather than measured anew. surface: the faces, if a light pass can follow them.
-    first_order: volume and center in the object's coordinates by the last light pass. pass_seconds: its duration.
-    shows_others: whether the object shows instances. is_pending: whether the object changed since the measurement.
-    """
-
-    result: LiveResult | None = None
-    matrix: NDArray[np.float64] | None = None
-    transform: str = ""
-    number: int = 0
-    tracked: TrackedSolid | None = None
-    surface: MovingSurface | None = None
-    first_order: tuple[float, NDArray[np.float64]] | None = None
-    pass_seconds: float = 0.0
-    shows_others: bool = False
-    is_pending: bool = False
 
 
 followed: SessionCache[Followed] = SessionCache()
