@@ -62,15 +62,13 @@ class CharacterMotion(BalanceGroup):
         before, subframe = scene.frame_current, scene.frame_subframe
         scene.frame_set(frames[0])
         try:
-            character.prepare(context, armature)
+            self._found = self.known, self.ground, _rig = character.find(context, armature)
         finally:
             scene.frame_set(before, subframe=subframe)
         self._context, self.unit = context, shortest_decimal(scene.unit_settings.scale_length)
         self.armature, self.frames = armature, frames
         self.step = scene.render.fps_base / scene.render.fps
-        known = character.character(armature, self.unit)
-        assert known is not None
-        self.known, self.objects, self.feet = known, [armature], [armature]
+        self.objects, self.feet = [armature], [armature]
         self.centers, self.supports, self.failure = [], [], None
         self.carrier: Carrier | None = None
         self._parts: list[Parts] = []
@@ -86,8 +84,7 @@ class CharacterMotion(BalanceGroup):
         if self._parts and parts.names != self._parts[0].names:
             several = set(parts.names).symmetric_difference(self._parts[0].names)
             raise Refused(HELD_IN_PART, names=", ".join(sorted(several)))
-        ground = self.armature.body_moments_weight.ground
-        points = self.known.contacts(self.armature, depsgraph, ground, down).points
+        points = self.known.contacts(self.armature, depsgraph, self.ground, down).points
         self._parts.append(parts)
         self.centers.append(parts.center)
         self.supports.append(support_of_contacts(points, parts.center, down, OUTLINE) if len(points) else None)
@@ -180,6 +177,7 @@ class CharacterMotion(BalanceGroup):
         """
         moves, carrier = self._moves(turns), self.carrier
         assert carrier is not None
+        character.keep(self.armature, *self._found)
         targets = np.einsum("fij,fj->fi", moves, np.insert(self.centers, 3, 1.0, axis=1))[:, :3]
         with tracking_paused():
             carrier.key(moves, self.times, turns, self.is_layered)
@@ -192,6 +190,7 @@ class CharacterMotion(BalanceGroup):
 
     def bake(self, context: Context, curves: bool) -> tuple[Object, int]:
         """Key the path on an empty, with curves of the momenta; return it and the number of unexplained spans."""
+        character.keep(self.armature, *self._found)
         course, touching, unit = self.course, self.touching, self.unit
         flights = motion.find_flights(touching)
         spans = motion.find_unexplained(course, flights, self.gravity)
@@ -262,6 +261,9 @@ class Carrier:
                 "constrained": any(not one.mute and one.influence > 0.0 for one in owner.constraints),
                 "muted": any(curve.mute for curve in keyed),
                 "being tweaked in the NLA editor": animation is not None and animation.use_tweak_mode,
+                "changed by F-curve modifiers": any(not one.mute for curve in keyed for one in curve.modifiers),
+                "keyed for several objects": bool(keyed) and fcurves.is_shared(self.armature),
+                "changed by Delta Transforms": not self.is_bone and _has_deltas(owner),
             }
             for state, holds in states.items():
                 if holds:
@@ -335,3 +337,9 @@ class Carrier:
                 rows = np.array([curve.evaluate(time) for time in times])
             if rows is not None:
                 fcurves.replace_section(curve, first, last, rows)
+
+
+def _has_deltas(obj: Object) -> bool:
+    """Return whether the delta transforms of an object change its location, rotation or scale."""
+    turns = *obj.delta_rotation_euler, *obj.delta_rotation_quaternion[1:]
+    return any((*obj.delta_location, *turns, *(factor != 1.0 for factor in obj.delta_scale)))
