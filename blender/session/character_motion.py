@@ -120,11 +120,11 @@ class CharacterMotion(BalanceGroup):
         raise Refused(NOT_CARRIED, part=part, name=owners[0].name)
 
     def follow_flight(
-        self, scene: Scene, flight: tuple[int, int] | None, keep_height: bool, blend: int
+        self, scene: Scene, flight: tuple[int, int] | None, keep_height: bool, before: int, after: int
     ) -> Iterator[int]:
         """Find a flight if none is given, and follow it at the times at which its poses were.
 
-        keep_height: the flight lasts as long as its height demands. blend: frames after it that are followed, too.
+        keep_height: the flight lasts as long as its height demands. before, after: frames that are followed, too.
         """
         if keep_height and self.is_layered:
             raise Refused(LAYERED_TIMES)
@@ -137,8 +137,9 @@ class CharacterMotion(BalanceGroup):
         if keep_height:
             count = max(2, round(motion.frames_of_height(np.array(self.centers[rows]), self.step, self.gravity)))
         self.landing = self.first + count
-        self.times = np.linspace(self.first, self.last, count + 1).tolist()
-        self.times += range(self.last + 1, self.last + blend + 1)
+        self.before, self.after = before, after
+        self.times = [*range(self.first - before, self.first), *np.linspace(self.first, self.last, count + 1).tolist()]
+        self.times += range(self.last + 1, self.last + after + 1)
         if set(self.times) <= set(frames):
             self.clear([round(time) - frames[0] for time in self.times])
         else:
@@ -155,18 +156,21 @@ class CharacterMotion(BalanceGroup):
         return frames[first], frames[last]
 
     def _moves(self, turns: bool) -> NDArray[np.float64]:
-        """Return (f, 4, 4) moves onto the arc between the ends, or turns of constant spin, which then go back."""
+        """Return (f, 4, 4) moves onto the arc between the ends, or turns of constant spin, blended around it."""
         centers, moves = np.array(self.centers), np.tile(np.eye(4), (len(self.centers), 1, 1))
         if not turns:
             arc = motion.ballistic_arc(centers[0], centers[-1], len(centers) - 1, self.step, self.gravity)
             moves[:, :3, 3] = arc - centers
             return moves
-        landing = self.landing - self.first
-        moves[: landing + 1, :3, :3] = motion.turns_of_constant_spin(self.course, 0, landing)
-        end = Quaternion(quaternion(moves[landing, :3, :3]))
-        for index, left in enumerate(np.linspace(1.0, 0.0, len(centers) - landing)[1:], landing + 1):
-            back = Quaternion().slerp(end, left * left * (3.0 - 2.0 * left))
-            moves[index, :3, :3] = rotation_matrix(back)
+        first, last = self.before, self.before + self.landing - self.first
+        turns = motion.turns_of_constant_spin(self.course, first, last, first / (first + self.after))
+        rows = np.arange(len(centers))
+        near = np.clip(rows, first, last)
+        moves[:, :3, :3] = turns[near - first]
+        for row in np.flatnonzero(rows != near):
+            left = 1.0 - abs(row - near[row]) / (first if row < first else self.after)
+            whole = Quaternion(quaternion(moves[row, :3, :3]))
+            moves[row, :3, :3] = rotation_matrix(Quaternion().slerp(whole, left * left * (3.0 - 2.0 * left)))
         moves[:, :3, 3] = centers - np.einsum("fij,fj->fi", moves[:, :3, :3], centers)
         return moves
 
@@ -183,7 +187,7 @@ class CharacterMotion(BalanceGroup):
             carrier.key(moves, self.times, turns, self.is_layered)
             self.clear()
             self.carrier, places = None, np.unique(np.linspace(0, len(moves) - 1, CHECKED).astype(int))
-            for _ in self.follow(context.scene, (self.first + places).tolist()):
+            for _ in self.follow(context.scene, (self.first - self.before + places).tolist()):
                 pass
         off = float(np.linalg.norm(self.centers - targets[places], axis=1).max())
         return off * self.unit if off > FOLLOWS * self.known.size else 0.0

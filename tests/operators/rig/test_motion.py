@@ -181,6 +181,21 @@ def test_angular_momentum_is_that_of_take_off(scene, mode, layer):
     assert np.abs(poses(rig, range(1, END + 1)) - pose).max() < 1e-5
 
 
+@pytest.mark.parametrize("lead", [0, 5])
+def test_lead_shares_the_turn_between_both_ends(scene, lead):
+    rig, frames = jumper("QUATERNION", spin=2.0), range(1, END + 1)
+    before, spun = poses_in_world(rig, frames), angular_momenta(rig, FLIGHT)
+    assert SPIN(lead=lead, blend=5, **TYPED) == {"FINISHED"}
+    after, found = poses_in_world(rig, frames), angular_momenta(rig, FLIGHT)
+    size = np.linalg.norm(spun[0])
+    assert np.abs(found - found[0]).max() < 0.01 * size and np.abs(found[0] - spun[0]).max() < 0.03 * size
+    kept = [*range(TAKE_OFF - lead), *range(LANDING + 4, END)]
+    assert np.abs(after - before)[kept].max() < 1e-5
+    ends = [Matrix(after[frame - 1, 0] @ np.linalg.inv(before[frame - 1, 0])) for frame in (TAKE_OFF, LANDING)]
+    first, last = (end.to_quaternion().angle for end in ends)
+    assert (first < 1e-3) if lead == 0 else 0.1 < first < last
+
+
 def test_thrown_rigid_body_keeps_its_momentum(scene):
     rig, _body = figure(held=False)
     scene.frame_start, scene.frame_end = 1, 40
