@@ -43,6 +43,8 @@ def build(folder: Path) -> None:
 def target(link: str) -> str:
     """Return the target of a link of README from the folder beside the manual."""
     path, hash_sign, place = link.partition("#")
+    if not path:
+        return link
     if path == "CHANGELOG.md":
         path = "docs/changes.md"
     path = re.sub(r"^docs/(.+)\.md$", r"\1.html", path)
