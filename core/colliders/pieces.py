@@ -44,7 +44,7 @@ SPARE = 2  # pieces made for each wanted piece, before they are merged
 class _Piece:
     """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise from outside.
 
-    face, start, end: (e,). normals: (f, 3) of faces. hull: of the points.
+    face, start, end: (e,). normals: (f, 3) of faces.
     """
 
     points: NDArray[np.float64]
@@ -82,7 +82,7 @@ def cut_into_pieces(
 ) -> Generator[float, None, list[ConvexHull]]:
     """Divide a closed body into convex hulls, in steps that yield the completed share.
 
-    surface: closed and outward. outward: m; a piece none of whose points is deeper in its hull is not divided.
+    surface: closed and outward. outward: m; a piece is not divided if its hull is nowhere seen farther from it.
     pieces: at most so many. corners: of each hull, at most.
     """
     body = [*_connected(_from_surface(surface))]
@@ -168,9 +168,8 @@ def _half(piece: _Piece, height: NDArray, crossing: NDArray, normal: NDArray) ->
     along = np.einsum("ij,ij->i", piece.points[where], np.cross(piece.normals[face], normal))
     order = np.lexsort((along, face))
     where, face, count = where[order], face[order], np.cumsum(step[order])
-    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:])).repeat(
-        np.abs(count[:-1][(count[:-1] != 0) & (where[:-1] != where[1:])])
-    )
+    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:]))
+    chords = chords.repeat(np.abs(count[chords]))
     forward = count[chords] > 0
     begin = np.where(forward, where[chords], where[chords + 1])
     stop = np.where(forward, where[chords + 1], where[chords])
