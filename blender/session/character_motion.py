@@ -163,10 +163,10 @@ class CharacterMotion(BalanceGroup):
             moves[:, :3, 3] = arc - centers
             return moves
         first, last = self.before, self.before + self.landing - self.first
-        turns = motion.turns_of_constant_spin(self.course, first, last, first / (first + self.after))
+        spins = motion.turns_of_constant_spin(self.course, first, last, first / (first + self.after))
         rows = np.arange(len(centers))
         near = np.clip(rows, first, last)
-        moves[:, :3, :3] = turns[near - first]
+        moves[:, :3, :3] = spins[near - first]
         for row in np.flatnonzero(rows != near):
             left = 1.0 - abs(row - near[row]) / (first if row < first else self.after)
             whole = Quaternion(quaternion(moves[row, :3, :3]))
