@@ -17,8 +17,7 @@ from ...core.shape.registration import MAX_FIT_RTOL, RigidMatch
 from ...core.shape.signatures import Likeness, Signature, similarity
 from ...core.verdict.finding import Finding
 from ..bodies.flat.flat_shape import FlatShape, body_or_flat, comparable_shape_of, distance_from
-from ..bodies.shape.shape import surface_shape_of
-from ..bodies.shape.stack_signature import signed_in_turn
+from ..bodies.shape.shape import signed_in_turn, surface_shape_of
 from ..bodies.shape.surface_distance import register_surfaces
 
 DESCRIPTOR_ORDER = 12  # ample to separate parts, in a fourth of the time of order 20

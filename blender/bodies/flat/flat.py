@@ -18,8 +18,8 @@ from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OP
 from ....core.flat.findings import SECTION_NOT_FLAT
 from ....core.flat.polygon import find_defects, orient_loops
 from ....core.flat.regions import plane_positions, region_moments
-from ....core.flat.section import fit_plane, project, projection_rounding, region
-from ....core.flat.section_properties import Plane
+from ....core.flat.section import fit_plane, measure_section, project, projection_rounding, region
+from ....core.flat.section_properties import Plane, Section
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ....core.measurement.findings import NO_VOLUME
 from ....core.moments.exponents import monomials
@@ -47,6 +47,7 @@ FILL_AREA_RTOL = 1e-4  # if Blender's fill and the outlines differ by more, the 
 NO_BODY = {NO_VOLUME, NO_CERTAIN_VOLUME, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE}
 NOT_FLAT = {SECTION_NOT_FLAT, SECTION_EXTRUDED, FLAT_OF_TYPE}
 NORMAL = np.array([0.0, 0.0, 1.0])  # in the plane's own axes
+MeasuredSection = tuple[Section, str, tuple[Finding, ...]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +124,13 @@ def flat_region(
     drawn = {DRAWN_AS_POLYGONS, RENDER_DIFFERS}
     kept = [one for one in found.findings if one.code not in drawn]
     return replace(found, curves=curves, stored=max(stored, found.stored), findings=tuple(kept))
+
+
+def section_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph) -> MeasuredSection:
+    """Return an object's section (SI, world axes), a description of the measured part, and the findings."""
+    found = flat_region(obj, depsgraph, exact=False)
+    section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
+    return section, found.description, (*found.findings, *area_findings(found, section.area))
 
 
 def clearer_refusal(no_body: MeasureError, not_flat: MeasureError) -> MeasureError:

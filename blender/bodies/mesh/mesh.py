@@ -1,12 +1,18 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places."""
+"""The body bounded by polygons, with all its instances: each surface is measured once and mapped to its places.
+
+Overlapping shells are united by Blender's own exact Boolean. The convex hull has the possible contacts with the ground.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+import bpy
 import numpy as np
+from bpy.types import Depsgraph, Object
+from numpy.typing import NDArray
 
 from ....core.bodies.instances import singular_instances_message
 from ....core.bodies.mesh_body import MeshBody, triangle_count
@@ -14,13 +20,16 @@ from ....core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
 from ....core.bodies.reading import Reading
 from ....core.bodies.wall import find_walls
 from ....core.measurement.body import Body
-from ....core.mesh.surface import join_surfaces
+from ....core.mesh.hulls import ConvexHull, convex_hull
+from ....core.mesh.surface import Surface, join_surfaces
 from ....core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
 from ....core.solid.measure import measure_solid
-from ....core.verdict.finding import ReadError, finding
+from ....core.verdict.finding import EditRefusedError, ReadError, finding
 from ....core.verdict.findings import FLIPPED_FACES
 from ....core.verdict.method import Method, Verdict
-from ...read.union import union_surface
+from ...read.findings import SCALE_ZERO_AXIS
+from ...read.mesh import mesh_surface
+from ...read.objects import read_object
 from ...read.visibility import shows_flat_region
 from ..density.varying_density import weigh
 from ..findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
@@ -29,6 +38,9 @@ from ..request import Request
 MEASURED_AS = frozenset({"solid", "shell"})
 
 REPAIRS = {HOLES_CAPPED, FLIPPED_FACES, INVERTED_COMPONENTS}  # reported of bodies before they are united
+HULL_RTOL = 1e-6  # relative to the extent: points that are outside by less are left out
+NOISE = 4.0  # half ulps of float32 coordinates by which flat faces may be uneven
+MAX_CORNERS = 10000  # per hull: finely divided round bodies have more
 
 
 def read(request: Request) -> Reading | None:
@@ -96,3 +108,87 @@ def _boolean_union(reading: Reading, unit: float, threads: int) -> MeshBody:
         solids=((solid, np.eye(4)[None]),),
         _known={},
     )
+
+
+def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
+    """Return the convex hull of an object with its instances, in its own coordinates, or raise MeasureError."""
+    reading = read_object(obj, depsgraph, edges=False)
+    if reading.is_singular:
+        raise EditRefusedError(SCALE_ZERO_AXIS)
+    to_local = np.linalg.inv(reading.matrix)
+    points, noise = [], 0.0
+    for part in reading.parts:
+        corners = _corners(part.surface) if len(part.matrices) > 1 else _used_points(part.surface)
+        for matrix in to_local @ part.matrices:
+            points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
+            noise = max(noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max()))
+    joined = np.concatenate(points)
+    extent = float(np.ptp(joined, axis=0).max())
+    return convex_hull(joined, max(HULL_RTOL, NOISE * noise / (extent or np.inf)), MAX_CORNERS)
+
+
+def _used_points(surface: Surface) -> NDArray[np.float64]:
+    """Return the points that are corners of faces."""
+    used = np.zeros(len(surface.points), bool)
+    used[surface.triangles] = True
+    used[surface.quads] = True
+    return surface.points[used].astype(np.float64)
+
+
+def _corners(surface: Surface) -> NDArray[np.float64]:
+    return convex_hull(_used_points(surface), HULL_RTOL, MAX_CORNERS).points
+
+
+def union_surface(surface: Surface) -> Surface:
+    """Return the surface around the union of all shells, in float32; measured about their middle at unit size."""
+    points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    scale = 2.0 ** np.ceil(np.log2(np.abs(points - middle).max()))  # a power of two rounds nothing
+
+    made = []
+    try:
+        mesh = _mesh((points - middle) / scale, faces)
+        made.append(mesh)
+        body = bpy.data.objects.new(mesh.name, mesh)
+        made.append(body)
+        nothing = bpy.data.collections.new("")  # with no operand the solver still unites the object with itself
+        made.append(nothing)
+        scene = bpy.data.scenes.new("")
+        made.append(scene)
+        scene.collection.objects.link(body)
+        boolean = body.modifiers.new("", "BOOLEAN")
+        boolean.operation, boolean.solver, boolean.use_self = "UNION", "EXACT", True
+        boolean.operand_type, boolean.collection = "COLLECTION", nothing
+        scene.view_layers[0].update()
+        depsgraph = scene.view_layers[0].depsgraph
+        evaluated = body.evaluated_get(depsgraph)
+        united = mesh_surface(evaluated.to_mesh())
+        evaluated.to_mesh_clear()
+    finally:
+        for data in reversed(made):
+            _remove(data)
+    # Blender rounds the points to float32 before its boolean and after it, and the points themselves were rounded once.
+    united = united.transform(scale * np.eye(3), middle)
+    return replace(united, displacement=2.0 * united.coordinate_error + surface.coordinate_error)
+
+
+def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:
+    mesh = bpy.data.meshes.new("")
+    mesh.vertices.add(len(points))
+    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
+    mesh.loops.add(triangles.size)
+    mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
+    mesh.polygons.add(len(triangles))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+    mesh.update()
+    return mesh
+
+
+def _remove(data: bpy.types.ID) -> None:
+    collection = {
+        "Mesh": bpy.data.meshes,
+        "Object": bpy.data.objects,
+        "Collection": bpy.data.collections,
+        "Scene": bpy.data.scenes,
+    }[data.bl_rna.identifier]
+    collection.remove(data)

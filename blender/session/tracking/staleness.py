@@ -258,7 +258,7 @@ def note_edits(obj: Object, shape: bytes | None = None) -> None:
         return
     carried = stamps.with_geometry(obj)
     if shape is None and any([text in _shapes for text in carried]) and (depsgraph := updates.depsgraph_of(last)):
-        shape = read.shapes.shape_digest(obj, depsgraph)
+        shape = read.mesh.shape_digest(obj, depsgraph)
     for text, kind in carried.items():
         if shape is not None and text in _shapes:
             set_edited(obj, text, shape != _shapes[text])
@@ -272,7 +272,7 @@ def _remember_shape(obj: Object, stamp: Stamp, depsgraph: Depsgraph, shape: byte
     varies = obj.body_moments.density_from in {"MATERIALS", "ATTRIBUTE", "VOLUME"}
     if varies and stamp.kind in (Kind.RESULTS, Kind.MOMENTS):
         return
-    shape = shape or read.shapes.shape_digest(obj, depsgraph)
+    shape = shape or read.mesh.shape_digest(obj, depsgraph)
     if shape is not None:  # else the digest of an equal object with the same stamp still holds
         _shapes[stamp.text] = shape
 
