@@ -118,7 +118,9 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
     to_local = np.linalg.inv(reading.matrix)
     points, noise = [], 0.0
     for part in reading.parts:
-        corners = _corners(part.surface) if len(part.matrices) > 1 else _used_points(part.surface)
+        corners = _used_points(part.surface)
+        if len(part.matrices) > 1:
+            corners = convex_hull(corners, HULL_RTOL, MAX_CORNERS).points
         for matrix in to_local @ part.matrices:
             points.append(corners @ matrix[:3, :3].T + matrix[:3, 3])
             noise = max(noise, float((np.abs(matrix[:3, :3]) @ part.surface.coordinate_error).max()))
@@ -129,14 +131,8 @@ def object_hull(obj: Object, depsgraph: Depsgraph) -> ConvexHull:
 
 def _used_points(surface: Surface) -> NDArray[np.float64]:
     """Return the points that are corners of faces."""
-    used = np.zeros(len(surface.points), bool)
-    used[surface.triangles] = True
-    used[surface.quads] = True
-    return surface.points[used].astype(np.float64)
-
-
-def _corners(surface: Surface) -> NDArray[np.float64]:
-    return convex_hull(_used_points(surface), HULL_RTOL, MAX_CORNERS).points
+    users = np.bincount(surface.all_triangles()[0].ravel(), minlength=len(surface.points))
+    return surface.points[users > 0].astype(np.float64)
 
 
 def union_surface(surface: Surface) -> Surface:
@@ -147,8 +143,9 @@ def union_surface(surface: Surface) -> Surface:
 
     made = []
     try:
-        mesh = _mesh((points - middle) / scale, faces)
+        mesh = bpy.data.meshes.new("")
         made.append(mesh)
+        mesh.from_pydata((points - middle) / scale, [], faces)
         body = bpy.data.objects.new(mesh.name, mesh)
         made.append(body)
         nothing = bpy.data.collections.new("")  # with no operand the solver still unites the object with itself
@@ -165,30 +162,7 @@ def union_surface(surface: Surface) -> Surface:
         united = mesh_surface(evaluated.to_mesh())
         evaluated.to_mesh_clear()
     finally:
-        for data in reversed(made):
-            _remove(data)
+        bpy.data.batch_remove(made)
     # Blender rounds the points to float32 before its boolean and after it, and the points themselves were rounded once.
     united = united.transform(scale * np.eye(3), middle)
     return replace(united, displacement=2.0 * united.coordinate_error + surface.coordinate_error)
-
-
-def _mesh(points: np.ndarray, triangles: np.ndarray) -> bpy.types.Mesh:
-    mesh = bpy.data.meshes.new("")
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    mesh.loops.add(triangles.size)
-    mesh.loops.foreach_set("vertex_index", triangles.astype(np.int32).ravel())
-    mesh.polygons.add(len(triangles))
-    mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
-    mesh.update()
-    return mesh
-
-
-def _remove(data: bpy.types.ID) -> None:
-    collection = {
-        "Mesh": bpy.data.meshes,
-        "Object": bpy.data.objects,
-        "Collection": bpy.data.collections,
-        "Scene": bpy.data.scenes,
-    }[data.bl_rna.identifier]
-    collection.remove(data)

@@ -254,10 +254,8 @@ class Shape:
         """Return (n, 3) corners of all faces, relative to the center."""
         points = []
         for piece in self.pieces():
-            triangles = piece.all_triangles()[0]
-            used = np.zeros(len(piece.points), bool)
-            used[triangles] = True
-            points.append(piece.points[used] - self.center)
+            users = np.bincount(piece.all_triangles()[0].ravel(), minlength=len(piece.points))
+            points.append(piece.points[users > 0] - self.center)
         return np.concatenate(points)
 
 

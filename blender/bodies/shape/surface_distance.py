@@ -45,17 +45,10 @@ class SurfaceDistance:
         self._center, self._scale = shape.center, shape.size
         self._triangles = triangles = whole.all_triangles()[0]
         self._corners = (whole.points - self._center) / self._scale
-        is_used = np.zeros(len(whole.points), bool)
-        is_used[triangles] = True
-        used = np.flatnonzero(is_used)
-        pick = np.linspace(0, len(used) - 1, min(len(used), SURFACE_SAMPLES // 2)).astype(int)
-        middles = whole.points[
-            triangles[np.linspace(0, len(triangles) - 1, min(len(triangles), SURFACE_SAMPLES // 2)).astype(int)]
-        ].mean(axis=1)
-        far = np.argsort(((whole.points[used] - self._center) ** 2).sum(axis=1), kind="stable")[
-            -SURFACE_SAMPLES // 10 :
-        ]
-        points = np.concatenate([whole.points[used[far]], whole.points[used[pick]], middles])
+        used = whole.points[np.bincount(triangles.ravel(), minlength=len(whole.points)) > 0]
+        middles = whole.points[thinned(triangles)].mean(axis=1)
+        far = np.argsort(((used - self._center) ** 2).sum(axis=1), kind="stable")[-SURFACE_SAMPLES // 10 :]
+        points = np.concatenate([used[far], thinned(used), middles])
         self.points = points.astype(np.float64, copy=False)
 
     def build(self) -> Iterator[float]:
@@ -92,6 +85,11 @@ class SurfaceDistance:
             near_triangles = self._triangles[np.fromiter(chain.from_iterable(around), np.intp)]
             np.minimum.at(distances, which, triangle_distances(scaled[which], self._corners[near_triangles]))
         return distances * self._scale
+
+
+def thinned(rows: NDArray) -> NDArray:
+    """Return evenly chosen rows of an array, no more than half of SURFACE_SAMPLES."""
+    return rows[np.linspace(0, len(rows) - 1, min(len(rows), SURFACE_SAMPLES // 2)).astype(int)]
 
 
 def _as_tuples(array: NDArray) -> list[tuple]:

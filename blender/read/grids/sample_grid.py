@@ -68,20 +68,15 @@ class SampledGrid:
     @contextmanager
     def _sampler(self) -> Iterator[Callable[[NDArray, tuple[int, int, int]], NDArray]]:
         """Yield a function that takes the first voxel of a block and its shape, and returns the values."""
-        made = []
-
-        def keep(collection, block):
-            made.append((collection, block))
-            return block
-
+        name, made = "Body Moments Reading", []
         try:
-            mesh = keep(bpy.data.meshes, bpy.data.meshes.new("Body Moments Reading"))
-            tree = keep(bpy.data.node_groups, bpy.data.node_groups.new("Body Moments Reading", "GeometryNodeTree"))
-            probe = keep(bpy.data.objects, bpy.data.objects.new("Body Moments Reading", mesh))
-            scene = keep(bpy.data.scenes, bpy.data.scenes.new("Body Moments Reading"))
+            made.append(mesh := bpy.data.meshes.new(name))
+            made.append(tree := bpy.data.node_groups.new(name, "GeometryNodeTree"))
+            made.append(probe := bpy.data.objects.new(name, mesh))
+            made.append(scene := bpy.data.scenes.new(name))
             layer = _layer_at_frame_of(self._depsgraph.scene, scene)
             _fill(tree, self._obj, self._name, self._kind)
-            probe.modifiers.new("Body Moments Reading", "NODES").node_group = tree
+            probe.modifiers.new(name, "NODES").node_group = tree
             scene.collection.objects.link(probe)
 
             def sample(first: NDArray, shape: tuple[int, int, int]) -> NDArray:
@@ -105,8 +100,7 @@ class SampledGrid:
 
             yield sample
         finally:
-            for collection, block in reversed(made):
-                collection.remove(block)
+            bpy.data.batch_remove(made)
 
 
 def _layer_at_frame_of(shown, scene):

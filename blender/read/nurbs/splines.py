@@ -115,14 +115,8 @@ def weighted_points(spline) -> NDArray[np.float32]:
 
 def _spaces(spline) -> tuple[SplineSpace, SplineSpace] | None:
     """Return the spaces of v and u: with v first, a patch's normal points as Blender's faces do."""
-    v, u = (
-        blender_space(
-            spline.point_count_v, spline.order_v, spline.use_cyclic_v, spline.use_bezier_v, spline.use_endpoint_v
-        ),
-        blender_space(
-            spline.point_count_u, spline.order_u, spline.use_cyclic_u, spline.use_bezier_u, spline.use_endpoint_u
-        ),
-    )
+    names = ("point_count_", "order_", "use_cyclic_", "use_bezier_", "use_endpoint_")
+    v, u = (blender_space(*(getattr(spline, name + axis) for name in names)) for axis in "vu")
     return None if v is None or u is None else (v, u)
 
 
