@@ -57,11 +57,6 @@ class Request:
         """The scene, whose defaults apply to the object."""
         return _scene(self.depsgraph)
 
-    @property
-    def accepted(self) -> frozenset[str]:
-        """The codes of findings that were accepted for the object."""
-        return frozenset() if self.obj is None else accepted_codes(self.obj)
-
     @cached_property
     def density(self) -> DensityField | None:
         """The varying density, None for a uniform one; may raise MeasureError."""
@@ -93,5 +88,5 @@ def measurement_of(reading: Reading, body: Body, request: Request) -> Measuremen
     """Return the results of measuring a body, or raise MeasureError if it has no mass or unknown moments."""
     transform = "" if request.obj is None else transform_key(request.obj)
     measurement = measure_reading(reading, body, request.settings, transform)
-    accepted = request.accepted
+    accepted = frozenset() if request.obj is None else accepted_codes(request.obj)
     return replace(measurement, findings=with_acceptance(measurement.findings, accepted)) if accepted else measurement

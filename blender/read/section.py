@@ -75,7 +75,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
         raise ReadError(FLAT_OF_TYPE, subject=obj.name)
     if selected and obj.type == "MESH" and obj.data.is_editmode:
         return _selected_faces(obj, depsgraph)
-    if obj.type in {"CURVE", "FONT"} and not _has_modifiers(obj):
+    if obj.type in {"CURVE", "FONT"} and not any(modifier.show_viewport for modifier in obj.modifiers):
         return _outlines(obj, depsgraph, resolution)
     reading = read_object(obj, depsgraph, edges=False)
     findings = list(reading.findings)
@@ -102,10 +102,6 @@ def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64
     place = locate(obj, depsgraph)
     curves = text_curves(obj, depsgraph) if obj.type == "FONT" else read_curves(obj, depsgraph)[0]
     return curves, place.matrix
-
-
-def _has_modifiers(obj) -> bool:
-    return any(modifier.show_viewport for modifier in obj.modifiers)
 
 
 def _axes(reading: Reading) -> NDArray[np.float64]:
@@ -194,7 +190,7 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
         yield finding(SECTION_SPLINES_OPEN, count=open_splines)
     if obj.data.fill_mode == "NONE":
         yield finding(SECTION_NOT_FILLED)
-    if not _is_curved(obj):
+    if obj.type != "FONT" and all(spline.type == "POLY" for spline in obj.data.splines):
         return
     yield finding(DRAWN_AS_POLYGONS)
     shown, rendered = obj.data.resolution_u, obj.data.render_resolution_u
@@ -248,10 +244,6 @@ def _fill_area(obj, depsgraph) -> Surface | None:
         return mesh_surface(mesh, edges=False) if mesh is not None and len(mesh.polygons) else None
     finally:
         evaluated.to_mesh_clear()
-
-
-def _is_curved(obj) -> bool:
-    return obj.type == "FONT" or any(spline.type != "POLY" for spline in obj.data.splines)
 
 
 def _require_finite(obj, points: NDArray) -> None:

@@ -85,8 +85,8 @@ class Shape:
 
     @property
     def is_display_mesh(self) -> bool:
-        """True if the pieces are the display mesh of something smooth."""
-        return is_display_mesh(self.measurement)
+        """True if the pieces are the display mesh of something smooth, whose moments differ a little."""
+        return self.measurement.method.source == Source.NURBS
 
     @property
     def center(self) -> NDArray[np.float64]:
@@ -111,7 +111,7 @@ class Shape:
 
     def piece_moments(self) -> Moments:
         """Return moments like `moments`, but of the polygons, which replace a smooth surface in comparisons."""
-        if not is_display_mesh(self.measurement):
+        if not self.is_display_mesh:
             return self.moments
         volume, area = polyhedron_moments(
             self.pieces(),
@@ -257,11 +257,6 @@ class Shape:
             users = np.bincount(piece.all_triangles()[0].ravel(), minlength=len(piece.points))
             points.append(piece.points[users > 0] - self.center)
         return np.concatenate(points)
-
-
-def is_display_mesh(measurement: Measurement) -> bool:
-    """Return whether a body's pieces are the display mesh of something smooth, whose moments differ a little."""
-    return measurement.method.source == Source.NURBS
 
 
 class NoShapeError(ReadError):

@@ -174,10 +174,6 @@ class MeasuredStack:
         )
         return np.array(bounds).transpose(2, 0, 1)
 
-    def in_object_frames(self) -> MassProperties:
-        """Return the mass properties, each in the frame of its object."""
-        return self.mass_properties.in_frame(self.rotation, self.location)
-
     def measurement(self, i: int) -> Measurement:
         """Return the measurement of one member."""
         obj, shape, volume, density = self.members[i].obj, self.members[i].shape, self.volume.at(i), self.density[i]

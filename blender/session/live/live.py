@@ -223,8 +223,9 @@ def note_updates(events: handlers.Updates) -> None:
     if changed and not bpy.app.is_job_running("RENDER"):
         _follow_at_once(events, set(changed))
     others = events.collections or events.moved or events.reshaped
-    if changed or moved or others and any(current.shows_others for current in followed):
-        _schedule(0.0)
+    is_due = changed or moved or others and any(current.shows_others for current in followed)
+    if is_due and not bpy.app.background and not bpy.app.timers.is_registered(_tick):
+        bpy.app.timers.register(_tick)
 
 
 def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
@@ -243,15 +244,6 @@ def _follow_at_once(events: handlers.Updates, changed: set[int]) -> None:
         budget, is_first = budget - current.pass_seconds, False
 
 
-def _schedule(seconds: float) -> None:
-    if not bpy.app.background and not bpy.app.timers.is_registered(_tick):
-        bpy.app.timers.register(_tick, first_interval=seconds)
-
-
-def _is_playing() -> bool:
-    return any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
-
-
 def _tick() -> float | None:
     if not len(followed):  # none is any more, or the add-on is disabled
         return None
@@ -260,7 +252,8 @@ def _tick() -> float | None:
     layer = bpy.context.view_layer
     depsgraph = bpy.context.evaluated_depsgraph_get()  # may evaluate, and so note more
     due = [obj for obj in layer.objects if obj in followed and _is_due(obj)]
-    budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not _is_playing()
+    is_playing = any(window.screen.is_animation_playing for window in bpy.context.window_manager.windows)
+    budget, idle = _budget(), time.monotonic() - _last_event >= IDLE and not is_playing
     waiting = False
     for seconds, obj in sorted(((_seconds(obj), obj) for obj in due), key=itemgetter(0)):
         if (seconds <= budget or idle) and not _is_stroking(obj):

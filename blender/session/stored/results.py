@@ -83,7 +83,7 @@ def _store_stack(stack: MeasuredStack, which: list[int], scene: Scene) -> Iterat
             findings[i] = density.with_default_note(findings[i], "density")
     refusals = properties.store_stack(
         objects,
-        part.in_object_frames(),
+        part.mass_properties.in_frame(part.rotation, part.location),
         part.density,
         part.volume.raw[:, 0],
         part.area.raw[:, 0],

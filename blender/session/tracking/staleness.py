@@ -142,7 +142,10 @@ CHECKS = {
         (Stale.TRANSFORM, _has_transform),
     ),
     Kind.SECTION: ((Stale.UNIT_SCALE, _has_unit), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
-    Kind.SYMMETRY: ((Stale.GEOMETRY, _has_geometry), (Stale.SCALE, _has_scale)),
+    Kind.SYMMETRY: (
+        (Stale.GEOMETRY, _has_geometry),
+        (Stale.SCALE, _has_scale),
+    ),
     Kind.ASSEMBLY: ((Stale.MEMBERS, _has_structure), (Stale.MEMBER, _has_members), (Stale.TRANSFORM, _has_matrix)),
     Kind.BONES: ((Stale.GEOMETRY, _is_unedited), (Stale.BONES, _has_structure)),
     Kind.MOMENTS: ((Stale.SETTINGS, _has_settings), (Stale.GEOMETRY, _has_geometry), (Stale.TRANSFORM, _has_matrix)),
