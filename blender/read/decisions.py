@@ -43,8 +43,7 @@ from .findings import (
 )
 from .instances import InstanceCollector, shows_itself, visible_objects
 from .nurbs.curves import is_round
-from .nurbs.deformation import spline_modifiers
-from .nurbs.splines import nonpositive_weights
+from .nurbs.splines import nonpositive_weights, spline_modifiers
 from .visibility import SURFACE_TYPES, blends_keys, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 

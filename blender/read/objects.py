@@ -19,8 +19,7 @@ from .decisions import reading_findings, why_empty
 from .findings import NON_FINITE_TRANSFORM, ONLY_CURVES_ARE_WIRES
 from .instances import InstanceCollector
 from .nurbs.curves import read_curves
-from .nurbs.deformation import is_deformed
-from .nurbs.splines import nonpositive_weights, spline_reading
+from .nurbs.splines import is_deformed, nonpositive_weights, spline_reading
 from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
 

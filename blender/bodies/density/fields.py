@@ -27,7 +27,6 @@ from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
 from ....core.bodies.reading import Reading, attribute_to_source, to_si
 from ....core.density.grid_options import GridOptions
 from ....core.density.grid_values import density_function, empty_background_note
-from ....core.density.polynomial import Polynomial
 from ....core.density.polynomial_mass import find_negative_point, local_coordinates, polynomial_mass_of_images
 from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
 from ....core.measurement.settings import Settings
@@ -76,7 +75,8 @@ def polynomial_mass_result(
     reading: Reading, body: MeshBody, density: DensityField, settings: Settings, order: int
 ) -> tuple[list[Moments], list[Finding]]:
     """Return the mass moments of all parts to an order (of a shell per meter of thickness), and the findings."""
-    polynomial, findings, unit, shell = _polynomial(density), [], settings.unit, settings.kind == "shell"
+    polynomial, findings, unit, shell = density.polynomial, [], settings.unit, settings.kind == "shell"
+    assert polynomial is not None
     pieces = list(
         _sheet_pieces(reading, density.in_world, unit)
         if shell
@@ -140,14 +140,10 @@ def _sheet_pieces(reading: Reading, in_world: bool, unit: float) -> Iterator[_Pi
             yield _Piece(surface, image_matrices, image_matrices if in_world else to_local)
 
 
-def _polynomial(density: DensityField) -> Polynomial:
-    assert density.polynomial is not None
-    return density.polynomial
-
-
 def _negative_density_note(density: DensityField, pieces: list[_Piece], shell: bool) -> list[Finding]:
     """Return a finding if the density may be negative in the body; raise ReadError if it is negative."""
-    polynomial = _polynomial(density)
+    polynomial = density.polynomial
+    assert polynomial is not None
     corners = np.array(list(product((0.0, 1.0), repeat=3)))
     boxes = []
     for piece in pieces:

@@ -21,7 +21,7 @@ from ....core.inertia.principal_frames import OwnMoments
 from ....core.inertia.third_moment_frames import third_moment_frames
 from ....core.measurement.builder import build_measurement, find_large_bounds
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
-from ....core.measurement.settings import Settings, digest, fingerprint
+from ....core.measurement.settings import Settings, fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, join_moments
@@ -33,7 +33,7 @@ from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, mea
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import SAME_SCALE_RTOL
+from ...read.fingerprint import transform_key
 from ...read.mesh import surface_digest
 from ...settings.accepted import accepted_codes, with_acceptance
 
@@ -242,7 +242,6 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     members, matrices, which = _chosen(members, usable), matrices[usable], which[usable]
     if not members:
         return None
-    keys = transform_keys(matrices)
     matrices[:, :3] *= unit
     volume = _placed(own.at(which), matrices)
     area = _areas(own_area.at(which), matrices, members)
@@ -259,7 +258,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
     if not len(rows):
         return None
     if len(rows) < len(members):  # the others are refused by themselves
-        members, keys = _chosen(members, rows), [keys[i] for i in rows.tolist()]
+        members = _chosen(members, rows)
         which, matrices, density, from_mass = which[rows], matrices[rows], density[rows], from_mass[rows]
         volume, area = volume.at(rows), area.at(rows)
     rotation = rotation_matrix([member.quaternion for member in members])
@@ -296,7 +295,7 @@ def measure_members(members: list[StackMember], shapes: list[MeshShape]) -> Meas
         volume.raw[:, 0] / own.raw[which, 0],
         rotation,
         np.array([member.location for member in members]) * unit,
-        [fingerprint(numbers, key, member.digest) for numbers, key, member in zip(geometry, keys, members)],
+        [fingerprint(numbers, transform_key(each.obj), each.digest) for numbers, each in zip(geometry, members)],
         [_findings(*each) for each in zip(members, find_large_bounds(volume, area, properties))],
     )
 
@@ -333,19 +332,3 @@ def _areas(area: Moments, matrices: NDArray, members: list[StackMember]) -> Mome
         for name in ("raw", "rounding_error", "input_error", "about"):
             getattr(placed, name)[i] = getattr(found, name)
     return placed
-
-
-def transform_keys(matrices: NDArray[np.float64]) -> list[str]:
-    """Return the `transform_key` of each (n, 4, 4) `matrix_world`, for objects whose bodies move along."""
-    columns = matrices[:, :3, :3].astype(np.float64)
-    lengths = np.sqrt(np.add.reduce(columns * columns, axis=1))
-    with np.errstate(invalid="ignore"):  # axes of zero or infinite length become NaN, so they are not at right angles
-        axes = columns / lengths[:, None]
-    cosines = np.abs(np.einsum("nai,naj->nij", axes, axes))[:, [0, 1, 2], [1, 2, 0]]
-    has_scale = (cosines <= SAME_SCALE_RTOL).all(axis=1)
-    signs = np.where(np.linalg.det(np.where(has_scale[:, None, None], axes, np.eye(3))) < 0.0, "-", "+")
-    single, whole = lengths.astype(np.float32), matrices.astype(np.float32)
-    return [
-        sign + key.tobytes().hex() if is_scale else digest(matrix.tobytes())
-        for is_scale, sign, key, matrix in zip(has_scale.tolist(), signs.tolist(), single, whole)
-    ]

@@ -19,8 +19,7 @@ from ....core.nurbs.findings import NON_FINITE_CONTROL_POINTS
 from ....core.verdict.finding import Finding, ReadError, finding
 from ..findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
 from ..visibility import evaluated_geometry
-from .deformation import deform, is_deformed, spline_modifiers
-from .splines import weighted_points
+from .splines import deform, is_deformed, spline_modifiers, weighted_points
 
 STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straight line by as much
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set

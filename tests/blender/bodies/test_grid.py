@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from body_moments.blender.bodies.measure_object import measure_object
-from body_moments.blender.read.grids import sample_grid, vdb
+from body_moments.blender.read.grids import vdb, volume
 from body_moments.blender.read.grids import volume as volume_module
 from body_moments.blender.read.grids.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
@@ -99,7 +99,7 @@ def test_sampling_by_nodes_gives_the_same_bits(tmp_path, monkeypatch, dtype, mat
             measure(obj)
         return
     with volume_reading(obj, depsgraph()) as reading:
-        assert isinstance(reading.blocks.__self__, sample_grid.SampledGrid)
+        assert isinstance(reading.blocks.__self__, volume.SampledGrid)
         second = dense(reading)
         assert reading.background == 0
         start = low - reading.low
