@@ -29,7 +29,7 @@ from ..settings.density import density_field
 from ..settings.options import MeasureOptions, object_settings
 from .findings import DISPLAY_MESH_NEEDED, FOURIER_APPROXIMATE, FOURIER_NO_EXTENT, FOURIER_OF_UNIFORM_DENSITY
 from .flat.flat import area_findings, flat_region
-from .mesh.mesh import mesh_body
+from .mesh import mesh_body
 
 
 @dataclass(frozen=True)

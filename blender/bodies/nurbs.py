@@ -39,7 +39,7 @@ from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE
-from .mesh.mesh import mesh_body
+from .mesh import mesh_body
 from .request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})

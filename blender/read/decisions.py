@@ -13,6 +13,7 @@ from ...core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY
 from ...core.bodies.reading import attribute_to_source
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
+from .curves import is_round
 from .findings import (
     DISPLAY_MESH_FOR_MODIFIERS,
     DISPLAY_MESH_FOR_WEIGHTS,
@@ -42,8 +43,7 @@ from .findings import (
     VIEWPORT_ONLY_MEMBERS,
 )
 from .instances import InstanceCollector, shows_itself, visible_objects
-from .nurbs.curves import is_round
-from .nurbs.splines import nonpositive_weights, spline_modifiers
+from .splines import nonpositive_weights, spline_modifiers
 from .visibility import SURFACE_TYPES, blends_keys, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 

@@ -15,11 +15,11 @@ from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS
 from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import ReadError, finding
+from .curves import read_curves
 from .decisions import reading_findings, why_empty
 from .findings import NON_FINITE_TRANSFORM, ONLY_CURVES_ARE_WIRES
 from .instances import InstanceCollector
-from .nurbs.curves import read_curves
-from .nurbs.splines import is_deformed, nonpositive_weights, spline_reading
+from .splines import is_deformed, nonpositive_weights, spline_reading
 from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
 

@@ -22,6 +22,7 @@ from ...core.numerics.rotations import polar_rotation
 from ...core.nurbs.curve import Curve
 from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import Finding, ReadError, finding
+from .curves import read_curves, text_curves
 from .findings import (
     FLAT_OF_TYPE,
     MODIFIERS_LEFT_OUT,
@@ -36,7 +37,6 @@ from .findings import (
     SECTION_TEXT_ON_CURVE,
 )
 from .mesh import from_edit_mesh, mesh_surface
-from .nurbs.curves import read_curves, text_curves
 from .objects import locate, read_object
 from .visibility import SECTION_TYPES
 

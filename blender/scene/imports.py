@@ -37,7 +37,7 @@ from ...core.scans.positions import Positions, place_samples, read_all_positions
 from ...core.scans.scan import Scan
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
-from ..read.nurbs.splines import keep_faces
+from ..read.splines import keep_faces
 from .findings import SCAN_NON_FINITE, SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit

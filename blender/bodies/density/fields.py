@@ -40,8 +40,8 @@ from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.method import Method, Source, Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
-from ...read.grids.volume import VolumeReading, volume_reading
 from ...read.tracking import tracking_paused
+from ...read.volume import VolumeReading, volume_reading
 from ...settings.density import DensityField
 from ..findings import (
     DENSITY_GRID_ELSEWHERE,

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Storing of results on objects: measurements, with what the panel's sliders need, symmetries and sections."""
+"""Storing of results on objects: measurements, with what the panel's sliders need, bones, symmetries and sections."""
 
 from __future__ import annotations
 
@@ -14,18 +14,21 @@ from bpy.types import Context, Object, Scene
 
 from ....core.measurement.settings import fingerprint
 from ....core.numerics.float32 import shortest_decimal
+from ....core.verdict import internal_error
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
 from ...read.fingerprint import matrix_hash, scale_hash, settings_hash
 from ...settings.density import is_density_unset
 from ...write import properties, section
-from ..tracking import staleness, stamps
+from ..tracking import armatures, staleness, stamps
 from . import density, faults, reference, sliders
 
 if TYPE_CHECKING:
     from ....core.shape.symmetries import Symmetry
+    from ....core.verdict.finding import Finding
     from ...bodies.flat.flat import MeasuredSection
     from ...bodies.flat.flat_shape import FlatShape
+    from ...bodies.rig import Rig
     from ...bodies.shape.shape import Shape
 
 MAX_STORED_ELEMENTS = 32  # of a symmetry: nobody reads more for a ball or a fine prism
@@ -134,3 +137,32 @@ def store_sections(context: Context, sections: Sequence[tuple[Object, MeasuredSe
         mark = fingerprint(numbers.tobytes(), matrix_hash(obj), settings_hash(obj, context.scene))
         section.store(obj, found, description, findings, mark, unit)
     staleness.mark_stamps(context, [(obj, stamp) for obj, _ in sections if (stamp := stamps.of_section(obj))])
+
+
+def store_rig(rig: Rig) -> list[tuple[str, Finding]]:
+    """Store the results of all bones and the whole, or raise EditRefusedError; return bones without, and reasons."""
+    armature = rig.armature
+    properties.store(armature, rig.measurement)
+    parts = {part.name: part for part in rig.parts}
+    failures: list[tuple[str, Finding]] = []
+    for bone in armature.pose.bones:
+        part = parts.get(bone.name)
+        if part is None or part.measurement is None:
+            properties.clear(bone)
+            if part is not None and part.refusal is not None:
+                failures.append((bone.name, part.refusal))
+            continue
+        try:
+            properties.store(bone, part.measurement)
+        except Exception as error:
+            failures.append((bone.name, internal_error.finding_of(error)))
+    armatures.watch(armature, rig.objects)
+    staleness.mark_object(armature)
+    return failures
+
+
+def clear_rig(armature: Object) -> bool:
+    """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether there were any."""
+    properties.require_storable(armature)
+    cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]
+    return any(cleared)

@@ -24,7 +24,7 @@ from ....core.statics.support import CONTACT_RTOL, Support, find_support
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ....core.verdict.method import Verdict
 from ...bodies.measure_object import measure_body
-from ...bodies.mesh.mesh import MAX_CORNERS, object_hull
+from ...bodies.mesh import MAX_CORNERS, object_hull
 from ...scene import reframe
 from ...scene.findings import OPEN_OBJECT
 from ...scene.transforms import world

@@ -19,15 +19,15 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.bodies.findings import GRID_TOO_LARGE
-from ....core.bodies.reading import Reading, float64_matrix
-from ....core.density.findings import GRID_TRANSFORM_SINGULAR
-from ....core.mesh.surface import Surface
-from ....core.numerics.float32 import shortest_decimal
-from ....core.scans.findings import OTHERS_LEFT_OUT
-from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
-from ..decisions import modifier_findings
-from ..findings import (
+from ...core.bodies.findings import GRID_TOO_LARGE
+from ...core.bodies.reading import Reading, float64_matrix
+from ...core.density.findings import GRID_TRANSFORM_SINGULAR
+from ...core.mesh.surface import Surface
+from ...core.numerics.float32 import shortest_decimal
+from ...core.scans.findings import OTHERS_LEFT_OUT
+from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
+from .decisions import modifier_findings
+from .findings import (
     GRID_MISSING,
     GRID_NAMES_REPEATED,
     GRID_NEEDS_OPENVDB,
@@ -41,9 +41,9 @@ from ..findings import (
     TEMPORARY_FOLDER_FULL,
     VOLUME_WITHOUT_GRIDS,
 )
-from ..objects import locate
-from ..visibility import hidden_reason, why_not_evaluated
+from .objects import locate
 from .vdb import VdbGrid, openvdb
+from .visibility import hidden_reason, why_not_evaluated
 
 SCALARS = {"BOOLEAN", "MASK", "FLOAT", "DOUBLE", "INT", "INT64"}
 PREFERRED = "density"

@@ -14,26 +14,26 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
-from ....core.bodies.instances import singular_instances_message
-from ....core.bodies.mesh_body import MeshBody, triangle_count
-from ....core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
-from ....core.bodies.reading import Reading
-from ....core.bodies.wall import find_walls
-from ....core.measurement.body import Body
-from ....core.mesh.hulls import ConvexHull, convex_hull
-from ....core.mesh.surface import Surface, join_surfaces
-from ....core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
-from ....core.solid.measure import measure_solid
-from ....core.verdict.finding import EditRefusedError, ReadError, finding
-from ....core.verdict.findings import FLIPPED_FACES
-from ....core.verdict.method import Method, Verdict
-from ...read.findings import SCALE_ZERO_AXIS
-from ...read.mesh import mesh_surface
-from ...read.objects import read_object
-from ...read.visibility import shows_flat_region
-from ..density.varying_density import weigh
-from ..findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
-from ..request import Request
+from ...core.bodies.instances import singular_instances_message
+from ...core.bodies.mesh_body import MeshBody, triangle_count
+from ...core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
+from ...core.bodies.reading import Reading
+from ...core.bodies.wall import find_walls
+from ...core.measurement.body import Body
+from ...core.mesh.hulls import ConvexHull, convex_hull
+from ...core.mesh.surface import Surface, join_surfaces
+from ...core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
+from ...core.solid.measure import measure_solid
+from ...core.verdict.finding import EditRefusedError, ReadError, finding
+from ...core.verdict.findings import FLIPPED_FACES
+from ...core.verdict.method import Method, Verdict
+from ..read.findings import SCALE_ZERO_AXIS
+from ..read.mesh import mesh_surface
+from ..read.objects import read_object
+from ..read.visibility import shows_flat_region
+from .density.varying_density import weigh
+from .findings import DISPLAY_MESH_NEEDED, OPEN_COMPONENTS_UNITED, UNION_BY_BOOLEAN, UNION_FAILED, ZERO_SCALE
+from .request import Request
 
 MEASURED_AS = frozenset({"solid", "shell"})
 
