@@ -49,13 +49,14 @@ class Request:
         opened: ExitStack | None = None,
     ) -> Request:
         """Return the request for an object; `unit` is in meters per Blender unit, by default the scene's."""
-        settings = object_settings(obj, _scene(depsgraph), given, unit)
+        scene = bpy.context.scene if depsgraph is None else depsgraph.scene
+        settings = object_settings(obj, scene, given, unit)
         return cls(settings, given, obj, depsgraph, opened or ExitStack())
 
     @property
     def scene(self) -> bpy.types.Scene:
         """The scene, whose defaults apply to the object."""
-        return _scene(self.depsgraph)
+        return bpy.context.scene if self.depsgraph is None else self.depsgraph.scene
 
     @cached_property
     def density(self) -> DensityField | None:
@@ -78,10 +79,6 @@ class Request:
         )
         reading.findings.extend(self.findings)
         return reading
-
-
-def _scene(depsgraph: bpy.types.Depsgraph | None) -> bpy.types.Scene:
-    return bpy.context.scene if depsgraph is None else depsgraph.scene
 
 
 def measurement_of(reading: Reading, body: Body, request: Request) -> Measurement:

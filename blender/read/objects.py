@@ -26,13 +26,10 @@ from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 def read_object(
     obj, depsgraph, *, materials: bool = False, attribute: str | None = None, edges: bool = True
 ) -> Reading:
-    """Read an object, original or evaluated, as it is in the up-to-date viewport `depsgraph`.
+    """Read an object, original or evaluated, as it is in the up-to-date viewport `depsgraph`, or raise ReadError.
 
-    materials: read the materials of its faces, too. attribute: name of a float attribute on vertices to
-    read. edges: read the edges that prove surfaces closed.
-
-    Raises ReadError if the object's kind has no surface, Blender has not evaluated it, it shows no
-    face, or coordinates or transforms are not finite.
+    materials: read the materials of its faces, too. attribute: name of a float attribute on vertices to read. edges:
+    read the edges that prove surfaces closed.
     """
     obj = obj.original
     require_kind(obj)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import bpy
 import numpy as np
@@ -83,17 +84,7 @@ def read_section(obj, depsgraph, *, selected: bool = True, resolution: int | Non
         findings.append(finding(SECTION_MODIFIED_FILL))
     surface = reading.join()
     triangles, faces = surface.all_triangles()
-    return SectionReading(
-        obj.name,
-        "All Faces",
-        surface.points,
-        triangles,
-        faces,
-        float(np.linalg.norm(surface.coordinate_error)),
-        _axes(reading),
-        reading.location,
-        findings=findings,
-    )
+    return _section("All Faces", surface, triangles, faces, reading, findings=findings)
 
 
 def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64]]:
@@ -104,9 +95,16 @@ def read_outline_curves(obj, depsgraph) -> tuple[list[Curve], NDArray[np.float64
     return curves, place.matrix
 
 
-def _axes(reading: Reading) -> NDArray[np.float64]:
-    shortest = np.sqrt((reading.matrix[:, :3] ** 2).sum(axis=0)).min()
-    return polar_rotation(reading.matrix[None])[0][0] if shortest < ZERO_SCALE else reading.rotation
+def _section(
+    description: str, surface: Surface, triangles: NDArray, faces: NDArray, place: Reading, **more: Any
+) -> SectionReading:
+    """Return the reading of (m, 3) triangles of a surface, and the (m,) face of each; more: further fields."""
+    shortest = np.sqrt((place.matrix[:, :3] ** 2).sum(axis=0)).min()
+    axes = polar_rotation(place.matrix[None])[0][0] if shortest < ZERO_SCALE else place.rotation
+    error = float(np.linalg.norm(surface.coordinate_error))
+    return SectionReading(
+        place.name, description, surface.points, triangles, faces, error, axes, place.location, **more
+    )
 
 
 def _selected_faces(obj, depsgraph) -> SectionReading:
@@ -127,17 +125,8 @@ def _selected_faces(obj, depsgraph) -> SectionReading:
     acting = [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
     findings = [finding(MODIFIERS_LEFT_OUT, modifiers=acting)] if acting else []
     count = int(np.count_nonzero(chosen))
-    return SectionReading(
-        obj.name,
-        "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count),
-        surface.points,
-        triangles,
-        faces[inside],
-        float(np.linalg.norm(surface.coordinate_error)),
-        _axes(place),
-        place.location,
-        findings=findings,
-    )
+    description = "1 Selected Face" if count == 1 else "{:d} Selected Faces".format(count)
+    return _section(description, surface, triangles, faces[inside], place, findings=findings)
 
 
 def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
@@ -169,20 +158,8 @@ def _outlines(obj, depsgraph, resolution: int | None) -> SectionReading:
             ab, ac = b - a, c - a
             drawn = float(np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum() / 2.0 * np.sqrt(facing @ facing))
     _require_finite(obj, surface.points)
-    return SectionReading(
-        obj.name,
-        "Text" if obj.type == "FONT" else "Curve",
-        surface.points,
-        triangles,
-        faces,
-        float(np.linalg.norm(surface.coordinate_error)),
-        _axes(place),
-        place.location,
-        loops,
-        facing,
-        drawn,
-        findings,
-    )
+    more = {"loops": loops, "facing": facing, "drawn_area": drawn, "findings": findings}
+    return _section("Text" if obj.type == "FONT" else "Curve", surface, triangles, faces, place, **more)
 
 
 def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:

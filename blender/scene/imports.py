@@ -122,9 +122,7 @@ def _temporary_scene() -> Iterator[Scene]:
     try:
         yield scene
     finally:
-        for obj in list(scene.collection.objects):
-            bpy.data.objects.remove(obj)
-        bpy.data.scenes.remove(scene)
+        bpy.data.batch_remove([*scene.collection.objects, scene])
 
 
 @contextmanager

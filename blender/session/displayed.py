@@ -69,8 +69,8 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: caveats about the sum;
-    trust: the least of any object; groups: the objects' own findings.
+    results; stale: names of objects with outdated results; findings: caveats about the sum; trust: the least of any
+    object; groups: the objects' own findings.
     """
 
     count: int
@@ -79,7 +79,6 @@ class Total:
     numbers: PlainBody | None
     missing: tuple[str, ...]
     stale: tuple[str, ...]
-    doubtful: tuple[str, ...]
     findings: tuple[Finding, ...]
     trust: Trust | None
     groups: tuple[Group, ...]
@@ -93,10 +92,7 @@ _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
 
 def displayed(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object: posed, live or stored; None if there are none.
-
-    scene: sets the unit scale.
-    """
+    """Return the displayed numbers of an original object: posed, live or stored; None if there are none."""
     weighed = _weighed(obj, scene) if obj.type == "ARMATURE" else None
     if weighed is not None:
         return weighed
@@ -124,10 +120,7 @@ def displayed(obj: Object, scene: Scene) -> Displayed | None:
 
 
 def drawn(obj: Object, scene: Scene) -> Displayed | None:
-    """Return the displayed numbers of an original object at its current place, or of a character in its current pose.
-
-    None if there are no numbers, or the mass is 0.
-    """
+    """Return the numbers of an original object at its place, or of a character in its pose; None without a mass."""
     return all_drawn([obj], scene)[0]
 
 
@@ -186,10 +179,7 @@ def forget_drawn(data: ID | None = None) -> None:
 
 
 def drawn_bone(bone: PoseBone, scene: Scene) -> Displayed | None:
-    """Return the numbers of a pose bone's part at the bone's current place, or None if there are none.
-
-    bone: of an original armature object.
-    """
+    """Return the numbers of an original armature's bone at the bone's current place, or None if there are none."""
     armature, own = bone.id_data, properties.stored(bone)
     if own is None:
         return None
@@ -267,10 +257,7 @@ def _sum(context: Context) -> Total:
             parts[obj] = shown
     worlds = [shown.world for shown in parts.values()]
     alone = next((world for world in worlds if world.mass > 0.0), None)
-    stale, doubtful = (
-        tuple(obj.name for obj, shown in parts.items() if shown.trust == trust)
-        for trust in (Trust.OUT_OF_DATE, Trust.DOUBTFUL)
-    )
+    stale = tuple(obj.name for obj, shown in parts.items() if shown.trust == Trust.OUT_OF_DATE)
     return Total(
         len(parts),
         sum(world.volume for world in worlds),
@@ -278,7 +265,6 @@ def _sum(context: Context) -> Total:
         add_bodies(worlds) if len(worlds) > 1 else alone,
         tuple(missing),
         stale,
-        doubtful,
         (
             *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
             *read.assembly.total_caveats(parts, context.view_layer),

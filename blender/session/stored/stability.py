@@ -96,14 +96,11 @@ def support(obj: Object, scene: Scene = None) -> Support | None:
             matrix = np.array(obj.matrix_world, np.float64)
             points = remembered.hull.points @ matrix[:3, :3].T + matrix[:3, 3]
             center = np.array(body.world.center) / body.unit
-            remembered.support = find_support(points, center, down(scene), _tolerance(points, remembered.hull, matrix))
+            # Relative to the extent, the height up to which points touch the ground; it exceeds the hull's gap.
+            gap = remembered.hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
+            tolerance = max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
+            remembered.support = find_support(points, center, down(scene), tolerance)
     return remembered.support
-
-
-def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
-    """Return the height, relative to the extent, up to which points touch the ground; it exceeds the hull's gap."""
-    gap = hull.gap * float(np.linalg.norm(matrix[:3, :3], 2))
-    return max(CONTACT_RTOL, 2.0 * gap / float(np.ptp(points, axis=0).max()))
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:

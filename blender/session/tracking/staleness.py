@@ -174,8 +174,7 @@ def mark_up_to_date(
 ) -> None:
     """Mark freshly stored results of objects as up to date, after evaluating what storing has tagged.
 
-    objects: objects of the context's view layer with results stored or removed.
-    shapes: the `surface_digest` of freshly read objects.
+    objects: with results stored or removed. shapes: the `surface_digest` of freshly read ones.
     """
     depsgraph = context.evaluated_depsgraph_get()
     for obj in objects:
