@@ -12,15 +12,14 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.numerics.bspline import SplineSpace
-from ....core.nurbs.blender_knots import blender_space
-from ....core.nurbs.curve import Curve
-from ....core.nurbs.findings import NON_FINITE_CONTROL_POINTS
-from ....core.verdict.finding import Finding, ReadError, finding
-from ..findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
-from ..visibility import evaluated_geometry
-from .deformation import deform, is_deformed, spline_modifiers
-from .splines import weighted_points
+from ...core.numerics.bspline import SplineSpace
+from ...core.nurbs.blender_knots import blender_space
+from ...core.nurbs.curve import Curve
+from ...core.nurbs.findings import NON_FINITE_CONTROL_POINTS
+from ...core.verdict.finding import Finding, ReadError, finding
+from .findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
+from .splines import deform, is_deformed, spline_modifiers, weighted_points
+from .visibility import evaluated_geometry
 
 STRAIGHT_RTOL = 1e-6  # relative to a spline's length: float32 may bend a straight line by as much
 TYPES = ("CATMULL_ROM", "POLY", "BEZIER", "NURBS")  # curve types by their number in a geometry set

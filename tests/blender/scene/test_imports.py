@@ -5,7 +5,7 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.scene import surface_objects
+from body_moments.blender.scene import imports
 from body_moments.core.cad.surfaces import SurfaceBody
 from body_moments.core.numerics import clamped_space
 from body_moments.core.nurbs import Patch
@@ -36,7 +36,7 @@ def stored(spline):
 def test_splines_are_the_patches(offset, factor, rational):
     kept = [set(collection) for collection in (bpy.data.scenes, bpy.data.objects, bpy.data.curves)]
     given = patches(offset, rational=rational)
-    obj, moved = surface_objects.surface_object("Hull", given, factor)
+    obj, moved = imports.surface_object("Hull", given, factor)
     now = [set(collection) for collection in (bpy.data.scenes, bpy.data.objects, bpy.data.curves)]
     assert [len(new - old) for new, old in zip(now, kept)] == [0, 1, 1] and obj.users == 0
     assert obj.name == obj.data.name == "Hull" and obj.data.dimensions == "3D"
@@ -67,7 +67,7 @@ def test_imported_bodies_are_linked_and_scene_is_unchanged():
     cube, before = bpy.context.object, bpy.context.scene
     into = bpy.data.collections.new("Into")
     bodies = [SurfaceBody("First", tuple(patches()[:2])), SurfaceBody("Second", tuple(patches()))]
-    made = surface_objects.import_bodies(bodies, into, 0.5)
+    made = imports.import_bodies(bodies, into, 0.5)
     assert [obj.name for obj, _ in made] == [obj.name for obj in into.objects] == ["First", "Second"]
     assert [len(obj.data.splines) for obj, _ in made] == [2, len(SHAPES)]
     assert np.array_equal(stored(made[0][0].data.splines[0])[..., :3], (0.5 * patches()[0].points).astype(np.float32))
