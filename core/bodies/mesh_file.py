@@ -18,8 +18,7 @@ from ..measurement.settings import Settings
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Moments
 from ..solid.findings import INVERTED_COMPONENTS
-from ..streams.boxes import box_of_blocks
-from ..streams.file_mesh import FileMesh
+from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import MeshFile, StreamIntegrals, measure_stream, open_mesh_file
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.findings import SELF_INTERSECTION

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
 from ..scans.limits import DEFAULT_LIMITS, Limits
-from ..streams.boxes import box_of_blocks
-from ..streams.file_mesh import FileMesh
+from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import KINDS
 from ..verdict.finding import FileError
 from .iges import read_iges
