@@ -18,8 +18,8 @@ from ..measurement.settings import Settings
 from ..moments.exponents import KNOWN_ORDER
 from ..scans import Scan, read_scan, sample_matrix
 from ..scans.findings import SCAN_UNSTATED
+from ..scans.formats import Positions, place_samples, read_all_positions
 from ..scans.limits import DEFAULT_LIMITS, Limits
-from ..scans.positions import Positions, place_samples, read_all_positions
 from ..verdict.finding import Finding, ReadError, finding
 from .density_grid import Samples, density_body
 from .findings import (

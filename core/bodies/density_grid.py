@@ -18,7 +18,7 @@ from ..density.spline_grid import Blocks, grid_moments
 from ..measurement.body import Body
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments
-from ..scans.positions import EVEN, Positions
+from ..scans.formats import EVEN, Positions
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Source, Verdict

@@ -30,7 +30,7 @@ from ....core.density.spline_grid import Blocks
 from ....core.measurement.body import Body
 from ....core.measurement.settings import Settings
 from ....core.moments.exponents import KNOWN_ORDER
-from ....core.scans.positions import AXES, Positions
+from ....core.scans.formats import AXES, Positions
 from ....core.verdict.finding import ReadError, finding
 from ....core.verdict.method import Method, Source
 from ...read.grids.volume import VolumeReading, volume_reading
