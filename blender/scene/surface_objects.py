@@ -23,7 +23,7 @@ from ...core.bodies.reading import SplineReading
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.numerics.float32 import shortest_decimal
-from ...core.nurbs.bezier_form import bezier_space
+from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
 from ...core.nurbs.patch import Face, Patch
 from ...core.scans.limits import Limits

@@ -21,7 +21,6 @@ from ..scans.findings import SCAN_UNSTATED
 from ..scans.formats import Positions, place_samples, read_all_positions
 from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..verdict.finding import Finding, ReadError, finding
-from .density_grid import Samples, density_body
 from .findings import (
     DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,
@@ -30,8 +29,8 @@ from .findings import (
     GRID_TOO_LARGE,
     SAMPLES_POSITIONED,
 )
+from .grid import MAX_SAMPLES, TRILINEAR, Samples, ThresholdGrid, density_body, threshold_grid_body
 from .reading import about_file, bare_reading, measure_reading
-from .threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
 
 
 @dataclass(frozen=True)

@@ -25,8 +25,7 @@ from ..verdict.findings import SELF_INTERSECTION
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Verdict
 from .findings import MESH_STREAMED, NO_GEOMETRY, STREAMED_OPEN
-from .mesh_body import MeshBody
-from .polygons import sum_of_instances
+from .mesh_body import MeshBody, sum_of_instances
 from .reading import Part, Reading, about_file, bare_reading, measure_reading
 from .wall import WallBody, find_walls
 

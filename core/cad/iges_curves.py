@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.bspline import SplineSpace, clamped_space
-from ..nurbs.bezier_form import bezier_curves
+from ..nurbs.blender_knots import bezier_curves
 from ..nurbs.curve import Curve
 from .iges_text import Entry, IgesText, integers, numbers
 

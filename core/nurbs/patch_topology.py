@@ -28,7 +28,7 @@ from ..numerics.arrays import following_pairs
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
-from .bezier_form import bezier_curves
+from .blender_knots import bezier_curves
 from .curve import Curve
 from .findings import DISCONTINUOUS_PATCH
 from .flat_face import self_intersects

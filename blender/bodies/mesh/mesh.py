@@ -9,8 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from ....core.bodies.instances import singular_instances_message
-from ....core.bodies.mesh_body import MeshBody, triangle_count
-from ....core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
+from ....core.bodies.mesh_body import MeshBody, drawn_names, of_drawn, sum_of_instances, triangle_count
 from ....core.bodies.reading import Reading
 from ....core.bodies.wall import find_walls
 from ....core.measurement.body import Body

@@ -17,8 +17,8 @@ from typing import Generic, TypeVar
 import bpy
 from bpy.types import Context, Object, PropertyGroup, Scene
 
+from ....core.bodies.grid import ThresholdGrid, ThresholdGridBody, threshold_grid_body
 from ....core.bodies.reading import Reading
-from ....core.bodies.threshold import ThresholdGrid, ThresholdGridBody, threshold_grid_body
 from ....core.bodies.wall import WallBody, Walls
 from ....core.density.grid_options import GridOptions
 from ....core.measurement.body import Body

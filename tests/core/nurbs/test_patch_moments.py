@@ -9,7 +9,7 @@ from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.numerics.quadrature import gauss_legendre_with_ends
 from body_moments.core.nurbs import patch_moments
 from body_moments.core.nurbs.bezier import cells_of
-from body_moments.core.nurbs.bezier_form import bezier_patches
+from body_moments.core.nurbs.blender_knots import bezier_patches
 from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_moments import (
     area_moments,
