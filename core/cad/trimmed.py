@@ -18,7 +18,7 @@ from ..nurbs.curve import Curve
 from ..nurbs.flat_face import FlatFace
 from ..nurbs.patch import Face, Patch, patches_size
 from ..nurbs.patch_moments import vector_area
-from ..nurbs.patch_topology import nearest_parameters
+from ..nurbs.seams import nearest_parameters
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
 from .findings import SURFACE_TRIMMED
