@@ -145,19 +145,15 @@ def threshold_body(
             sums.add_cut_cells(Cells.join(cut), threshold)
             cut = []
     about = about.astype(np.float64)
-    volume = Moments(sums.volume, about, Measure.VOLUME, sums.rounding_error("volume")).transform(matrix)
-    area = Moments(sums.area, about, Measure.MASS, sums.rounding_error("area")).transform(
-        matrix
-    )  # its scale is in the sums
-    mass = (
-        Moments(sums.mass, about, Measure.VOLUME, sums.rounding_error("mass")).transform(matrix)
-        if with_density
-        else None
-    )
+
+    def moments(name: str, measure: Measure, scaled_as: Measure = Measure.VOLUME) -> Moments:
+        raw, error = getattr(sums, name), sums.rounding_error(name)
+        return replace(Moments(raw, about, scaled_as, error).transform(matrix), measure=measure)
+
     return ThresholdBody(
-        volume,
-        replace(area, measure=Measure.AREA),
-        None if mass is None else replace(mass, measure=Measure.MASS),
+        moments("volume", Measure.VOLUME),
+        moments("area", Measure.AREA, Measure.MASS),  # its scale is in the sums
+        moments("mass", Measure.MASS) if with_density else None,
         count,
         bool(clipped),
     )
@@ -347,13 +343,9 @@ class _Sums:
     def _give_up(self, cells: Cells, threshold: float) -> None:
         """Add half of the remaining cells to the moments, and all of them to the error estimate."""
         center = cells.origin + cells.size[:, None] / 2.0
-        tables = [power_table(values, self.order) for values in center.T]
-        for number, (p, q, r) in enumerate(self.powers.tolist()):
-            self.volume[number] += (cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]).sum()
-            if self.with_density:
-                self.mass[number] += (
-                    threshold * cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]
-                ).sum()
+        self._add_points("volume", cells.size**3 / 2.0, list(center.T))
+        if self.with_density:
+            self._add_points("mass", threshold * cells.size**3 / 2.0, list(center.T))
         self._add_largest("estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
 
     def _add_largest(self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:

@@ -23,7 +23,7 @@ from ..flat.section import foot
 from ..flat.section_properties import Plane
 from ..inertia.mass_properties import MassProperties, combine
 from ..moments.complex_form import Invariant
-from ..moments.exponents import monomial_index, order_from_count
+from ..moments.exponents import monomial_index
 from ..moments.moments import Moments, U, monomials
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import Finding, MeasureError, Severity
@@ -90,13 +90,7 @@ def record(
         if mass is not None:
             domains["mass"] = mass
         placed = {name: _about(point, moments, measurement, frame) for name, moments in domains.items()}
-        entry["moments"] = {
-            "order": order,
-            "about": point,
-            **{name: _by_powers(moments.raw) for name, moments in placed.items()},
-            "error": {name: _by_powers(moments.rounding_error) for name, moments in placed.items()},
-            "input": {name: _by_powers(moments.input_error) for name, moments in placed.items()},
-        }
+        entry["moments"] = _moments_record(order, point, placed, monomials(order))
     entry |= more or {}
     if measurement.display_volume is not None:
         entry["display_mesh"] = {
@@ -182,10 +176,17 @@ def _about(point: NDArray[np.float64], moments: Moments, measurement: Measuremen
     return moments.about_point(point)
 
 
-def _by_powers(values: NDArray[np.float64]) -> dict[str, float]:
-    """Return moments in a dict, with the exponents of x, y and z as keys "p,q,r"."""
-    powers = monomials(order_from_count(len(values))).tolist()
-    return {",".join(map(str, exponents)): value for exponents, value in zip(powers, values.tolist())}
+def _moments_record(
+    order: int, about: NDArray, domains: dict[str, Moments], powers: NDArray, rows: slice | NDArray = slice(None)
+) -> dict[str, Any]:
+    """Return a record's `moments` by powers "p,q,r", (K, d); rows: their places among the moments."""
+    keys = [",".join(map(str, exponents)) for exponents in powers.tolist()]
+
+    def tables(name: str) -> dict[str, dict[str, float]]:
+        return {domain: dict(zip(keys, getattr(each, name)[rows].tolist())) for domain, each in domains.items()}
+
+    bounds = {"error": tables("rounding_error"), "input": tables("input_error")}
+    return {"order": order, "about": about, **tables("raw"), **bounds}
 
 
 def flat_record(
@@ -228,13 +229,8 @@ def flat_record(
     if order is not None:
         point = _plane_point(about, centroid, axes, location, frame[2])
         placed = moments.truncate(order).about_point(foot(plane, point))
-        entry["moments"] = {
-            "order": order,
-            "about": placed.about[:2],
-            "area": _by_plane_powers(placed.raw, order),
-            "error": {"area": _by_plane_powers(placed.rounding_error, order)},
-            "input": {"area": _by_plane_powers(placed.input_error, order)},
-        }
+        powers = multi_indices(2, order)
+        entry["moments"] = _moments_record(order, placed.about[:2], {"area": placed}, powers, plane_positions(order))
     if invariants:
         entry["invariants"] = [
             {
@@ -273,9 +269,3 @@ def _plane_point(
     if about in ("origin", "world"):
         return own if about == "origin" else np.zeros(3)
     return location + axes @ (np.zeros(3) if about is None else np.asarray(about, np.float64))
-
-
-def _by_plane_powers(values: NDArray[np.float64], order: int) -> dict[str, float]:
-    """Return moments in a dict, with the exponents of x and y as keys "p,q"."""
-    powers, positions = multi_indices(2, order).tolist(), plane_positions(order)
-    return {"{},{}".format(p, q): value for (p, q), value in zip(powers, values[positions].tolist())}
