@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..measurement.settings import Settings
 from ..moments.exponents import KNOWN_ORDER
 from ..scans import Scan, read_scan, sample_matrix
 from ..scans.findings import SCAN_UNSTATED
-from ..scans.formats import Positions, place_samples, read_all_positions
+from ..scans.formats import place_samples, read_all_positions
 from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..verdict.finding import Finding, ReadError, finding
 from .findings import (
@@ -68,42 +68,24 @@ def measure_array(
         positions = read_all_positions(array.positions, scan.samples.shape)
         matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
         if array.positions:
-            findings = _with_positions(findings, array.positions)
+            unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")  # unknown, if two axes have positions
+            findings = [one for one in findings if len(array.positions) < 3 or one != unspaced]
+            findings.append(finding(SAMPLES_POSITIONED, axes=sorted(array.positions)))
         findings = (*scan.findings, *findings)
         if array.threshold is None:
-            made = _density_body(scan, matrix, positions, array, settings, findings, progress)
+            grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
+            shape = scan.samples.shape
+            findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
+            if settings.density is not None:
+                findings += (finding(GIVEN_DENSITY_IGNORED),)
+            samples = Samples(scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions)
+            made = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
+            made = replace(made, density_from=finding(DENSITY_FROM_SAMPLES))
         else:
             made = _threshold_body(name, scan, matrix, array, settings, findings, progress)
         reading = bare_reading(name, "ARRAY")
         density = None if made.mass is not None else settings.density
         return measure_reading(reading, made, replace(settings, density=density))
-
-
-def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
-    """Return the findings with a note on the positions; without the missing spacing if all axes have positions."""
-    unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")
-    kept = [one for one in findings if len(files) < 3 or one != unspaced]
-    return (*kept, finding(SAMPLES_POSITIONED, axes=sorted(files)))
-
-
-def _density_body(
-    scan: Scan,
-    matrix: NDArray[np.float64],
-    positions: Positions,
-    array: ArrayOptions,
-    settings: Settings,
-    findings: tuple[Finding, ...],
-    progress: Callable[[int], None],
-) -> Body:
-    """Return the body of all samples, as densities."""
-    grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
-    shape = scan.samples.shape
-    findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
-    if settings.density is not None:
-        findings += (finding(GIVEN_DENSITY_IGNORED),)
-    samples = Samples(scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions)
-    body = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
-    return replace(body, density_from=finding(DENSITY_FROM_SAMPLES))
 
 
 def _threshold_body(

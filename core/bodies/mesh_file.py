@@ -97,12 +97,19 @@ def measure_mesh_file(
         mesh = open_mesh_file(path)
         found = measure_stream(mesh, order, area_order, settings.threads, progress)
         volume, area = _in_meters(found, unit)
+        notes, verdict = [*findings, finding(MESH_STREAMED, count=found.face_count)], Verdict.EXACT
+        if not found.closed:
+            verdict = Verdict.OPEN
+            notes += [finding(STREAMED_OPEN)] if kind == "solid" else []
+        elif found.volume.total < 0.0:
+            verdict = Verdict.REORIENTED
+            notes += [finding(INVERTED_COMPONENTS, count=1, total=1)] if kind == "solid" else []
         body = StreamBody(
             volume,
             area,
             StreamHealth(closed=found.closed),
-            Method(_verdict(found)),
-            (*findings, *_findings(found, kind)),
+            Method(verdict),
+            tuple(notes),
             face_count=found.face_count,  # axes of many faces come from third order, without reading them again
             mesh=mesh,
             unit=unit,
@@ -114,24 +121,8 @@ def measure_mesh_file(
         return measure_reading(reading, body, replace(settings, unit=1.0))
 
 
-def _verdict(found: StreamIntegrals) -> Verdict:
-    if not found.closed:
-        return Verdict.OPEN
-    return Verdict.EXACT if found.volume.total >= 0.0 else Verdict.REORIENTED
-
-
 def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
     """Return the moments of volume and area, in SI units; a negative volume is reversed, as if faces were outward."""
     matrix = np.diag([unit, unit, unit, 1.0])
     volume = found.volume * -1.0 if found.volume.total < 0.0 else found.volume
     return volume.transform(matrix), found.area.transform(matrix)
-
-
-def _findings(found: StreamIntegrals, kind: str) -> list[Finding]:
-    """Return the findings about a streamed mesh, and about the omitted checks."""
-    findings = [finding(MESH_STREAMED, count=found.face_count)]
-    if kind == "solid" and not found.closed:
-        findings.append(finding(STREAMED_OPEN))
-    elif kind == "solid" and found.volume.total < 0.0:
-        findings.append(finding(INVERTED_COMPONENTS, count=1, total=1))
-    return findings

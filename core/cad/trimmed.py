@@ -60,7 +60,9 @@ def trimmed_faces(
             return [patch]
         tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
         if _is_flat(patch, tolerance):
-            outer = [] if has_outer else [Boundary(_around(patch), None)]
+            around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
+            around = [curve for curve in around if np.ptp(curve.points, axis=0).any()]
+            outer = [] if has_outer else [Boundary(around, None)]
             return [_flat_face(surface, domain, [*outer, *boundaries], tolerance)]
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 
@@ -81,12 +83,6 @@ def _is_flat(patch: Patch, tolerance: float) -> bool:
     points = patch.points.reshape(-1, 3) - patch.points[0, 0]
     normal = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)[2][2]
     return bool(np.ptp(points @ normal) <= tolerance)
-
-
-def _around(patch: Patch) -> list[Curve]:
-    """Return the sides of a patch as a loop."""
-    around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
-    return [curve for curve in around if np.ptp(curve.points, axis=0).any()]
 
 
 def _flat_face(

@@ -116,7 +116,9 @@ class Polynomial:
             if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
                 break
             heapq.heappop(boxes)
-            for i, half in enumerate(_halves(net, _most_curved_axis(net))):
+            # Second differences bound the net's distance from the polynomial.
+            curved = int(np.argmax([np.abs(np.diff(net, 2, axis)).max() for axis in range(3)]))
+            for i, half in enumerate(_halves(net, curved)):
                 heapq.heappush(boxes, (float(half.min()), number + i, half))
         return boxes[0][0] - tolerance
 
@@ -252,11 +254,6 @@ def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dic
 def _to_bernstein(degree: int) -> NDArray[np.float64]:
     """Return the (n+1, n+1) matrix from coefficients of t^j to Bernstein coefficients on [0, 1]."""
     return np.array([[math.comb(i, j) / math.comb(degree, j) for j in range(degree + 1)] for i in range(degree + 1)])
-
-
-def _most_curved_axis(net: NDArray) -> int:
-    """Return the axis of the largest second differences, which bound the net's distance from the polynomial."""
-    return int(np.argmax([np.abs(np.diff(net, 2, axis)).max() for axis in range(3)]))
 
 
 def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:

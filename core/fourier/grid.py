@@ -330,14 +330,6 @@ def _grid_side(half: int, width: int) -> int:
     """Return the cells along a side of the fine grid: even, with small prime factors only, for a fast transform."""
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
-    while _has_large_prime(n):
+    while pow(2 * 3 * 5 * 7, 64, n):  # A larger prime divides n.
         n += 2
     return n
-
-
-def _has_large_prime(n: int) -> bool:
-    """Return whether a prime above 7 divides n."""
-    for prime in (2, 3, 5, 7):
-        while n % prime == 0:
-            n //= prime
-    return n > 1

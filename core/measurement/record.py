@@ -89,7 +89,11 @@ def record(
         mass = measurement.moments_of_mass(order if length is None else min(order, length.order))
         if mass is not None:
             domains["mass"] = mass
-        placed = {name: _about(point, moments, measurement, frame) for name, moments in domains.items()}
+        if frame == "object":
+            axes, origin = measurement.rotation, measurement.location + measurement.rotation @ point
+            placed = {name: moments.in_frame(axes, origin) for name, moments in domains.items()}
+        else:
+            placed = {name: moments.about_point(point) for name, moments in domains.items()}
         entry["moments"] = _moments_record(order, point, placed, monomials(order))
     entry |= more or {}
     if measurement.display_volume is not None:
@@ -167,13 +171,6 @@ def _point(
     if about == "world" and frame == "object":
         return -measurement.rotation.T @ measurement.location
     return np.zeros(3) if about is None or isinstance(about, str) else np.asarray(about, np.float64)
-
-
-def _about(point: NDArray[np.float64], moments: Moments, measurement: Measurement, frame: str) -> Moments:
-    """Return world-frame moments about a point of a frame and along the frame's axes."""
-    if frame == "object":
-        return moments.in_frame(measurement.rotation, measurement.location + measurement.rotation @ point)
-    return moments.about_point(point)
 
 
 def _moments_record(

@@ -108,7 +108,9 @@ class RowReader:
                 if base + window > len(self._buffer):
                     raise RowsError
                 window *= 4
-        self._fill(starts[-1])
+        self._read_ahead(starts[-1])
+        if len(self._buffer) < starts[-1]:
+            raise RowsError
         return np.array(starts), np.array(lengths, np.intp).reshape(len(starts) - 1, len(lists))
 
     def _numbers_at(self, kind: str, start: int, count: int) -> list[int]:
@@ -157,13 +159,6 @@ class RowReader:
 
     def _type(self, kind: str) -> np.dtype:
         return np.dtype(self._order + kind) if self._order else NUMBERS
-
-    def _fill(self, count: int) -> None:
-        """Fill the buffer to `count` bytes or numbers. Raises RowsError if the file has fewer."""
-        if len(self._buffer) < count:
-            self._read_ahead(count)
-            if len(self._buffer) < count:
-                raise RowsError
 
     def _read_ahead(self, count: int) -> None:
         """Fill the buffer to `count` bytes or numbers, or with the rest of the file."""
