@@ -15,7 +15,7 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
-from ...core.density.grid_options import positions_text
+from ...core.density.grid_values import positions_text
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.formats import Positions, place_samples, read_all_positions, read_scan, sample_matrix, scan_suffix
 from ...core.scans.limits import Limits

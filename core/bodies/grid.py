@@ -12,7 +12,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..density.grid_options import GridOptions, density_function, empty_background_note
+from ..density.grid_options import GridOptions
+from ..density.grid_values import density_function, empty_background_note
 from ..density.smooth_threshold import smooth_threshold_body
 from ..density.spline_grid import Blocks, grid_moments
 from ..density.threshold import ThresholdBody, threshold_body

@@ -19,7 +19,8 @@ from ....core.bodies.findings import (
 )
 from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
 from ....core.bodies.reading import attribute_to_source, to_si
-from ....core.density.grid_options import GridOptions, density_function, empty_background_note
+from ....core.density.grid_options import GridOptions
+from ....core.density.grid_values import density_function, empty_background_note
 from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
 from ....core.moments.moments import Measure, Moments
 from ....core.solid.measure import SolidIntegrals

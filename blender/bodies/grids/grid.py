@@ -23,7 +23,8 @@ from ....core.bodies.findings import (
 from ....core.bodies.grid import MAX_SAMPLES, Samples, ThresholdGrid, density_body, threshold_grid_body
 from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Part, to_si
-from ....core.density.grid_options import GridOptions, sample_positions
+from ....core.density.grid_options import GridOptions
+from ....core.density.grid_values import sample_positions
 from ....core.density.spline_grid import Blocks
 from ....core.measurement.body import Body
 from ....core.measurement.settings import Settings

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.density.grid_options import parse_table
+from body_moments.core.density.grid_values import parse_table
 from body_moments.core.density.materials import CT_DENSITIES, DENSITY_UNITS, density_unit
 
 from tests.close import close
