@@ -32,10 +32,10 @@ from ...core.moments.affine_maps import are_similarities, distinct_linear_parts,
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
 from ...core.nurbs.findings import ERROR_ESTIMATE_LARGE
-from ...core.nurbs.patch import Face
 from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volume_moments
 from ...core.nurbs.seams import sharpest_crease
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
+from ...core.nurbs.splines import Face
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE

@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from ...core.density.grid_values import positions_text
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.formats import Positions, place_samples, read_all_positions, read_scan, sample_matrix, scan_suffix
-from ...core.scans.limits import Limits
 from ...core.scans.numpy_files import read_raw
 from ...core.scans.scan import Scan
+from ...core.scans.scan_files import Limits
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, system_reason
 from .findings import SCAN_NON_FINITE

@@ -25,8 +25,8 @@ from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
-from ...core.nurbs.patch import Face, Patch
-from ...core.scans.limits import Limits
+from ...core.nurbs.splines import Face, Patch
+from ...core.scans.scan_files import Limits
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.nurbs.splines import keep_faces

@@ -13,8 +13,8 @@ from contextlib import redirect_stderr, suppress
 from pathlib import Path
 from typing import Any
 
-from ...core.scans.limits import scan_limits
 from ...core.scans.nrrd import data_file, read_header
+from ...core.scans.scan_files import scan_limits
 from ...core.streams.misread import map_file
 from ...core.verdict.finding import MeasureError
 from ..files.finite import MALFORMED, Buffers, unquote

@@ -17,8 +17,7 @@ from ..measurement.measurement import Measurement
 from ..measurement.settings import Settings, fingerprint
 from ..mesh.surface import Surface, join_surfaces
 from ..moments.affine_maps import are_singular
-from ..nurbs.curve import Curve
-from ..nurbs.patch import Face
+from ..nurbs.splines import Curve, Face
 from ..streams.findings import FILE_UNREADABLE
 from ..verdict.finding import Finding, MeasureError, ReadError, system_reason
 

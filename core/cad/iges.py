@@ -18,9 +18,8 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.curve import Curve
 from ..nurbs.flat_face import FlatFace
-from ..nurbs.patch import Face, Patch, patches_size
+from ..nurbs.splines import Curve, Face, Patch, patches_size
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACE_TRIMMED, SURFACE_UNSUPPORTED, SURFACES_HIDDEN

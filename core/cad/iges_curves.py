@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..nurbs.blender_knots import bezier_curves
-from ..nurbs.curve import Curve
+from ..nurbs.splines import Curve
 from .iges_text import Entry, IgesText, integers, numbers
 
 ARC, CHAIN, LINE, SPLINE = 100, 102, 110, 126

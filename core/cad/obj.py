@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.patch import Face
+from ..nurbs.splines import Face
 from ..streams.decimals import parse_decimals
 from ..streams.file_mesh import FileMesh, name_of_file, without_repeats
 from ..streams.findings import FILE_TOO_LARGE

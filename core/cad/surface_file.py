@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
-from ..scans.limits import DEFAULT_LIMITS, Limits
+from ..scans.scan_files import DEFAULT_LIMITS, Limits
 from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import KINDS
 from ..verdict.finding import FileError

@@ -14,11 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.curve import Curve
 from ..nurbs.flat_face import FlatFace
-from ..nurbs.patch import Face, Patch, patches_size
 from ..nurbs.patch_moments import vector_area
 from ..nurbs.seams import nearest_parameters
+from ..nurbs.splines import Curve, Face, Patch, patches_size
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
 from .findings import SURFACE_TRIMMED

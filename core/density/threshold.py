@@ -296,27 +296,14 @@ class _Sums:
             self.volume[number] += np.einsum("i,i->", across[p, q], inside[r])
             self.area[number] += np.einsum("i,i->", across[p, q], levels[r])
         self.terms += len(cell)
-        if self.with_density:
-            self._add_masses(columns, kept, place, (z0, size), floor, turn, threshold)
-
-    def _add_masses(
-        self,
-        columns: Columns,
-        kept: NDArray,
-        place: list[NDArray],
-        column: tuple[NDArray, NDArray],
-        floor: NDArray,
-        turn: tuple,
-        threshold: float,
-    ) -> None:
-        """Add the masses of columns with densities that are linear along them, for which Gauss's rule is exact."""
-        first, size = column
-        low, height = columns.low[kept], (columns.high - columns.low)[kept]
+        if not self.with_density:
+            return
+        # The density is linear along a column, so that Gauss's rule is exact for the masses.
+        first, height = columns.low[kept], (columns.high - columns.low)[kept]
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
-            z = low + node * height
+            z = first + node * height
             density = threshold + columns.density[kept] + columns.growth[kept] * z
-            points = [*place, first + size * z]
-            self._add_points("mass", floor * size * height * weight * density, points, turn)
+            self._add_points("mass", floor * size * height * weight * density, [*place, z0 + size * z], turn)
 
     def _add_points(self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]) -> None:
         total, size = getattr(self, measure), getattr(self, measure + "_size")

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..moments.exponents import monomial_count
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
-from .patch import Patch
+from .splines import Patch
 
 VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
 ROUNDING = 64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.

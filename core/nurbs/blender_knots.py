@@ -23,8 +23,7 @@ from numpy.typing import NDArray
 
 from ..numerics.bspline import SplineSpace
 from .bezier import homogeneous
-from .curve import Curve
-from .patch import Patch
+from .splines import Curve, Patch
 
 SAME_KNOT_RTOL = 1e-12  # Relative to the domain: ends of a part that are nearer to a knot are moved to it.
 

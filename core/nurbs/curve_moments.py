@@ -25,7 +25,7 @@ from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import check_type
 from ..verdict.tolerances import check_size
 from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves
-from .curve import Curve
+from .splines import Curve
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.

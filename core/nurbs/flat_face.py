@@ -20,10 +20,9 @@ from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
-from .curve import Curve
 from .curve_moments import curves_center, plane_moments
 from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
-from .patch import Face, Patch
+from .splines import Curve, Face, Patch
 
 SAME_HEIGHT_RTOL = 1e-9  # Relative to the extent: corners whose heights differ by less share a row of trapezoids.
 PAIRS_PER_BLOCK = 1 << 22  # rows and edges compared at a time

@@ -43,7 +43,7 @@ from .bezier import (
 )
 from .findings import WALL_THICKER_THAN_CURVATURE
 from .flat_face import split_faces
-from .patch import Face, Patch, patches_center, patches_size
+from .splines import Face, Patch, patches_center, patches_size
 
 AREA_RTOL = 1e-11
 # Factor on the difference of two rules that do not agree yet when all points are spent.

@@ -23,12 +23,11 @@ from numpy.typing import NDArray
 from ..numerics.bspline import clamped_space
 from ..numerics.graph import connected_components
 from ..verdict.finding import MeasureError
-from .curve import Curve
 from .findings import DISCONTINUOUS_PATCH
 from .flat_face import self_intersects
-from .patch import Face, Patch
 from .patch_moments import vector_area
 from .seams import close_pairs, cut_open_sides, join_sides
+from .splines import Curve, Face, Patch
 
 MAX_CHORDS = 4096  # Limit for a boundary loop that is tested for crossing itself.
 

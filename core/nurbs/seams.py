@@ -23,9 +23,8 @@ from ..numerics.bspline import SplineSpace
 from ..numerics.graph import connected_components
 from ..numerics.vectors import cross
 from .blender_knots import bezier_curves
-from .curve import Curve
 from .flat_face import FlatFace, split_faces
-from .patch import SIDES, Face, Patch
+from .splines import SIDES, Curve, Face, Patch
 
 if TYPE_CHECKING:
     from .patch_topology import PatchTopology

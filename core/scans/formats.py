@@ -25,12 +25,11 @@ from .findings import (
     SCAN_PLACEMENT_OVERRIDDEN,
     SCAN_UNSTATED,
 )
-from .limits import DEFAULT_LIMITS, Limits
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import map_array, read_named_raw, read_npy, read_npz
 from .scan import Scan
-from .suffixes import SUFFIXES, scan_suffix
+from .scan_files import DEFAULT_LIMITS, SUFFIXES, Limits, scan_suffix
 
 READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
     zip(SUFFIXES, (read_npy, read_npz, read_nrrd, read_nrrd, read_nifti, read_nifti, read_named_raw), strict=True)

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
 from .findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, HEADER_FIELD, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
-from .limits import Limits
 from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples
+from .scan_files import Limits
 
 HEADER = 348  # bytes
 TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4", 1024: "i8", 1280: "u8"}

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
 from .findings import DAMAGE_CUT_SHORT, DAMAGE_INCOMPLETE, DAMAGE_SIZE, FILE_DAMAGED, SCAN_SAMPLE_TYPE, SCAN_SIZE
-from .limits import Limits
+from .scan_files import Limits
 
 MAX_GZIP_RATIO = 1032  # Most bytes that one byte of a gzip file can unpack to.
 PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.

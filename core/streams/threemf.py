@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scans.findings import DAMAGE_INCOMPLETE
-from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..scans.scan import damaged
+from ..scans.scan_files import DEFAULT_LIMITS, Limits
 from ..verdict.finding import FileError, system_reason
 from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
 from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, LINE_MISREAD, THREEMF_EXTENSION

@@ -25,9 +25,9 @@ from ....core.measurement.findings import NO_VOLUME
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
-from ....core.nurbs.curve import Curve
 from ....core.nurbs.curve_moments import plane_moments
 from ....core.nurbs.flat_face import planar_region
+from ....core.nurbs.splines import Curve
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.tolerances import NEGLIGIBLE
 from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED

@@ -14,9 +14,9 @@ from ....core.bodies.mesh_body import extend_input_error
 from ....core.bodies.reading import Reading
 from ....core.measurement.body import Body
 from ....core.moments.moments import Measure, Moments, monomial_count
-from ....core.nurbs.curve import Curve
 from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region
+from ....core.nurbs.splines import Curve
 from ....core.verdict.finding import MeasureError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict

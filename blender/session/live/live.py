@@ -31,7 +31,7 @@ from ....core.measurement.measurement import Measurement
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
-from ....core.nurbs.patch import Patch
+from ....core.nurbs.splines import Patch
 from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.verdict import internal_error
 from ....core.verdict.finding import MeasureError
