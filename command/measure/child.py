@@ -15,7 +15,7 @@ from typing import Any
 
 from ...core.scans.nrrd import data_file, read_header
 from ...core.scans.scan_files import scan_limits
-from ...core.streams.misread import map_file
+from ...core.streams.text_fields import map_file
 from ...core.verdict.finding import MeasureError
 from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress

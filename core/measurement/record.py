@@ -116,22 +116,13 @@ def described(findings: Iterable[Finding]) -> dict[str, list]:
 def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
     """Add findings to a record, unless it has them already."""
     for finding in findings:
-        record = _finding_record(finding)
+        record = {"code": finding.code, "severity": str(severity(finding)), "message": sentence(finding)}
+        record["values"] = plain(finding.values)
+        if len(finding.elements):
+            record["elements"] = plain(finding.elements[:MAX_ELEMENTS])
         if record not in entry["findings"]:
             entry["findings"].append(record)
             entry["notes" if record["severity"] == Severity.NOTE else "warnings"].append(record["message"])
-
-
-def _finding_record(finding: Finding) -> dict[str, Any]:
-    """Return a finding as data: code, severity, message, values, and the first elements if there are any."""
-    entry = {
-        "code": finding.code,
-        "severity": str(severity(finding)),
-        "message": sentence(finding),
-        "values": finding.values,
-    }
-    first = finding.elements[:MAX_ELEMENTS]
-    return plain({**entry, "elements": first} if len(first) else entry)
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:

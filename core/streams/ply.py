@@ -21,7 +21,8 @@ from ..scans.scan import damaged
 from ..verdict.finding import FileError
 from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, name_of_file, polygon_surface, strip_triangles
 from .findings import DAMAGE_INDEX, DAMAGE_PLY_ROWS, FILE_WITHOUT_OBJECTS
-from .misread import (
+from .ply_rows import INDICES, MAX_HEADER, Element, Header, Property, RowReader, RowsError, parse_header
+from .text_fields import (
     BLOCK,
     SHORT,
     SHORT_OR_NAN,
@@ -36,7 +37,6 @@ from .misread import (
     refuse_line,
     shorten,
 )
-from .ply_rows import INDICES, MAX_HEADER, Element, Header, Property, RowReader, RowsError, parse_header
 
 MAX_SPREAD = 4  # Up to so many vertices per corner between a block's first and last, they are not copied.
 LENGTHS = range(9)  # lists that are checked together; rows with longer ones are checked word by word

@@ -7,7 +7,7 @@ import random
 
 import numpy as np
 import pytest
-from body_moments.core.cad.iges_text import UNIT_NAMES, UNITS
+from body_moments.core.cad.iges_entities import UNIT_NAMES, UNITS
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.patch_moments import area_moments
