@@ -200,7 +200,12 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         )
         flat = not shell and not solid.volume.raw.any()
         verdicts.append(None if flat else Verdict(solid.method))
-        by_part.append((part.source_object_name, _part_findings(part, solid, shell, flat, drawn)))
+        if shell:  # A sheet is not repaired.
+            copies = solid.health.defective_elements.duplicate_faces
+            remarks = [_copies_of_shell(part.surface, copies)] if len(copies) else []
+        else:
+            remarks = [] if flat else of_drawn(solid.findings, [part], drawn)
+        by_part.append((part.source_object_name, remarks))
         parts.append((solid, matrices))
     findings = findings_by_part(by_part, reading.name)
     health = merge_health(healths)
@@ -228,14 +233,6 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         solids=tuple(parts),
         threads=threads,
     )
-
-
-def _part_findings(part: Part, solid: SolidIntegrals, shell: bool, flat: bool, drawn: set[str]) -> list[Finding]:
-    """Return the findings about one surface; a sheet is not repaired."""
-    if shell:
-        copies = solid.health.defective_elements.duplicate_faces
-        return [_copies_of_shell(part.surface, copies)] if len(copies) else []
-    return [] if flat else of_drawn(solid.findings, [part], drawn)
 
 
 def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:

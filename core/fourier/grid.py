@@ -171,33 +171,23 @@ class GridTransform(Transform):
             size = max(1, POINTS_PER_CHUNK // count)
             for start in range(0, len(triangle_rows), size):
                 some = triangle_rows[start : start + size]
-                self._spread(self.faces.triangles[some], n)
+                points, strengths, weights = self._nodes(self.faces.triangles[some], n)
+                if self.measure == Measure.AREA:
+                    strengths = np.sqrt((strengths**2).sum(axis=0))[None]
+                strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
+                self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
                 done += len(some) * count * self.width**3
                 yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
         if self.fine:
-            yield from (1.0 - checked for _ in self._collect_spread())
+            vectors, middle = self.waves.vectors(slice(0, self.waves.rows)), (self.grid.half, self.grid.half, 0)
+            for axis, waves in enumerate(self.spreading.sums()):
+                spread = waves.reshape(-1) - waves[middle].real  # less the 1/2 that `Transform` subtracts from each D
+                self.sums += vectors[axis] * spread if self.measure == Measure.VOLUME else spread
+                yield 1.0 - checked
             self.exact = Transform(
                 self.surface, self.grid.vectors()[_sample_indices(self.grid)], self.measure, self.threads
             )
             yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
-
-    def _spread(self, triangles: NDArray, n: int) -> None:
-        """Put the points of some triangles on the fine grid."""
-        points, strengths, weights = self._nodes(triangles, n)
-        if self.measure == Measure.AREA:
-            strengths = np.sqrt((strengths**2).sum(axis=0))[None]
-        strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
-        self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
-
-    def _collect_spread(self) -> Iterator[None]:
-        """Add the spread sources to the sums, minus the 1/2 that `Transform` subtracts from each D."""
-        vectors = self.waves.vectors(slice(0, self.waves.rows))
-        for axis, waves in enumerate(self.spreading.sums()):
-            if self.measure == Measure.VOLUME:
-                self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.grid.half, self.grid.half, 0].real)
-            else:
-                self.sums += waves.reshape(-1) - waves[self.grid.half, self.grid.half, 0].real
-            yield
 
     def result(self) -> Spectrum:
         """Return the spectrum, when all steps are done; its error includes the difference from closed-form samples."""
@@ -280,9 +270,9 @@ class Spreading:
         size = max(1, CELLS_PER_BLOCK // self.width**3)
         for start in range(0, len(order), size):
             some = order[start : start + size]
-            self._spread(positions[:, some], strengths[:, some])
+            self._add_block(positions[:, some], strengths[:, some])
 
-    def _spread(self, positions: NDArray, strengths: NDArray) -> None:
+    def _add_block(self, positions: NDArray, strengths: NDArray) -> None:
         n, w, p = self.side, self.width, positions.shape[1]
         steps = np.arange(w)
         first = np.floor(positions - w / 2.0) + 1.0

@@ -148,7 +148,10 @@ class Transform:
 
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
-        shares = self._tasks()
+        faces = min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1))
+        size, rows = max(1, PAIRS_PER_TASK // (faces * self.waves.columns)), self.waves.rows
+        parts = [slice(i, min(i + size, rows)) for i in range(0, rows, size)]
+        shares = [(run, part) for run in self.direct.blocks() for part in parts]
         if self.threads == 1:
             results = map(self._run_task, shares)
             for done, (part, values) in enumerate(results, 1):
@@ -174,15 +177,6 @@ class Transform:
         """Add a task's results by compensated summation: the rounding of thousands of sums would pile up."""
         self.sums[part], rest = two_sum(self.sums[part], values)
         self.rest[part] += rest
-
-    def _tasks(self) -> list[tuple[slice, slice]]:
-        """Return the tasks: every pair of a slice of triangles and a slice of rows of wave vectors."""
-        runs = self.direct.blocks()
-        size = max(
-            1, PAIRS_PER_TASK // (min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1)) * self.waves.columns)
-        )
-        row_count = self.waves.rows
-        return [(run, slice(i, min(i + size, row_count))) for run in runs for i in range(0, row_count, size)]
 
     def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
         """Return the slice of a task's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""

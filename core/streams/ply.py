@@ -200,16 +200,13 @@ class _Rows:
 
     def check(self, start: int, end: int) -> None:
         while start < end:
-            stop = self._end_of_pattern(start, end)
+            matched = self._pattern.match(self._data, start, end)
+            stop = matched.end() if matched else start
             if self._is_face:
                 self._check_indices(start, stop)
             if stop < end:
                 stop += len(self._check_row(stop, end))
             start = stop
-
-    def _end_of_pattern(self, start: int, end: int) -> int:
-        matched = self._pattern.match(self._data, start, end)
-        return matched.end() if matched else start
 
     def _check_indices(self, start: int, end: int) -> None:
         """Check the faces of a block row by row only if one of its numbers, of any meaning, can be no index."""
