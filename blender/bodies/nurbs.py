@@ -25,8 +25,8 @@ from ...core.bodies.instances import (
 )
 from ...core.bodies.mesh_body import MeshBody, extend_input_error
 from ...core.bodies.reading import Part, Reading, SplineReading, to_si
-from ...core.measurement.body import Body
 from ...core.measurement.findings import WALL_UNSUPPORTED
+from ...core.measurement.measurement import Body
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
 from ...core.moments.images import sum_of_images

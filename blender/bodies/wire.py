@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.bodies.reading import Reading
-from ...core.measurement.body import Body
+from ...core.measurement.measurement import Body
 from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, U, monomial_count, monomials
 from ...core.nurbs.curve_moments import length_moments
 from ...core.nurbs.splines import Curve

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 
 from ..density.findings import POSITIONS_ONLY_AS_DENSITY
 from ..density.grid_options import GridOptions
-from ..measurement.body import Body
 from ..measurement.findings import NO_VOLUME
-from ..measurement.measurement import Measurement
+from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Moments

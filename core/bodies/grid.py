@@ -17,7 +17,7 @@ from ..density.grid_values import density_function, empty_background_note
 from ..density.smooth_threshold import smooth_threshold_body
 from ..density.spline_grid import Blocks, grid_moments
 from ..density.threshold import ThresholdBody, threshold_body
-from ..measurement.body import Body
+from ..measurement.measurement import Body
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments
 from ..scans.formats import EVEN, Positions

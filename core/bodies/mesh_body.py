@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.principal_frames import OwnMoments
-from ..measurement.body import Body
+from ..measurement.measurement import Body
 from ..mesh.surface import Surface, normals
 from ..moments.affine_maps import are_similarities
 from ..moments.images import sum_of_images

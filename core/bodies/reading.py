@@ -11,9 +11,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..measurement.body import Body
 from ..measurement.builder import measure_body
-from ..measurement.measurement import Measurement
+from ..measurement.measurement import Body, Measurement
 from ..measurement.settings import Settings, fingerprint
 from ..mesh.surface import Surface, join_surfaces
 from ..moments.affine_maps import are_singular

@@ -15,8 +15,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..measurement.body import Body
 from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
+from ..measurement.measurement import Body
 from ..mesh.boxes import boxes_overlap
 from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER

@@ -24,7 +24,6 @@ from ..verdict.findings import OBJECT_TOO_LARGE
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Verdict
 from ..wall.findings import NO_FACE_AREA
-from .body import Body
 from .findings import (
     AXES_FROM_THIRD_ORDER,
     DENSITY_FROM_MEMBERS,
@@ -33,7 +32,7 @@ from .findings import (
     WALL_UNSUPPORTED,
     ZERO_QUANTITY,
 )
-from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Body, Measurement
 from .settings import Settings
 
 # Up to so many faces, higher moments for a principal frame take negligible time.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies.mesh_body import extend_input_error
 from ....core.bodies.reading import Reading
-from ....core.measurement.body import Body
+from ....core.measurement.measurement import Body
 from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region

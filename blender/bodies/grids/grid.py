@@ -26,7 +26,7 @@ from ....core.bodies.reading import Part, to_si
 from ....core.density.grid_options import GridOptions
 from ....core.density.grid_values import sample_positions
 from ....core.density.spline_grid import Blocks
-from ....core.measurement.body import Body
+from ....core.measurement.measurement import Body
 from ....core.measurement.settings import Settings
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.scans.formats import AXES, Positions

@@ -12,7 +12,7 @@ from ....core.bodies.instances import singular_instances_message
 from ....core.bodies.mesh_body import MeshBody, drawn_names, of_drawn, sum_of_instances, triangle_count
 from ....core.bodies.reading import Reading
 from ....core.bodies.wall import find_walls
-from ....core.measurement.body import Body
+from ....core.measurement.measurement import Body
 from ....core.mesh.surface import join_surfaces
 from ....core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS
 from ....core.solid.measure import measure_solid

@@ -26,8 +26,7 @@ from numpy.typing import NDArray
 from ....core.bodies.reading import float64_matrix
 from ....core.inertia.mass_properties import affine_image
 from ....core.inertia.plain_body import PlainBody
-from ....core.measurement.body import Body
-from ....core.measurement.measurement import Measurement
+from ....core.measurement.measurement import Body, Measurement
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
