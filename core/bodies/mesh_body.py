@@ -34,7 +34,6 @@ from .instances import (
     instances_size,
     merge_health,
     overlap_findings,
-    with_overlaps,
 )
 from .reading import Part, Reading, to_si
 
@@ -213,7 +212,12 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
         if sum(triangle_count(part.surface) * len(part.matrices) for part in reading.parts) <= MAX_COMPARED_TRIANGLES:
             comparison = compare_places(parts)
             findings += overlap_findings(reading, [solid for solid, _ in parts], comparison)
-            health = with_overlaps(health, comparison)
+            nested, overlapping = (len(pairs) for pairs in (comparison.nested, comparison.overlapping))
+            health = replace(
+                health,
+                nested_components=health.nested_components + nested,
+                overlapping_components=health.overlapping_components + overlapping,
+            )
         else:
             findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
     of_solids = [verdict for verdict in verdicts if verdict]

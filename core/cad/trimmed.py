@@ -122,6 +122,27 @@ def _follow_sides(
     samples = [[curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row] for row in sides]
     poles = tuple((_is_point(first, tolerance), _is_point(last, tolerance)) for first, last in samples)
     closed = tuple(bool(np.abs(first - last).max() <= tolerance) for first, last in samples)
+
+    def along_sides(points: NDArray) -> Piece | None:
+        """Return the run of points along a side, in its parameters from 0 to 1; None if they are on no side."""
+        for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            if poles[axis][end]:
+                continue
+            side = sides[axis][end]
+            t = nearest_parameters(side, samples[axis][end], points, tolerance)
+            if np.linalg.norm(points - side.evaluate(t), axis=1).max() > tolerance:
+                continue
+            low, high = side.space.domain
+            share = (t - low) / (high - low)
+            if closed[1 - axis]:
+                steps = np.diff(share)
+                share = share[0] + np.append(0.0, np.cumsum(steps - np.round(steps)))
+            ends = np.full((2, 2), float(end))
+            ends[:, 1 - axis] = share[[0, -1]]
+            whole = np.round(ends)
+            return Piece(np.where(np.abs(ends - whole) <= END_TOLERANCE, whole, ends), True)
+        return None
+
     pieces: list[Piece] = []
     if all(boundary.parameters is not None for boundary in boundaries):
         for curve in [curve for boundary in boundaries for curve in boundary.parameters or ()]:
@@ -135,7 +156,7 @@ def _follow_sides(
                 points = curve.evaluate(np.linspace(*curve.space.domain, SAMPLES))
                 if _is_point(points, tolerance):
                     continue
-                piece = _along_sides(points, sides, samples, poles, closed, tolerance)
+                piece = along_sides(points)
                 if piece is None:
                     return False
                 pieces.append(piece)
@@ -144,34 +165,6 @@ def _follow_sides(
 
 def _is_point(points: NDArray, tolerance: float) -> bool:
     return bool(np.linalg.norm(points - points[0], axis=1).max() <= tolerance)
-
-
-def _along_sides(
-    points: NDArray,
-    sides: Sequence[Sequence[Curve]],
-    samples: Sequence[Sequence[NDArray]],
-    poles: Sequence[Sequence[bool]],
-    closed: Sequence[bool],
-    tolerance: float,
-) -> Piece | None:
-    """Return the run of points along a side of a patch, in its parameters from 0 to 1; None if they are on no side."""
-    for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
-        if poles[axis][end]:
-            continue
-        side = sides[axis][end]
-        t = nearest_parameters(side, samples[axis][end], points, tolerance)
-        if np.linalg.norm(points - side.evaluate(t), axis=1).max() > tolerance:
-            continue
-        low, high = side.space.domain
-        share = (t - low) / (high - low)
-        if closed[1 - axis]:
-            steps = np.diff(share)
-            share = share[0] + np.append(0.0, np.cumsum(steps - np.round(steps)))
-        ends = np.full((2, 2), float(end))
-        ends[:, 1 - axis] = share[[0, -1]]
-        whole = np.round(ends)
-        return Piece(np.where(np.abs(ends - whole) <= END_TOLERANCE, whole, ends), True)
-    return None
 
 
 @dataclass(frozen=True, eq=False)

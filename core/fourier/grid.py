@@ -31,7 +31,7 @@ from ..numerics.arguments import check_type
 from ..numerics.compensated import compensated_normals
 from ..numerics.quadrature import gauss_legendre, triangle_rule
 from .transform import Transform
-from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans
+from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans, TriangleBlock
 from .wave_vectors import APPROXIMATE, FrequencyGrid, ListWaves, Spectrum
 
 POINTS_PER_CHUNK = 1 << 14  # points that are spread between two steps
@@ -114,7 +114,7 @@ class GridTransform(Transform):
         faces, waves, total = self.faces.select(triangle_rows), ListWaves(q), np.zeros(len(q), np.complex128)
         every = slice(0, len(q))
         for run in faces.blocks(PAIRS_PER_BLOCK // len(q)):
-            block = faces.block(run)
+            block = TriangleBlock(faces, run)
             real, imaginary = PhaseMeans(block, waves, every)(every)
             weights = self._weights(block.normals, waves.q)
             total += (weights * (real + 0.5)).sum(axis=1) + 1j * (weights * imaginary).sum(axis=1)

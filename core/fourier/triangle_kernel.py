@@ -107,9 +107,6 @@ class SortedTriangles:
         )
         return some
 
-    def block(self, run: slice) -> TriangleBlock:
-        return TriangleBlock(self.points, self.triangles[run], float(self.diameters[run].max()))
-
 
 def _morton_code(cells: NDArray) -> NDArray[np.int64]:
     """Interleave the bits of three numbers below 1024, (3, k): the position of a place on a Z-shaped curve."""
@@ -125,9 +122,11 @@ class TriangleBlock:
     middles, halves: (3, e) the middles of edges, and half of the differences of their ends.
     """
 
-    def __init__(self, points: NDArray, triangles: NDArray, diameter: float):
+    def __init__(self, faces: SortedTriangles, run: slice):
+        points, triangles = faces.points, faces.triangles[run]
         a, b, c = (points[corner].T for corner in triangles.T)
-        self.diameter, self.normals, self.centers = diameter, compensated_normals(a, b, c), (a + b + c) / 3.0
+        self.diameter = float(faces.diameters[run].max())
+        self.normals, self.centers = compensated_normals(a, b, c), (a + b + c) / 3.0
         self.from_center = ((a - b) + (a - c)) / 3.0, ((b - a) + (b - c)) / 3.0
         ends = np.sort(np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]]).astype(np.int64))
         unique, edges = np.unique(ends[..., 0] * len(points) + ends[..., 1], return_inverse=True)

@@ -129,7 +129,7 @@ def _coincident_sides(
     )[:2]
     candidates = np.concatenate([arcs[np.stack(ends)], np.sort(rings[np.stack(boxes)], axis=0)], axis=1)
     for i, j in wide[candidates.T].tolist():
-        coincident += _overlapping_sides(curves[i], curves[j], points[i], points[j], i, j, tolerance)
+        coincident += _overlapping_sides(curves, points, i, j, tolerance)
     return sorted(coincident)
 
 
@@ -236,17 +236,17 @@ def _distance_between(
 
 
 def _overlapping_sides(
-    first: Curve, second: Curve, first_points: NDArray, second_points: NDArray, i: int, j: int, tolerance: float
+    curves: Sequence[Curve], points: NDArray, i: int, j: int, tolerance: float
 ) -> list[tuple[float, int, int, bool]]:
     """Return [(distance, i, j, True if same direction)] if all points of each curve are on the other curve, else []."""
     gaps, ways = [], []
-    for curve, samples, points in ((second, second_points, first_points), (first, first_points, second_points)):
-        t = nearest_parameters(curve, samples, points, tolerance)
-        gaps.append(float(np.linalg.norm(points - curve.evaluate(t), axis=1).max()))
-        ways.append(float((np.diff(points, axis=0) * curve.velocity(t[:-1])).sum()))  # negative if they run against it
+    for curve, samples, others in ((curves[j], points[j], points[i]), (curves[i], points[i], points[j])):
+        t = nearest_parameters(curve, samples, others, tolerance)
+        gaps.append(float(np.linalg.norm(others - curve.evaluate(t), axis=1).max()))
+        ways.append(float((np.diff(others, axis=0) * curve.velocity(t[:-1])).sum()))  # negative if they run against it
         if gaps[-1] > tolerance:
             return []
-    return [(max(gaps), int(i), int(j), bool(ways[0] > 0.0))]
+    return [(max(gaps), i, j, ways[0] > 0.0)]
 
 
 def nearest_parameters(curve: Curve, samples: NDArray, points: NDArray, tolerance: float) -> NDArray[np.float64]:

@@ -63,13 +63,15 @@ class RowReader:
             starts, lengths = self._scan(properties, min(left, FEW_ROWS))
             if (lengths == lengths[0]).all():
                 row = self._row_type(properties, lengths[0])
-                table = self._table(row, left)
+                unit = self._buffer.itemsize
+                self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
+                table = np.frombuffer(self._buffer, row, min(left, len(self._buffer) * unit // row.itemsize))
                 same = np.ones(len(table), bool)
                 for number, length in enumerate(lengths[0]):
                     same &= table["n{}".format(number)] == length
                 count = len(table) if same.all() else int(np.argmin(same))
                 yield np.arange(done, done + count), [table[name][:count] for name in _names(properties)]
-                end = count * row.itemsize // self._buffer.itemsize
+                end = count * row.itemsize // unit
             else:
                 starts, lengths = self._scan(properties, min(left, SINGLE_ROWS))
                 count, end = len(lengths), starts[-1]
@@ -145,13 +147,6 @@ class RowReader:
             else:
                 fields.append((name, self._type(one.type)))
         return np.dtype(fields)
-
-    def _table(self, row: np.dtype, left: int) -> NDArray:
-        """Read the next part of the file, and return the whole rows in the buffer, at most `left`."""
-        unit = self._buffer.itemsize
-        self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
-        count = min(left, len(self._buffer) * unit // row.itemsize)
-        return np.frombuffer(self._buffer, row, count)
 
     def _size(self, kind: str) -> int:
         """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a text."""
