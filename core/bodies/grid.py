@@ -112,9 +112,7 @@ def density_body(
         return samples.densities(block)
 
     mass = samples.grid_moments(densities, samples.options.spline_order, KNOWN_ORDER)
-    higher = None
-    if order > KNOWN_ORDER:
-        higher = samples.grid_moments(densities, samples.options.spline_order, order)
+    higher = samples.grid_moments(densities, samples.options.spline_order, order) if order > KNOWN_ORDER else None
     if not np.abs(mass.raw).max() < MAX_MASS_MOMENT:
         raise ReadError(MASS_OVERFLOW)
     if not mass.total > 0.0:

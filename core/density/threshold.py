@@ -29,7 +29,7 @@ from ..numerics.quadrature import gauss_legendre
 from ..verdict.finding import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract
-from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
+from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules
 
 RULES = ((3, 5), (8, 12))  # points along x and y of two rules to compare; then of two finer rules
 TOLERANCE = 1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
@@ -324,7 +324,8 @@ class _Sums:
             volumes = weights[list(place)].prod() * cells.size**3
             self._add_points("volume", volumes, points)
             if self.with_density:
-                self._add_points("mass", volumes * (threshold + interpolate(cells.corners, u, v, w)), points)
+                above = np.einsum("nijk,i,j,k->n", cells.corners, (1.0 - u, u), (1.0 - v, v), (1.0 - w, w))
+                self._add_points("mass", volumes * (threshold + above), points)
         self.terms += len(cells.size)
 
     def _give_up(self, cells: Cells, threshold: float) -> None:

@@ -16,7 +16,6 @@ from .findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
-    HEADER_FIELD,
     NAMED_FILE_MISSING,
     POSITIONS_COUNT,
     POSITIONS_NOT_ASCENDING,
@@ -28,7 +27,7 @@ from .findings import (
 from .nifti import read_nifti
 from .nrrd import read_nrrd
 from .numpy_files import map_array, read_named_raw, read_npy, read_npz
-from .scan import Scan
+from .scan import Scan, wrong_field
 from .scan_files import DEFAULT_LIMITS, SUFFIXES, Limits, scan_suffix
 
 READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
@@ -87,15 +86,10 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     limits.check(path, "samples", scan.samples.size)
     rows, scaling = scan.matrix[:3], (scan.slope, scan.intercept)
     if not np.isfinite(rows).all() or not abs(np.linalg.det(rows[:, :3])) > 0.0:
-        raise _field(path, "spacing or directions", "finite, and not in one plane", rows.ravel().tolist())
+        raise wrong_field(scan_suffix(path), "spacing or directions", "finite, and not in one plane", *rows.ravel())
     if not np.isfinite(scaling).all():
-        raise _field(path, "slope and intercept", "finite numbers", scaling)
+        raise wrong_field(scan_suffix(path), "slope and intercept", "finite numbers", *scaling)
     return scan
-
-
-def _field(path: Path, name: str, wanted: str, values: Sequence[float]) -> FileError:
-    text = " ".join(map("{:g}".format, values))
-    return FileError(HEADER_FIELD, format=scan_suffix(path), field=name, wanted=wanted, text=text)
 
 
 def sample_matrix(
