@@ -75,12 +75,11 @@ def plan_colliders(
     if correct == "VERTICES":
         shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-    if wanted.shape.startswith("equal_"):
-        masses = [body.mass]
-    elif correct == "MASSES":
+    masses = uniform_masses(measurement.density, shapes)
+    if correct == "MASSES":
         masses = correct_masses(body, shapes)
-    else:
-        masses = uniform_masses(measurement.density, shapes)
+    elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
+        masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
     outward, inward, bound = distances(surface, shapes, hull)
     record = {
