@@ -27,12 +27,12 @@ from tests.core.bodies import box, joined
 from tests.robots.links import ball, rotation
 
 DENSITY = 700.0
-SLOW = {"helix", "knot", "spiral"}
+SLOW = {"helix", "knot", "spiral", "bowl", "goblet", "hook", "dumbbell", "cup", "crescent"}
 LINKS = (
     *("PELVIS", "WAIST_Y", "WAIST_R", "NECK_Y", "R_HIP_R", "R_HIP_Y", "R_KNEE", "R_ANKLE_P", "R_SHOULDER_P"),
     *("R_SHOULDER_Y", "R_ELBOW_P", "R_ELBOW_Y", "R_WRIST_Y", "R_UTHUMB", "R_LINDEX"),
 )  # of the humanoid JVRC-1, closed meshes
-COLUMNS = ["columns {}".format(number) for number in range(2)]
+COLUMNS = ["columns {}".format(number) for number in range(6)]
 SHAPES = {"box": box((-1, -1, -1), (1, 1, 1)), "ball": ball(), **benchmark_colliders.bodies()}
 BODIES = (*sorted({*SHAPES} - SLOW), "Suzanne", *LINKS, *COLUMNS)
 
@@ -118,7 +118,7 @@ def test_mujoco_agrees_with_stated_effect_and_corrections(name):
     """Masses of pieces give the body itself if there are enough pieces, moved vertices always."""
     number = BODIES.index(name)
     for shape in (PRIMITIVES[number % len(PRIMITIVES)], "hull", "pieces"):
-        surface, volume, body, shapes = made(name, Wanted(shape, 0.0, 0.0, 14, 32))
+        surface, volume, body, shapes = made(name, Wanted(shape, 0.0, 0.0, 14, 64))
         masses = uniform_masses(DENSITY, shapes)
         agrees([replace(one, mass=mass) for one, mass in zip(shapes, masses)], body, volume, 1e-6)
         if shape in ("hull", "pieces"):
@@ -139,7 +139,7 @@ def test_mujoco_agrees_with_stated_effect_and_corrections(name):
     change = effect(body, shapes, volume).inertia_change
     found = np.linalg.norm(inertia - body.inertia) / np.linalg.norm(body.inertia)
     # MuJoCo places the vertices of meshes in single precision.
-    assert mass == pytest.approx(body.mass, rel=1e-8) and abs(found - change) < 2e-7
+    assert mass == pytest.approx(body.mass, rel=1e-12) and abs(found - change) < 2e-7
     MATCHED.append(len(shapes) >= 10 and change < 1e-9)
 
 
@@ -149,4 +149,4 @@ MATCHED: list[bool] = []
 
 
 def test_ten_bodies_of_ten_pieces_are_matched_by_masses():
-    print(sum(MATCHED)); assert sum(MATCHED) >= 10
+    assert sum(MATCHED) >= 10
