@@ -339,8 +339,8 @@ def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
 def test_disagreeing_collision_geometry_is_noted_with_its_effect(tmp_path):
     box = "<origin xyz='0 0 {}' rpy='0 0 {}'/><geometry><box size='{} 3 4'/></geometry>"
     text = (
-        "<robot name='r'><link name='l'><inertial><mass value='24000'/><inertia ixx='50000' iyy='40000' izz='26000' ixy='0' ixz='0'"
-        " iyz='0'/></inertial><visual>{}</visual><collision>{}</collision></link></robot>"
+        "<robot name='r'><link name='l'><inertial><mass value='24000'/><inertia ixx='50000' iyy='40000' izz='26000' "
+        "ixy='0' ixz='0' iyz='0'/></inertial><visual>{}</visual><collision>{}</collision></link></robot>"
     )
     path = tmp_path / "r.urdf"
     path.write_text(text.format(box.format(0, 0, 2), box.format(0.1, 0.2, 2.5)), encoding="utf-8")
