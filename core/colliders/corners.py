@@ -36,7 +36,7 @@ from ..verdict.finding import MeasureError
 
 SUMS = monomial_count(2)
 DEGREE = monomials(2).sum(axis=1)
-REACHED = 1e-10  # of the body's volume and size
+REACHED = 1e-8  # of the body's volume and size, as precise as single precision
 NEAR = 1e-6  # beyond which the volume is given up
 MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
 FIRST_RADIUS, LEAST_RADIUS = 0.1, 1e-6  # of the trust region, in the body's radii of gyration
