@@ -12,8 +12,7 @@ import bpy
 from bpy.types import Object, PropertyGroup, Scene
 from mathutils import Matrix
 
-from ...core.inertia.plain_body import rotation_axes
-from ...core.inertia.reference import Reference
+from ...core.inertia.plain_body import Reference, rotation_axes
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import QueryError
 from .findings import REFERENCE_OBJECT_MISSING

@@ -10,7 +10,7 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.boxes import boxes_overlap
+from ..mesh.bvh import boxes_overlap
 from ..mesh.surface import Surface
 from ..moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
 from ..moments.images import sum_of_images

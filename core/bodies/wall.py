@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..measurement.body import Body
 from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
-from ..mesh.boxes import boxes_overlap
+from ..mesh.bvh import boxes_overlap
 from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.images import sum_of_images

@@ -16,8 +16,7 @@ from ..numerics.arguments import check_type, float_array, index_array
 from ..polyhedron.n_dimensions import facet_moments
 from ..verdict.finding import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
-from .polygon import boundary_edges, edge_arrays, outline_areas
-from .regions import plane_positions, region_moments
+from .polygon import boundary_edges, edge_arrays, outline_areas, plane_positions, region_moments
 from .section_properties import Plane, Section
 
 # Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.

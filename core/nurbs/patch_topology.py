@@ -23,7 +23,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.boxes import overlapping_box_pairs
+from ..mesh.bvh import overlapping_box_pairs
 from ..numerics.arrays import following_pairs
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.graph import connected_components

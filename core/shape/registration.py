@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.canonical_frame import EquivalentFrames
-from ..inertia.frame_choice import complete_free_axes
 from ..inertia.principal_frames import equivalent_frames, undetermined_axes
-from ..inertia.third_moment_frames import HALF_TURN_SIGNS
+from ..inertia.third_moment_frames import HALF_TURN_SIGNS, complete_free_axes
 from ..moments.moments import Moments
 from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE
 from ....core.flat.findings import SECTION_NOT_FLAT
-from ....core.flat.polygon import find_defects, orient_loops
-from ....core.flat.regions import plane_positions, region_moments
+from ....core.flat.polygon import find_defects, orient_loops, plane_positions, region_moments
 from ....core.flat.section import fit_plane, project, projection_rounding, region
 from ....core.flat.section_properties import Plane
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME

@@ -20,12 +20,11 @@ from ....core.measurement.settings import fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Moments
-from ....core.shape.disc_zernike import MAX_DISC_ORDER, disc_zernike
 from ....core.shape.flat_pose import flat_symmetry, holds_by_moments, holds_by_outline, match_flat
-from ....core.shape.flat_signatures import flat_signature
 from ....core.shape.registration import Residual, RigidMatch
-from ....core.shape.signatures import Signature
+from ....core.shape.signatures import Signature, flat_signature
 from ....core.shape.symmetries import Symmetry
+from ....core.shape.zernike import MAX_DISC_ORDER, disc_zernike
 from ....core.verdict.finding import MeasureError, ReadError
 from ...read.fingerprint import matrix_hash, settings_hash
 from ..shape.shape import Shape, surface_shape_of

@@ -10,8 +10,7 @@ import bpy
 from bpy.types import Collection, Object, Scene
 
 from .... import core
-from ....core.inertia.plain_body import PlainBody
-from ....core.inertia.reference import ReferredInertia
+from ....core.inertia.plain_body import PlainBody, ReferredInertia
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.reference import ReferenceChoice
