@@ -15,9 +15,8 @@ from ..inertia.principal_frames import OwnMoments
 from ..measurement.body import Body
 from ..mesh.surface import Surface
 from ..moments.affine_maps import are_similarities
-from ..moments.images import sum_of_images
+from ..moments.images import invert_through_point, sum_of_images
 from ..moments.moments import Moments, monomials, stack_moments, sum_moments
-from ..moments.symmetric_tensors import invert_through_point
 from ..numerics.rotations import polar_rotation
 from ..polyhedron import polyhedron_moments
 from ..solid.measure import SolidIntegrals

@@ -125,18 +125,6 @@ def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.in
     return directed_edges(order)
 
 
-def boundary_edges(faces: NDArray, count: int) -> NDArray[np.intp]:
-    """Return the (m, 2) directed edges of (k, 3) triangles that remain when opposite edges cancel."""
-    ahead = faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64)
-    low, high = ahead.min(axis=1), ahead.max(axis=1)
-    ahead, low, high = (values[low != high] for values in (ahead, low, high))
-    keys, which = np.unique(low * count + high, return_inverse=True)
-    net = np.bincount(which.ravel(), np.where(ahead[:, 0] == low, 1.0, -1.0)).astype(np.int64)
-    edges = np.stack([keys // count, keys % count], axis=1)
-    edges = np.where(net[:, None] < 0, edges[:, ::-1], edges)
-    return np.repeat(edges, np.abs(net), axis=0).astype(np.intp)
-
-
 def outline_areas(points: NDArray, edges: NDArray) -> NDArray[np.float64]:
     """Return the (k,) signed areas of outlines, negative ones of holes; outlines that share a point count as one."""
     origin = points[edges[0, 0]]

@@ -24,9 +24,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..moments.affine_maps import rotate_moments
-from ..moments.exponents import monomial_count, monomial_index, monomial_values, monomials, order_from_count
+from ..moments.exponents import (
+    monomial_count,
+    monomial_index,
+    monomial_values,
+    monomials,
+    order_from_count,
+    tensor_index,
+)
 from ..moments.moments import Measure, Moments
-from ..moments.symmetric_tensors import tensor_index
 from ..numerics.arrays import cross_rows, lengths
 from ..verdict.finding import MeasureError
 from .canonical_frame import (

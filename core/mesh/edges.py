@@ -174,6 +174,22 @@ def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
     return Edges(of_side=of_side, upward=start < stop, first=np.flatnonzero(begins), count=np.bincount(of_side))
 
 
+def uncancelled_sides(
+    triangles: NDArray[np.integer], owner: NDArray[np.integer]
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """Return (k,) owners, starts and ends of the sides of (m, 3) triangles that no opposite one of their owner cancels.
+
+    They are in the order of the sides. owner: (m,) of each triangle.
+    """
+    start, stop = triangles.ravel().astype(np.int64), triangles.take(NEXT_AXIS, 1).ravel().astype(np.int64)
+    low, high, owner = np.minimum(start, stop), np.maximum(start, stop), np.repeat(owner, 3).astype(np.int64)
+    first = first_occurrence(low, high, owner)
+    left = np.bincount(first, np.sign(stop - start)).astype(np.intp)  # nothing of sides without length
+    first = np.repeat(np.arange(len(left)), np.abs(left))
+    low, high, forward = low[first], high[first], left[first] > 0
+    return owner[first], np.where(forward, low, high), np.where(forward, high, low)
+
+
 def consistent_orientation(
     count: int,
     a: NDArray[np.integer],

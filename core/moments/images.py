@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sum of one body's images under many affine maps: its instances."""
+"""The sum of one body's images under many affine maps, its instances; and its point reflection."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -49,6 +50,12 @@ def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None
         error += bounds[0]
         extra += bounds[1]
     return Moments(raw, center, moments.measure, error, extra)
+
+
+def invert_through_point(moments: Moments) -> Moments:
+    """Return the moments of the body's point reflection in `about`: its mirror image, turned."""
+    sign = (-1.0) ** monomials(moments.order).sum(axis=1)
+    return replace(moments, raw=moments.raw * sign)
 
 
 def _image_error_bounds(

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import find_edges
+from ..mesh.edges import find_edges, uncancelled_sides
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..numerics.arrays import sums_by_index
@@ -54,7 +54,7 @@ def bone_pieces(
 ) -> list[BonePiece]:
     """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by storing."""
     points = points.astype(np.float64)
-    owner, start, stop = _cut_edges(len(points), triangles, bone)
+    owner, start, stop = uncancelled_sides(triangles, bone)
     cut, apexes = _apexes(points, start, stop)
     corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])
     labels = np.concatenate([bone, owner])
@@ -85,21 +85,6 @@ def bones_of_caps(
             found[:] = np.bincount(bone[~is_cap], minlength=1).argmax()
         result[~known] = found
     return result
-
-
-def _cut_edges(
-    count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) bones, starts and ends of the sides of each bone's triangles that no opposite side cancels."""
-    start = triangles.ravel().astype(np.int64)
-    stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
-    shape = int(bone.max(initial=0)) + 1, count, count
-    key = np.ravel_multi_index((np.repeat(bone, 3), np.minimum(start, stop), np.maximum(start, stop)), shape)
-    edges, place = np.unique(key, return_inverse=True)
-    left = np.bincount(place, np.where(start < stop, 1.0, -1.0)).astype(np.intp)
-    owner, low, high = np.unravel_index(np.repeat(edges, np.abs(left)), shape)
-    forward = np.repeat(left, np.abs(left)) > 0
-    return owner, np.where(forward, low, high), np.where(forward, high, low)
 
 
 def _apexes(

@@ -20,8 +20,14 @@ from ....core.measurement.settings import fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Moments
-from ....core.shape.flat_pose import flat_symmetry, holds_by_moments, holds_by_outline, match_flat
-from ....core.shape.registration import Residual, RigidMatch
+from ....core.shape.registration import (
+    Residual,
+    RigidMatch,
+    flat_symmetry,
+    holds_by_moments,
+    holds_by_outline,
+    match_flat,
+)
 from ....core.shape.signatures import Signature, flat_signature
 from ....core.shape.symmetries import Symmetry
 from ....core.shape.zernike import MAX_DISC_ORDER, disc_zernike

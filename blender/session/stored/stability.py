@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from ....core.mesh.hulls import ConvexHull
 from ....core.numerics.rotations import rotation_matrix
-from ....core.statics.resting import RestingPoses, resting_poses
-from ....core.statics.support import CONTACT_RTOL, Support, find_support
+from ....core.statics.support import CONTACT_RTOL, RestingPoses, Support, find_support, resting_poses
 from ....core.verdict.finding import Finding, MeasureError
 from ...bodies.mesh.hull import object_hull
 from ..displayed import drawn

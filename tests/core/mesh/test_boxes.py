@@ -33,9 +33,7 @@ def test_boxes_sharing_a_side_do_not_meet():
     for unit in (1.0, 0.1, 0.7):  # rounded, some would overlap
         assert not bvh.boxes_overlap(unit * grid, unit * half)
         assert bvh.boxes_overlap(unit * grid, 1.001 * unit * half)
-    assert bvh.boxes_overlap(
-        np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.1]]), np.array([[1.0, 1.0, 1.0], [2.0, 2.0, 0.0]])
-    )
+    assert bvh.boxes_overlap(np.array([[0.0, 0.0, 0.0], [0.3, 0.0, 0.1]]), np.array([[1.0, 1.0, 1.0], [2.0, 2.0, 0.0]]))
 
 
 @pytest.mark.parametrize("margin", [0.0, 0.25, 0.5])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.moments.moments import Moments
-from body_moments.core.shape.flat_pose import (
+from body_moments.core.shape.registration import (
     MIRROR,
     flat_symmetry,
     holds_by_moments,
