@@ -33,6 +33,7 @@ from ..moments.exponents import (
     tensor_index,
 )
 from ..moments.moments import Measure, Moments
+from ..moments.solid_harmonics import circular_coefficients
 from ..numerics.arrays import cross_rows, lengths
 from ..verdict.finding import MeasureError
 from .canonical_frame import (
@@ -71,10 +72,7 @@ HALF_TURN_PARITY = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0], [1.
 
 def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
     """Find `canonical_frames`, without values, of the bodies (indices) with two or three equal second moments."""
-    with np.errstate(over="ignore", under="ignore"):
-        reach = moments.raw[:, 0] * fixed.size[bodies].max(axis=1) ** moments.order
-    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
+    _check_range(moments, fixed.size[bodies])
     found: list[EquivalentFrames | None] = [None] * len(bodies)
     symmetry = fixed.symmetry[bodies]
     for number in set(symmetry.tolist()) - {SYMMETRIES.index("asymmetric")}:
@@ -86,6 +84,14 @@ def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np
         canonical_frames(moments.at(i), fixed.spread(int(body)), fixed.frames(int(body))) if frames is None else frames
         for i, (body, frames) in enumerate(zip(bodies, found))
     ]
+
+
+def _check_range(moments: Moments, size: NDArray[np.float64]) -> None:
+    """Raise MeasureError if the highest moments of bodies with these (n, 3) extents are no numbers."""
+    with np.errstate(over="ignore", under="ignore"):
+        reach = moments.raw[:, 0] * size.max(axis=1) ** moments.order
+    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
+        raise MeasureError(MOMENTS_OVERFLOW, order=moments.order)
 
 
 def _frames_alike(
@@ -286,10 +292,7 @@ def _along_axes(
     """Return (n, columns) normalized moments of order ≥ 3 along the axes, their noise, and (n, K) central ones."""
     central = moments.about_center()
     order, total, size = central.order, central.raw[:, :1], fixed.size[bodies]
-    with np.errstate(over="ignore"):
-        reach = total[:, 0] * size.max(axis=1) ** order
-    if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():
-        raise MeasureError(MOMENTS_OVERFLOW, order=order)
+    _check_range(central, size)
     turned = fixed.axes[bodies].transpose(0, 2, 1)
     raw = rotate_moments(central.raw / total, order, turned)
     error = rotate_moments(central.rounding_error / total, order, np.abs(turned))[:, THIRD:]
@@ -313,13 +316,12 @@ def _harmonics(axis: int, order: int) -> tuple[NDArray[np.float64], NDArray[np.i
         for m in range(1, degree + 1):
             for k in range((degree - m) % 2, degree - m + 1, 2):
                 form = np.zeros(monomial_count(order) - THIRD, complex)
-                planar = np.polynomial.polynomial.polypow([1.0, 1.0j], m)  # coefficients of y over x
-                ring = np.polynomial.polynomial.polypow([1.0, 0.0, 1.0], (degree - m - k) // 2)
+                j = (degree - m - k) // 2
                 where = [
                     monomial_index(*np.roll((degree - k - power, power, k), axis + 1)) - THIRD
                     for power in range(degree - k + 1)
                 ]
-                form[where] = np.polynomial.polynomial.polymul(planar, ring)
+                form[where] = circular_coefficients(m + j, j)
                 weights.append(2.0 ** (degree - k))
                 columns.append(where[0])
                 forms.append(form)

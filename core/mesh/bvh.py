@@ -24,7 +24,6 @@ TRIANGLES_PER_LEAF = 4  # triangles
 PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
 TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
 MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
-PIECE = 1 << 17  # pairs looked at together
 ROUNDING = 1e-6  # relative to a box's sides
 
 
@@ -362,7 +361,7 @@ def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int)
     """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of untested pairs."""
     order, count = _sweep(low, high, margin)
     left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
-    for i, j in following_pairs(order, count, PIECE):
+    for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
         if pair_count >= most or tested_count >= 100 * most:
             break
         tested_count += len(i)
@@ -377,5 +376,7 @@ def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
     """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than rounding."""
     extents = extents * (1.0 - ROUNDING)
     low, high = centers - extents, centers + extents
-    pairs = following_pairs(*_sweep(low, high, 0.0), PIECE)  # a flat box in another one overlaps it by nothing
+    pairs = following_pairs(
+        *_sweep(low, high, 0.0), PAIRS_PER_BATCH
+    )  # a flat box in another one overlaps it by nothing
     return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)

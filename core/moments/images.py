@@ -18,18 +18,17 @@ from .moments import Moments, U, image, measure_scale_factors
 MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
 
 
-def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None = None) -> Moments:
+def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
     """Return the summed moments of one body's images under (k, 4, 4) affine maps, at least one.
 
-    The sum is about the mean of the images of `moments.about`, unless `about` is given. ValueError if a map of areas or
-    lengths is no similarity.
+    It is about the mean of the images of `moments.about`. ValueError if a map of areas or lengths is no similarity.
     """
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
     check_filled("matrices", matrices)
     linear, offsets = to_trailing_axis(matrices)
     point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
-    center = origins.mean(axis=1) if about is None else float_array("about", about, 3, finite=True)
+    center = origins.mean(axis=1)
     if len(matrices) == 1:
         return image(moments, matrices[0], center)
     raw, error, extra = np.zeros((3, len(moments.raw)))

@@ -190,15 +190,9 @@ def _measure(
         size += np.add.reduce(_recursion(np.abs(corners), order) * weight_size, axis=1)
 
     # Count the roundings of one product of coordinates: in each coordinate, product and sum of the recursion, in the
-    # passes that only carry it on, in the weight, and in the sum over all simplices.
-    steps = (
-        degree * (dimension + 2)
-        + dimension * dimension
-        + _weight_steps(dimension)
-        + PAIRWISE_SUM_ROUNDINGS
-        + len(blocks)
-        + 4
-    )
+    # passes that only carry it on, in the minors on the way to the weight, and in the sum over all simplices.
+    minors = sum(3 + size for size in range(1, dimension)) + 2 * dimension + 6
+    steps = degree * (dimension + 2) + dimension * dimension + minors + PAIRWISE_SUM_ROUNDINGS + len(blocks) + 4
     error = 1.01 * steps * U * size + len(simplices) * UNDERFLOW
     factor = factorial_ratios(indices, measure)
     power = (exponent * (degree + measure)).astype(np.int32)
@@ -252,12 +246,6 @@ def _normals(edges: NDArray) -> tuple[list[NDArray], list[NDArray]]:
     every = tuple(range(dimension))
     components = [minors[every[:i] + every[i + 1 :]] for i in range(dimension)]
     return [(-1) ** i * value for i, (value, _) in enumerate(components)], [size for _, size in components]
-
-
-def _weight_steps(dimension: int) -> int:
-    """Count the roundings of one product on the way to det or |N|."""
-    minors = sum(2 + 1 + size for size in range(1, dimension))
-    return minors + 2 * dimension + 6
 
 
 def _exponents_of_degree(dimension: int, degree: int) -> list[tuple[int, ...]]:

@@ -30,7 +30,7 @@ from ..moments.images import invert_through_point
 from ..moments.moments import Moments
 from ..numerics.arrays import distinct_arrays
 from .symmetries import MAX_AXIS_ORDER, Holds, Symmetry, highest_fold
-from .zernike import disc_degrees
+from .zernike import degrees
 
 EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
 MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
@@ -143,7 +143,7 @@ def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, 
 
 def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
     """Return a test that the image's moments differ from the shape's by at most `tolerance` of their norm."""
-    m = np.array([m for _, m in disc_degrees(order)])
+    m = np.array([m for _, m in degrees(order)])
     size = np.linalg.norm(zernike)
 
     def holds(operation: NDArray) -> bool:
@@ -176,8 +176,8 @@ def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
 
 def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
     """Return the (k,) angles of the largest overlap of the turned source with the target, the largest first."""
-    order = next(n for n in count() if len(disc_degrees(n)) == len(source))
-    m = np.array([m for _, m in disc_degrees(order)])
+    order = next(n for n in count() if len(degrees(n)) == len(source))
+    m = np.array([m for _, m in degrees(order)])
     terms = target.conj() * source
     weights = np.array([terms[m == k].sum() for k in range(order + 1)])
 

@@ -38,7 +38,6 @@ from ..numerics.arrays import PerBody
 from ..verdict.finding import FileError
 from .findings import SIGNATURE_INCOMPLETE, SIGNATURE_UNRECOGNIZED
 from .zernike import (
-    MAX_DISC_ORDER,
     MAX_ORDER_BY_MOMENTS,
     Multiplets,
     degrees,
@@ -347,7 +346,7 @@ def flat_signature(moments: Moments, radius: float) -> Signature:
     disc about the centroid that just holds the shape. The invariants are Flusser's (Pattern Recognition 33, 2000), the
     Zernike descriptors those of Khotanzad and Hong (PAMI 12, 1990).
     """
-    order = min(moments.order, MAX_DISC_ORDER)
+    order = min(moments.order, MAX_ORDER_BY_MOMENTS)
     moments = moments.truncate(order)
     size = sqrt((moments[2, 0, 0] + moments[0, 2, 0]) / moments.total)
     low = moments.truncate(INVARIANT_ORDER)

@@ -43,7 +43,6 @@ MAX_DESCRIPTOR_ERROR = 1e-9  # the error of a descriptor that raw moments may ha
 POINTS_PER_BLOCK = 16384  # points of a quadrature that are evaluated together
 NO_SUM = np.zeros((), np.complex128)
 QUADRATURE_RTOL = 1e-13  # for a triangle's integral, in the choice of its quadrature
-MAX_DISC_ORDER = 20  # the highest order that raw moments in float64 give
 
 
 def zernike_moments(raw: NDArray, order: int) -> Multiplets:
@@ -69,7 +68,7 @@ def descriptors(moments: Multiplets) -> NDArray[np.float64]:
 
 
 def degrees(order: int) -> list[tuple[int, int]]:
-    """Return (n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first."""
+    """Return (n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first; of a disc, (n, m)."""
     return [(n, l) for n in range(order + 1) for l in range(n % 2, n + 1, 2)]
 
 
@@ -209,14 +208,8 @@ def _radial(n: int, l: int) -> tuple[Fraction, ...]:
     return tuple(row)
 
 
-@lru_cache
-def disc_degrees(order: int) -> tuple[tuple[int, int], ...]:
-    """Return (n, m) for 0 ≤ m ≤ n ≤ order with n-m even, n first."""
-    return tuple((n, m) for n in range(order + 1) for m in range(n % 2, n + 1, 2))
-
-
 def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
-    """Return (k,) A_nm, ordered as `disc_degrees`, of a shape by area moments about the disc's center, with z = 0."""
+    """Return (k,) A_nm, ordered as `degrees`, of a shape by area moments about the disc's center, with z = 0."""
     degree = monomials(moments.order).sum(axis=1)
     scaled = Moments(moments.raw / radius ** (degree + 2.0), moments.about, moments.measure)
     c = {key: entry.value for key, entry in complex_moments(scaled).items()}
@@ -224,7 +217,7 @@ def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
         [
             sqrt((n + 1) / pi)
             * sum(factor * c[(s + m) // 2, (s - m) // 2].conjugate() for s, factor in _disc_radial(n, m))
-            for n, m in disc_degrees(moments.order)
+            for n, m in degrees(moments.order)
         ]
     )
 

@@ -216,20 +216,6 @@ class RestingPoses:
         return np.arctan2(self.margins, self.heights)
 
 
-@dataclass(frozen=True, eq=False)
-class _Faces:
-    """Faces of a hull: (m,) the face of each triangle, (f, 3) unit normals, (f,) heights of the center, (f,) margins.
-
-    beyond: (f,) the face beyond the edge that the foot is nearest to or farthest outside of.
-    """
-
-    face: NDArray[np.intp]
-    normals: NDArray[np.float64]
-    heights: NDArray[np.float64]
-    margins: NDArray[np.float64]
-    beyond: NDArray[np.intp]
-
-
 def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_RTOL) -> RestingPoses:
     """Find the stable resting poses of a body.
 
@@ -264,30 +250,36 @@ def resting_poses(hull: ConvexHull, center: ArrayLike, tolerance: float = PLANE_
     points = hull.points - float_array("center", center, 3)
     extent = float(np.ptp(hull.points, axis=0).max())
     least = max(tolerance * extent, 2.0 * hull.gap)
-    faces = _faces(points, hull, least)
-    if faces.heights.min() < -least or hull.is_flat and faces.margins.max() < -least:
+    face, unit, heights, margins, beyond = _faces(points, hull, least)
+    if heights.min() < -least or hull.is_flat and margins.max() < -least:
         raise MeasureError(CENTER_OUTSIDE_HULL)
-    shares = sums_by_index(faces.face, solid_angles(points, hull.triangles), len(faces.heights)) / (4.0 * np.pi)
+    shares = sums_by_index(face, solid_angles(points, hull.triangles), len(heights)) / (4.0 * np.pi)
     # A face that contains the center has an uncertain solid angle: it gets the share that the others leave.
-    around = faces.heights <= 1e-9 * extent
+    around = heights <= 1e-9 * extent
     if around.any():
         shares[around] = (1.0 - shares[~around].sum()) / np.count_nonzero(around)
-    stable = faces.margins > least
+    stable = margins > least
     # Over the edge of a face with a margin near zero the center may rise: the body stays where it is.
-    rests = stable | (faces.heights[faces.beyond] >= faces.heights)
-    ends = np.where(rests, np.arange(len(rests)), faces.beyond)
+    rests = stable | (heights[beyond] >= heights)
+    ends = np.where(rests, np.arange(len(rests)), beyond)
     while not np.array_equal(further := ends[ends], ends):
         ends = further
     shares = sums_by_index(ends, shares, len(rests))
     kept = np.flatnonzero(stable)
     if not len(kept):
         raise MeasureError(NO_STABLE_POSE)
-    kept = kept[np.lexsort((faces.heights[kept], -np.round(shares[kept], 12)))]
-    return RestingPoses(faces.normals[kept], shares[kept], faces.margins[kept], faces.heights[kept])
+    kept = kept[np.lexsort((heights[kept], -np.round(shares[kept], 12)))]
+    return RestingPoses(unit[kept], shares[kept], margins[kept], heights[kept])
 
 
-def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
-    """Find the faces of a hull, given its points from the center; least: distances below it count as none."""
+def _faces(
+    points: NDArray, hull: ConvexHull, least: float
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
+    """Return (m,) faces of a hull's triangles, (f, 3) unit normals, (f,) heights of the center, margins and neighbors.
+
+    points: from the center. The neighbor is the face beyond the edge that the foot is nearest to or farthest outside
+    of. least: distances below it count as none.
+    """
     triangles, neighbors = hull.triangles, hull.neighbors
     double = normals(points, triangles)
     face, count = _coplanar(points, triangles, neighbors, double, least)
@@ -311,7 +303,7 @@ def _faces(points: NDArray, hull: ConvexHull, least: float) -> _Faces:
     nearest = order[first]
     margins, over = np.full(count, -np.inf), np.arange(count)
     margins[owner[nearest]], over[owner[nearest]] = distance[nearest], beyond[nearest]
-    return _Faces(face, unit, heights, margins, over)
+    return face, unit, heights, margins, over
 
 
 def _coplanar(

@@ -12,10 +12,17 @@ from body_moments.core.shape.registration import (
     MIRROR,
     flat_symmetry,
     holds_by_moments,
-    holds_by_outline,
     turns_about_normal,
 )
-from body_moments.core.shape.symmetries import UNDECIDED, Symmetry, _around_axis, confirm, decide, symmetry
+from body_moments.core.shape.symmetries import (
+    UNDECIDED,
+    Symmetry,
+    _around_axis,
+    confirm,
+    decide,
+    holds_by_outline,
+    symmetry,
+)
 from body_moments.core.shape.zernike import disc_zernike
 
 from tests.core import bodies, shapes
