@@ -15,13 +15,11 @@ from ..inertia.principal_frames import OwnMoments
 from ..measurement.measurement import Body
 from ..mesh.surface import Surface, normals
 from ..moments.affine_maps import are_similarities
-from ..moments.images import sum_of_images
+from ..moments.images import invert_through_point, sum_of_images
 from ..moments.moments import Moments, monomials, stack_moments, sum_moments
-from ..moments.symmetric_tensors import invert_through_point
 from ..numerics.rotations import polar_rotation
 from ..polyhedron import polyhedron_moments
 from ..solid.findings import DUPLICATE_FACES_COUNTED, NON_PLANAR_FACES
-from ..solid.instance_overlaps import compare_places
 from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, finding
 from ..verdict.method import Method, Verdict, least_trusted
@@ -29,6 +27,7 @@ from ..verdict.tolerances import NEGLIGIBLE
 from .findings import DRAWN_AS_POLYGONS, FLAT_SURFACES, INSTANCE_OVERLAP_UNCHECKED, NON_PLANAR_FACES_OF_DISPLAY_MESH
 from .instances import (
     area_of_instances,
+    compare_places,
     findings_by_part,
     instances_overlap,
     instances_size,

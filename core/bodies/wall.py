@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
 from ..measurement.measurement import Body
-from ..mesh.boxes import boxes_overlap
+from ..mesh.bvh import boxes_overlap
 from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.images import sum_of_images

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..flat.regions import plane_positions
+from ..flat.polygon import plane_positions
 from ..flat.section import foot
 from ..flat.section_properties import Plane
 from ..inertia.mass_properties import MassProperties, combine

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..flat.polygon import orient_loops
-from ..mesh.boxes import overlapping_box_pairs
+from ..mesh.bvh import overlapping_box_pairs
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError

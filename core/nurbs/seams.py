@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.boxes import overlapping_box_pairs
+from ..mesh.bvh import overlapping_box_pairs
 from ..numerics.arrays import following_pairs
 from ..numerics.bspline import SplineSpace
 from ..numerics.graph import connected_components

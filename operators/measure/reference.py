@@ -17,7 +17,7 @@ from .. import selection
 
 if TYPE_CHECKING:
     from ...blender.session.stored.reference import ReferenceChoice
-    from ...core.inertia.reference import ReferredInertia
+    from ...core.inertia.plain_body import ReferredInertia
 
 POINTS = 2  # points of an axis
 

@@ -20,8 +20,7 @@ from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OP
 from ....core.bodies.mesh_body import extend_input_error
 from ....core.bodies.reading import Reading
 from ....core.flat.findings import SECTION_NOT_FLAT
-from ....core.flat.polygon import find_defects, orient_loops
-from ....core.flat.regions import plane_positions, region_moments
+from ....core.flat.polygon import find_defects, orient_loops, plane_positions, region_moments
 from ....core.flat.section import fit_plane, measure_section, project, projection_rounding, region
 from ....core.flat.section_properties import Plane, Section
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
