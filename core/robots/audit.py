@@ -257,12 +257,11 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
 def _entries(place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]) -> list[Entry]:
     """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all other ones."""
     entries = []
-    for index, one in enumerate(diagnoses):
-        is_change = one.repaired is not None or one.is_of_geometry
+    are_changes = [one.repaired is not None or one.is_of_geometry for one in diagnoses]
+    for index, (one, is_change) in enumerate(zip(diagnoses, are_changes)):
+        of_center = None if sum(are_changes) == 1 else index == 0
         reasons = [
-            reason
-            for reason in explained
-            if len(diagnoses) == 1 or (reason.code == INERTIAL_CENTER_OUTSIDE) == (index == 0)
+            reason for reason in explained if is_change and of_center in (None, reason.code == INERTIAL_CENTER_OUTSIDE)
         ]
         certainty = ("certain" if one.is_certain else "likely") if is_change else ""
         change = one.finding if is_change else None

@@ -309,7 +309,8 @@ def test_mujoco_reads_a_body_as_we_do(tmp_path):
 def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
     """Files in files; what they state is judged, and repaired only where it stands in the model itself."""
     body = '<body name="{}"><inertial mass="{}" pos="0 0 0" diaginertia="1 1 1"/><geom type="box" size="1 1 1"/></body>'
-    model = '<mujoco><include file="sub/more.xml"/><worldbody>{}<include file="arm.xml"/></worldbody></mujoco>'
+    model = '<mujoco><include file="sub/more.xml"/><worldbody>{}<replicate count="2"><include '
+    model += 'file="arm.xml"/></replicate></worldbody></mujoco>'
     path = tmp_path / "model.xml"
     path.write_text(model.format(body.format("own", -1)), encoding="utf-8")
     (tmp_path / "arm.xml").write_text("<mujocoinclude>{}</mujocoinclude>".format(body.format("arm", 0.001)))
@@ -473,13 +474,25 @@ LINKS = {
     'float3 physics:diagonalInertia = (9, 9, 9)\ndef Sphere "s" {{ }}\n{} }}\n',
 }
 SHAPES = {
-    "r.urdf": ('<mesh filename="m.stl" scale="@ 1 1"/>', '<box size="1 @ 1"/>', '<cylinder radius="1" length="@"/>'),
+    "r.urdf": (
+        '<mesh filename="m.stl" scale="@ 1 1"/>',
+        '<box size="1 @ 1"/>',
+        '<cylinder radius="1" length="@"/>',
+        "<cone/>",
+    ),
     "r.sdf": (
         "<geometry><mesh><uri>m.stl</uri><scale>1 1 @</scale></mesh></geometry>",
         "<pose>0 0 0 0 0 0</pose><geometry><capsule><radius>@</radius></capsule></geometry>",
+        "<geometry><polyline/></geometry>",
+        "<pose relative_to='frame'>0 0 0 0 0 0</pose><geometry><sphere/></geometry>",
     ),
-    "r.xml": ('type="mesh" mesh="m"', 'type="ellipsoid" size="1 1 @"', 'size=".1" type="capsule" fromto="0 0 @ 0 0 @"'),
-    "r.usda": ('def Cube "c" {{ double size = @ }}', 'def Capsule "c" {{ double height = @ }}'),
+    "r.xml": (
+        'type="mesh" mesh="m"',
+        'type="ellipsoid" size="1 1 @"',
+        'size=".1" type="capsule" fromto="0 0 @ 0 0 @"',
+        'type="sdf"',
+    ),
+    "r.usda": ('def Cube "c" {{ double size = @ }}', 'def Capsule "c" {{ double height = @ }}', 'def Cone "c" {{ }}'),
 }
 
 

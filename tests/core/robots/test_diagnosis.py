@@ -154,7 +154,8 @@ def test_two_mistakes_are_both_named():
             assert REFERENCE.compare(second.repaired) < 1e-12
     uneven = of_inertia(INERTIA * 0.8, CENTER * (1, -1, 1))  # The mass is not spread evenly.
     assert [one.finding.code for one in diagnose(uneven, [REFERENCE])] == ["audit_not_uniform"]
-    (found,) = diagnose(uneven, [REFERENCE], (), True)
+    found, note = diagnose(uneven, [REFERENCE], (), True)
+    assert note.finding.code == "audit_not_uniform" and abs(note.finding.values["distance"]) < 1e-15
     assert not found.is_certain and close(found.repaired.center, CENTER, 1e-15)
 
 
