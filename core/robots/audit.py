@@ -77,7 +77,8 @@ class Entry:
 class LinkAudit:
     """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³, None if unknown.
 
-    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown.
+    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown; apart: the relative
+    difference from it. is_impossible: True if no body within the geometry has the stated inertial.
     """
 
     link: StatedLink
@@ -85,6 +86,8 @@ class LinkAudit:
     repaired: StatedInertial | None = None
     density: float | None = None
     geometry: StatedInertial | None = None
+    apart: float = inf
+    is_impossible: bool = False
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -124,18 +127,6 @@ class _Piece:
 Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 
-@dataclass(frozen=True, eq=False)
-class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its relative difference from evenly filled geometry."""
-
-    entries: list[Entry]
-    impossible: bool
-    repaired: StatedInertial | None = None
-    density: float | None = None
-    apart: float = inf
-    geometry: StatedInertial | None = None
-
-
 @dataclass
 class Auditor:
     """An auditor of descriptions, which measures each mesh once, even if several links name it."""
@@ -165,14 +156,14 @@ class Auditor:
         pieces, unread = self._pieces(link.shapes)
         incomplete = bool(unread or entries)  # entries of the reader: about shapes, as there is an inertial
         entries += unread
-        found = _judge(link.inertial, place, pieces, incomplete)
+        found = _judge(link, link.inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
-            other = _judge(link.inertial, place, turned, incomplete)
-            if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
+            other = _judge(link, link.inertial, turned, incomplete)
+            if (other.is_impossible, 2.0 * other.apart) < (found.is_impossible, found.apart):
                 found = other
                 entries.append(Entry(finding(AUDIT_UP_AXIS), place))
-        return LinkAudit(link, (*entries, *found.entries), found.repaired, found.density, found.geometry)
+        return replace(found, entries=(*entries, *found.entries))
 
     def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Entry]]:
         """Return the measured shapes by role, and entries about shapes that cannot be measured."""
@@ -213,8 +204,9 @@ def _read_entries(link: StatedLink) -> list[Entry]:
     return entries
 
 
-def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: bool) -> _Judgment:
+def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete: bool) -> LinkAudit:
     """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then none are compared."""
+    place = link.inertial_place
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()
@@ -223,7 +215,7 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
     reasons = impossible(stated, hull)
     if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
-        return _Judgment([Entry(one, place, compares=True) for one in reasons], True)
+        return LinkAudit(link, tuple(Entry(one, place, compares=True) for one in reasons), is_impossible=True)
     wrong = [one for one in reasons if one.code != INERTIAL_TRIANGLE_SLIGHTLY]
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     is_outside = any(one.code == INERTIAL_CENTER_OUTSIDE for one in wrong)
@@ -239,7 +231,8 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
     entries = [Entry(one, place, compares=True) for one in reasons if one not in wrong]
     entries += _entries(place, diagnoses, [one for one in wrong if one not in left])
     if not references:
-        return _Judgment([*entries, *(Entry(one, place, compares=True) for one in left)], bool(wrong), repaired)
+        entries += [Entry(one, place, compares=True) for one in left]
+        return LinkAudit(link, tuple(entries), repaired, is_impossible=bool(wrong))
     reference = references[0]
     geometry = reference.uniform(stated.mass)
     if left:
@@ -251,7 +244,7 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
         entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
         entries += [Entry(one.finding, place, compares=True) for one in light_or_heavy]
     apart = min(one.compare(stated) for one in references)
-    return _Judgment(entries, bool(wrong), repaired, stated.mass / reference.volume, apart, geometry)
+    return LinkAudit(link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong))
 
 
 def _entries(place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]) -> list[Entry]:

@@ -102,7 +102,7 @@ def diagnose(
 ) -> list[Diagnosis]:
     """Return the changes that correct an inertial, or a note about the place of the mass; empty if it agrees.
 
-    That is one change, or one of the center with one of the rest or that note; each has the inertial corrected up to it.
+    That is one change, or one of the center with one of the rest or the note; each has the inertial corrected so far.
     references: candidates for the geometry, such as visual and collision shapes. otherwise: geometries with a corrected
     fault of the description, each with its finding. center_is_wrong: True if a change of the center alone is certain.
     """

@@ -107,7 +107,7 @@ INCLUDE_UNREADABLE = error("include_unreadable", "A file that it includes cannot
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
     "description_number",
-    "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; until then it compares nothing.",
+    "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; nothing is compared.",
 )
 MESH_ON_NETWORK = warning("mesh_on_network", "A file is on a network, and was not loaded: {name}. Download it.")
 MESH_MISSING = warning(

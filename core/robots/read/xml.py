@@ -170,7 +170,8 @@ def read_shape(
 ) -> Shape | None:
     """Return the first shape of an element's `geometry` that bounds a volume, None if there is none.
 
-    ValueError if it is neither a mesh nor one of some kinds. get: returns the text of an element's property. length: default of a radius or length; without one, ValueError.
+    kinds: known ones besides meshes; ValueError if it is another, or lacks a size. get: returns the text of an
+    element's property. length: default of a radius or length, if there is one.
     """
     geometry = node.find("geometry")
     for element in geometry.children if geometry else ():
