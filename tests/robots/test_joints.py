@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
+import pinocchio
 import pytest
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.links import Candidate, Connection, assemble_robot
@@ -152,6 +153,44 @@ def test_marked_points_move_as_the_joints_turn(form):
             found = body.xmat.reshape(3, 3) @ own + body.xpos
             true = maps[link.name][:3, :3] @ point + maps[link.name][:3, 3]
             assert np.abs(found - (place.rotation @ true + place.position)).max() < 1e-12
+
+
+def test_pinocchio_loads_100_random_assemblies_and_agrees():
+    """URDF: freedom, limits, mass, center and inertia, and marked points as the joints turn."""
+    for seed in range(100):
+        robot = assembly(seed, (1.0, 0.01, 10.0)[seed % 3])
+        (root,) = robot.roots
+        place = Pose() if root.is_fixed else root.pose.inverse()
+        model = pinocchio.buildModelFromXML(robot_text(robot, "urdf")[0])
+        data, rng, q = model.createData(), np.random.default_rng(seed), pinocchio.neutral(model)
+        assert model.nv == sum(len(joint.free) for joint in robot.joints)
+        values = {joint.name: rng.uniform(-0.25, 0.25, len(joint.free)) for joint in robot.joints}
+        for joint in robot.joints:
+            for count, (free, value) in enumerate(zip(joint.free, values[joint.name]), start=1):
+                last = count == len(joint.free)
+                one = model.joints[model.getJointId(joint.name if last else "{}_axis_{}".format(joint.name, count))]
+                q[one.idx_q : one.idx_q + one.nq] = value if one.nq == 1 else (np.cos(value), np.sin(value))
+                if free.is_limited:
+                    ends = model.lowerPositionLimit[one.idx_q], model.upperPositionLimit[one.idx_q]
+                    assert ends == (free.lower, free.upper)
+        pinocchio.framesForwardKinematics(model, data, q)
+        maps = moved(robot, values)
+        parts = []
+        for link in robot.links:
+            frame = data.oMf[model.getFrameId(link.name)]
+            total = place.matrix @ maps[link.name] @ link.pose.matrix
+            joint = robot.joint_of(link.name)
+            own = Pose() if joint is None else Pose(joint.pose.position)  # A link's origin is at its joint.
+            size = max(1.0, np.abs(total[:3, 3]).max())
+            assert np.abs(frame.homogeneous - total @ own.matrix).max() < 1e-12 * size
+            parts.append(link.inertial.place(Pose(total[:3, 3], total[:3, :3])))
+        truth = combine_inertials(parts)
+        whole = pinocchio.Inertia.Zero()
+        for at, part in zip(data.oMi, model.inertias):
+            whole += at.act(part)
+        assert abs(whole.mass / truth.mass - 1.0) < 1e-12
+        assert np.abs(whole.lever - truth.center).max() < 1e-9 * np.sqrt(np.trace(truth.inertia) / truth.mass)
+        assert np.abs(whole.inertia - truth.inertia).max() < 1e-9 * np.abs(truth.inertia).max()
 
 
 def test_sdf_joint_frames_stand_where_they_are_meant():
