@@ -154,7 +154,7 @@ def test_unmeasured_parent_passes_link_to_its_own_parent():
 
 def test_inertials_alone_name_no_mesh(tmp_path):
     arm()
-    for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
+    for name in ("urdf", "sdf", "mjcf", "usd", "gltf", "osim"):
         found = text("measure", "--format", name, "--inertial-only")
         assert "mesh" not in found and "joint" not in found.lower() and "Fore" in found
     text("measure", "--format", "urdf", "--inertial-only", "--output", str(tmp_path / "robot.urdf"))
@@ -282,7 +282,7 @@ def test_the_mesh_that_is_measured_is_never_replaced(tmp_path):
 
 def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
     arm()
-    for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
+    for name in ("urdf", "sdf", "mjcf", "usd", "gltf", "osim"):
         path = tmp_path / ("robot." + name)
         for _ in range(2):
             text("measure", "--format", name, "--output", str(path))

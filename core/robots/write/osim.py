@@ -49,7 +49,7 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     model = SubElement(root, "Model", name=identifier(robot.name))
     add_text(model, "gravity", numbers(GRAVITY))
     bodies = SubElement(SubElement(model, "BodySet", name="bodyset"), "objects")
-    joints = SubElement(SubElement(model, "JointSet", name="jointset"), "objects")
+    joints = model if inertial_only else SubElement(SubElement(model, "JointSet", name="jointset"), "objects")
     for link in robot.ordered():
         _add_body(bodies, link, names[link.name], () if inertial_only else link.shapes)
         if not inertial_only:
