@@ -28,6 +28,7 @@ from tests.robots import sdf_schema
 from tests.robots.links import free_axes, inertial, rotation, shaped
 
 KINDS = ("ball", "box", "sheared")
+ENTRIES = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
 
 
 def rotation_about(axis, angle):
@@ -83,6 +84,18 @@ def moved(robot, values):
     return maps
 
 
+def random_values(robot, rng):
+    return {joint.name: rng.uniform(-0.25, 0.25, len(joint.free)) for joint in robot.joints}
+
+
+def assert_equal_bodies(mass, center, entries, parts):
+    """Mass, center and xx, yy, zz, xy, xz, yz of the whole are those of its parts."""
+    truth = combine_inertials(parts)
+    assert abs(mass / truth.mass - 1.0) < 1e-9
+    assert np.abs(center - truth.center).max() < 1e-9 * np.sqrt(np.trace(truth.inertia) / truth.mass)
+    assert np.abs(entries - truth.inertia[ENTRIES]).max() < 1e-9 * np.abs(truth.inertia).max()
+
+
 def load(robot, form):
     """MuJoCo's model and data in the zero pose, and the place of the world in its own."""
     model = mujoco.MjModel.from_xml_string(robot_text(robot, form)[0])
@@ -123,17 +136,14 @@ def test_100_random_assemblies_load_in_mujoco_and_agree(form):
     for seed in range(100):
         robot = assembly(seed, (1.0, 0.01, 10.0)[seed % 3])
         model, data, place = load(robot, form)
-        truth = combine_inertials([link.inertial.place(place @ link.pose) for link in robot.links])
         masses = model.body_mass[1:]
         center = masses @ data.xipos[1:] / masses.sum()
         total = np.zeros((3, 3))
         for mass, moments, axes, point in zip(masses, model.body_inertia[1:], data.ximat[1:], data.xipos[1:]):
             turn, arm = axes.reshape(3, 3), point - center
             total += (turn * moments) @ turn.T + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        size = np.sqrt(np.trace(truth.inertia) / truth.mass)
-        assert abs(masses.sum() - truth.mass) <= 1e-9 * truth.mass
-        assert np.abs(center - truth.center).max() <= 1e-9 * size
-        assert np.abs(total - truth.inertia).max() <= 1e-9 * np.abs(truth.inertia).max()
+        parts = [link.inertial.place(place @ link.pose) for link in robot.links]
+        assert_equal_bodies(masses.sum(), center, total[ENTRIES], parts)
 
 
 @pytest.mark.parametrize("form", ["mjcf", "urdf"])
@@ -142,7 +152,7 @@ def test_marked_points_move_as_the_joints_turn(form):
         robot = assembly(seed, (1.0, 0.001)[seed % 2])
         rng = np.random.default_rng(seed)
         model, data, place = load(robot, form)
-        values = {joint.name: rng.uniform(-0.25, 0.25, len(joint.free)) for joint in robot.joints}
+        values = random_values(robot, rng)
         marks = {}
         for link in robot.links:
             point = link.pose.position + rng.normal(size=3)
@@ -168,7 +178,7 @@ def test_pinocchio_loads_100_random_assemblies_and_agrees():
         model = pinocchio.buildModelFromXML(robot_text(robot, "urdf")[0])
         data, rng, q = model.createData(), np.random.default_rng(seed), pinocchio.neutral(model)
         assert model.nv == sum(len(joint.free) for joint in robot.joints)
-        values = {joint.name: rng.uniform(-0.25, 0.25, len(joint.free)) for joint in robot.joints}
+        values = random_values(robot, rng)
         for joint in robot.joints:
             for count, (free, value) in enumerate(zip(joint.free, values[joint.name]), start=1):
                 last = count == len(joint.free)
@@ -188,13 +198,8 @@ def test_pinocchio_loads_100_random_assemblies_and_agrees():
             size = max(1.0, np.abs(total[:3, 3]).max())
             assert np.abs(frame.homogeneous - total @ own.matrix).max() < 1e-12 * size
             parts.append(link.inertial.place(Pose(total[:3, 3], total[:3, :3])))
-        truth = combine_inertials(parts)
-        whole = pinocchio.Inertia.Zero()
-        for at, part in zip(data.oMi, model.inertias):
-            whole += at.act(part)
-        assert abs(whole.mass / truth.mass - 1.0) < 1e-12
-        assert np.abs(whole.lever - truth.center).max() < 1e-9 * np.sqrt(np.trace(truth.inertia) / truth.mass)
-        assert np.abs(whole.inertia - truth.inertia).max() < 1e-9 * np.abs(truth.inertia).max()
+        whole = sum((at.act(part) for at, part in zip(data.oMi, model.inertias)), pinocchio.Inertia.Zero())
+        assert_equal_bodies(whole.mass, whole.lever, whole.inertia[ENTRIES], parts)
 
 
 def test_opensim_loads_40_random_assemblies_and_agrees():
@@ -205,7 +210,7 @@ def test_opensim_loads_40_random_assemblies_and_agrees():
         Path("robot.osim").write_text(robot_text(robot, "osim")[0], encoding="utf-8")
         model, rng = opensim.Model("robot.osim"), np.random.default_rng(seed)
         state = model.initSystem()
-        values = {joint.name: rng.uniform(-0.25, 0.25, len(joint.free)) for joint in robot.joints}
+        values = random_values(robot, rng)
         for joint in robot.joints:
             name = usd.identifier(joint.name)
             found = model.getJointSet().get(name)
@@ -232,14 +237,9 @@ def test_opensim_loads_40_random_assemblies_and_agrees():
             assert np.abs(vector(found.p()) - true[:3, 3]).max() < 1e-11 * max(1.0, np.abs(true[:3, 3]).max())
             assert np.abs(turn - true[:3, :3]).max() < 1e-11
             parts.append(link.inertial.place(Pose(true[:3, 3], true[:3, :3])))
-        truth = combine_inertials(parts)
         whole = model.getMatterSubsystem().calcSystemCentralInertiaInGround(state)
         entries = [*vector(whole.getMoments()), *vector(whole.getProducts())]
-        assert abs(model.getTotalMass(state) / truth.mass - 1.0) < 1e-12
-        size = np.sqrt(np.trace(truth.inertia) / truth.mass)
-        assert np.abs(vector(model.calcMassCenterPosition(state)) - truth.center).max() < 1e-9 * size
-        true = truth.inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
-        assert np.abs(entries - true).max() < 1e-9 * np.abs(true).max()
+        assert_equal_bodies(model.getTotalMass(state), vector(model.calcMassCenterPosition(state)), entries, parts)
 
 
 def vector(values):
