@@ -105,7 +105,10 @@ def row_of(package: str, document: dict) -> tuple[str, Counter]:
         told = [found for found in link["findings"] if found["severity"] != "note"]
         levels.update(found["severity"] for found in told)
         codes.update({reason["code"] for found in told for reason in [*found["reasons"][:1], found][:1]})
-    words = "; ".join("{} ({})".format(WORDS.get(code, code), count) for code, count in codes.most_common())
+    words = "; ".join(
+        "{} ({})".format(WORDS.get(code, code), count)
+        for code, count in sorted(codes.items(), key=lambda item: (-item[1], item[0]))
+    )
     cells = [package.replace("==", " "), document["robot"], Path(document["file"]).name, levels["links"]]
     return "| {} |\n".format(" | ".join(map(str, [*cells, levels["error"], levels["warning"], words or "–"]))), levels
 
