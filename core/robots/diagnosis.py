@@ -124,7 +124,7 @@ def diagnose(
 ) -> list[Diagnosis]:
     """Return the changes that correct an inertial, or a note about the place of the mass; empty if it agrees.
 
-    That is one change, or one of the center with one of the rest; each has the inertial corrected up to it.
+    That is one change, or one of the center with one of the rest or the note; each has the inertial corrected so far.
     references: candidates for the geometry, such as visual and collision shapes. otherwise: geometries with a corrected
     fault of the description, each with its finding. center_is_wrong: True if a change of the center alone is certain.
     """
@@ -140,14 +140,16 @@ def diagnose(
     best = _best_change(stated, references)
     if best is not None:
         return [best]
+    alone = []
     for first in _center_changes(stated, references):
         assert first.repaired is not None
         second = _best_change(first.repaired, references)
         if second is not None:
             return [first, second]
         if center_is_wrong:
-            return [replace(first, is_certain=False)]
-    return [Diagnosis(nearest.describe_effect(stated, nearest.effect(stated, nearest.volume), "geometry"))]
+            alone, stated = [replace(first, is_certain=False)], first.repaired
+            break
+    return [*alone, Diagnosis(nearest.describe_effect(stated, nearest.effect(stated, nearest.volume), "geometry"))]
 
 
 def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Diagnosis | None:

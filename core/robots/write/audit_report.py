@@ -63,7 +63,7 @@ def with_status(document: dict[str, Any]) -> dict[str, Any]:
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
     """Return the counts of "links", and of findings that are not known, by severity: "notes" and so on."""
-    found = [found for link in document["links"] for found in link["findings"]]
+    found = [*document["errors"], *(found for link in document["links"] for found in link["findings"])]
     levels = [one["severity"] for one in found if not one.get("known")]
     return {"links": len(document["links"]), **{str(level) + "s": levels.count(level) for level in Severity}}
 
@@ -71,7 +71,11 @@ def count_findings(document: dict[str, Any]) -> dict[str, int]:
 def failed_document(file: str, reason: Finding) -> dict[str, Any]:
     """Return the document of a file that could not be read."""
     head = {"schema": SCHEMA, "file": file, "status": "error", "format": None, "robot": None, "repaired": None}
-    place = {"file": file, "line": reason.values.get("line", 1), "column": reason.values.get("column", 1)}
+    place = {
+        "file": reason.values.get("source") or file,
+        "line": reason.values.get("line", 1),
+        "column": reason.values.get("column", 1),
+    }
     return plain({**head, "links": [], "errors": [{**_finding(reason), **place}]})
 
 
@@ -204,9 +208,9 @@ def to_table(documents: Sequence[dict[str, Any]]) -> str:
     for one in documents:
         counts = count_findings(one)
         repairs = sum(link["repaired"] is not None for link in one["links"])
-        numbers = [counts["errors"] + len(one["errors"]), *(counts[key] for key in ("warnings", "notes", "links"))]
-        totals = [total + number for total, number in zip(totals, [*numbers, repairs])]
-        rows.append((*map(str, numbers), str(repairs), one["status"], visible(str(one["file"]))))
+        numbers = [*(counts[key] for key in ("errors", "warnings", "notes", "links")), repairs]
+        totals = [total + number for total, number in zip(totals, numbers)]
+        rows.append((*map(str, numbers), one["status"], visible(str(one["file"]))))
     rows.append((*map(str, totals), "", counted(len(documents), "file")))
     widths = [max(map(len, column)) for column in zip(*rows)]
     lines = ["  ".join(map(str.rjust, row[:5], widths)) + "  {}  {}".format(row[5].ljust(8), row[6]) for row in rows]
