@@ -30,10 +30,10 @@ from ...core.numerics.float32 import shortest_decimal
 from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
 from ...core.nurbs.splines import Face, Patch
-from ...core.scans.formats import Positions, place_samples, read_all_positions, read_scan, sample_matrix, scan_suffix
+from ...core.scans.formats import Positions, place_samples, read_all_positions, read_scan, sample_matrix
 from ...core.scans.numpy_files import read_raw
 from ...core.scans.scan import Scan
-from ...core.scans.scan_files import Limits
+from ...core.scans.scan_files import Limits, scan_suffix
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces

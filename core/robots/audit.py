@@ -20,7 +20,8 @@ from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, Severity, finding
 from ..verdict.method import Verdict
 from ..verdict.sentences import sentence, severity
-from .diagnosis import Diagnosis, Reference, diagnose, diagnose_density
+from .comparison import Effect
+from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_NOT_UNIFORM,
@@ -77,7 +78,8 @@ class Entry:
 class LinkAudit:
     """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³, None if unknown.
 
-    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown.
+    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown. colliders: the same of
+    the collision geometry, beside the inertial.
     """
 
     link: StatedLink
@@ -85,6 +87,7 @@ class LinkAudit:
     repaired: StatedInertial | None = None
     density: float | None = None
     geometry: StatedInertial | None = None
+    colliders: Effect | None = None
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -172,7 +175,16 @@ class Auditor:
             if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
                 found = other
                 entries.append(Entry(finding(AUDIT_UP_AXIS), place))
-        return LinkAudit(link, (*entries, *found.entries), found.repaired, found.density, found.geometry)
+                pieces = turned
+        entries += found.entries
+        drawn, collision = (_reference(pieces.get(role, ())) for role in ("visual", "collision"))
+        effect, stated = None, found.repaired or link.inertial
+        if collision is not None and not incomplete and (found.repaired is not None or not found.impossible):
+            effect = collision.effect(stated, None if drawn is None else drawn.volume)
+            if drawn is not None and collision.compare(stated) > max(DIFFERS, drawn.compare(stated)):
+                note = collision.describe_effect(stated, effect, "collision geometry")
+                entries.append(Entry(note, place, compares=True))
+        return LinkAudit(link, tuple(entries), found.repaired, found.density, found.geometry, effect)
 
     def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Entry]]:
         """Return the measured shapes by role, and entries about shapes that cannot be measured."""
@@ -282,7 +294,9 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
 
 
 def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
-    """Return all shapes of one role as evenly filled geometry; None if a shape bounds no certain body."""
+    """Return all shapes of one role as evenly filled geometry; None if there is none, or one bounds no certain body."""
+    if not pieces:
+        return None
     placed = []
     for stated, piece in pieces:
         if piece.moments is None:

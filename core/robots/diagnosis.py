@@ -12,13 +12,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import permutations, product
-from math import degrees, radians
+from math import degrees, hypot, radians
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
+from .comparison import Effect, compare
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_DENSITY,
@@ -76,6 +77,27 @@ class Reference:
         radius = np.sqrt(np.trace(self.inertia) / 2.0)
         return float(np.linalg.norm(stated.center - self.center) / radius)
 
+    def effect(self, stated: StatedInertial, drawn_volume: float | None) -> Effect:
+        """Return the mass properties of this geometry, filled evenly with the stated mass, beside the stated ones."""
+        second = stated.mass * (np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia)
+        volume_ratio = None if drawn_volume is None else self.volume / drawn_volume
+        return compare(stated.principal(), stated.mass, self.center - stated.center, second, volume_ratio)
+
+    def describe_effect(self, stated: StatedInertial, effect: Effect, part: str) -> Finding:
+        """Return the note about an effect of this geometry. part: its name."""
+        first, second, third = effect.moment_ratios
+        return finding(
+            AUDIT_NOT_UNIFORM,
+            part=part,
+            factor=float(np.trace(stated.inertia) / stated.mass / np.trace(self.inertia)),
+            volume=effect.volume_ratio,
+            first=first,
+            second=second,
+            third=third,
+            distance=hypot(*effect.center_shift),
+            turn=degrees(effect.axes_turn),
+        )
+
     def uniform(self, mass: float) -> StatedInertial:
         """Return the inertial of this geometry, filled evenly with a mass in kg."""
         return StatedInertial(mass, self.center, mass * self.inertia)
@@ -125,9 +147,7 @@ def diagnose(
             return [first, second]
         if center_is_wrong:
             return [replace(first, is_certain=False)]
-    factor = float(np.trace(stated.inertia) / stated.mass / np.trace(nearest.inertia))
-    distance = float(np.linalg.norm(stated.center - nearest.center))
-    return [Diagnosis(finding(AUDIT_NOT_UNIFORM, factor=factor, distance=distance))]
+    return [Diagnosis(nearest.describe_effect(stated, nearest.effect(stated, nearest.volume), "geometry"))]
 
 
 def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Diagnosis | None:

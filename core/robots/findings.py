@@ -147,7 +147,9 @@ AUDIT_UNIFORM_INSTEAD = warning(
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
-    "Not an even filling of the geometry: {factor:.4g} times its inertia, the center {distance:length} from its.",
+    "Not an even filling of the {part:word}. Filled evenly, that has {volume:percent} of the drawn volume, and "
+    "{first:.4g}, {second:.4g} and {third:.4g} times the principal moments; its center is {distance:length} and its "
+    "axes are {turn:.3g}° off.",
 )
 AUDIT_UP_AXIS = warning(
     "audit_up_axis",

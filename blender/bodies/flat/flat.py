@@ -27,8 +27,8 @@ from ....core.flat.section_properties import Plane, Section
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ....core.measurement.findings import NO_VOLUME
 from ....core.measurement.measurement import Body
-from ....core.moments.exponents import monomials
-from ....core.moments.moments import Measure, Moments, monomial_count
+from ....core.moments.exponents import monomial_count, monomials
+from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
 from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region

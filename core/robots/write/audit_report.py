@@ -43,6 +43,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
             "name": one.link.name,
             **_inertial(one.link.inertial),
             "density": one.density,
+            "colliders": None if one.colliders is None else one.colliders.as_record(),
             "line": one.link.place.line,
             "findings": [_entry(entry, one, file) for entry in one.entries],
             "repaired": repairs.get(id(one.link)),

@@ -336,6 +336,25 @@ def test_included_mujoco_files_are_read_and_not_repaired(tmp_path):
         assert (found.code, found.values["name"]) == (code, text.split('"')[1])
 
 
+def test_disagreeing_collision_geometry_is_noted_with_its_effect(tmp_path):
+    box = "<origin xyz='0 0 {}' rpy='0 0 {}'/><geometry><box size='{} 3 4'/></geometry>"
+    text = (
+        "<robot name='r'><link name='l'><inertial><mass value='24000'/><inertia ixx='50000' iyy='40000' izz='26000' "
+        "ixy='0' ixz='0' iyz='0'/></inertial><visual>{}</visual><collision>{}</collision></link></robot>"
+    )
+    path = tmp_path / "r.urdf"
+    path.write_text(text.format(box.format(0, 0, 2), box.format(0.1, 0.2, 2.5)), encoding="utf-8")
+    (link,) = audit(path).links
+    effect = link.colliders
+    assert effect.volume_ratio == pytest.approx(1.25) and effect.center_shift == pytest.approx((0, 0, 0.1))
+    assert effect.moment_ratios == pytest.approx((30.5 / 26, 44.5 / 40, 1.0)) and effect.axes_turn == pytest.approx(0.2)
+    (note,) = link.findings
+    assert (note.code, note.values["part"]) == ("audit_not_uniform", "collision geometry")
+    assert (note.values["volume"], note.values["distance"]) == pytest.approx((1.25, 0.1))
+    path.write_text(text.format(*[box.format(0, 0, 2)] * 2), encoding="utf-8")
+    assert not audit(path).links[0].findings
+
+
 def test_impossible_inertial_is_error_and_uneven_one_a_note(tmp_path):
     text = """<robot name="r">{}</robot>"""
     link = (
