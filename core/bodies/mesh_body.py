@@ -241,7 +241,7 @@ def sum_of_instances(reading: Reading, unit: float, shell: bool, threads: int) -
 def _copies_of_shell(surface: Surface, copies: NDArray[np.integer]) -> Finding:
     triangles, faces = surface.all_triangles()
     area = np.linalg.norm(normals(surface.points.astype(np.float64), triangles), axis=1)
-    slight = area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum()
+    slight = bool(area[np.isin(faces, copies)].sum() < NEGLIGIBLE * area.sum())
     return finding(DUPLICATE_FACES_COUNTED, copies, slight=slight, count=len(copies))
 
 
