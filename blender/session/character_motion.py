@@ -45,6 +45,10 @@ NOT_CARRIED = (
 )
 HELD_IN_PART = "“{names}” is held at some of the frames only. Choose frames at which the same objects are held."
 LAYERED_TIMES = "A layer cannot move the landing. Turn off As Layer and empty the NLA, or keep the times."
+MODIFIED_TIMES = (
+    "“{curve}” has F-curve modifiers, which cannot move with the landing. Bake its channel in the Graph Editor, or keep "
+    "the times."
+)
 NO_FLIGHT = (
     "“{name}” does not leave the ground and land again in frames {start} to {end}. Turn off Find by Contacts and type "
     "Take-off and Landing, or set Ground."
@@ -137,6 +141,10 @@ class CharacterMotion(BalanceGroup):
         if keep_height:
             count = max(2, round(motion.frames_of_height(np.array(self.centers[rows]), self.step, self.gravity)))
         self.landing = self.first + count
+        if self.landing != self.last:
+            for curve in fcurves.existing_curves(self.armature):
+                if any(not one.mute for one in curve.modifiers):
+                    raise Refused(MODIFIED_TIMES, curve=curve.data_path)
         self.before, self.after = before, after
         self.times = [*range(self.first - before, self.first), *np.linspace(self.first, self.last, count + 1).tolist()]
         self.times += range(self.last + 1, self.last + after + 1)

@@ -181,11 +181,12 @@ def test_angular_momentum_is_that_of_take_off(scene, mode, layer):
     assert np.abs(poses(rig, range(1, END + 1)) - pose).max() < 1e-5
 
 
-@pytest.mark.parametrize("lead", [0, 5])
-def test_lead_shares_the_turn_between_both_ends(scene, lead):
+@pytest.mark.parametrize("lead", [0, 5, 8])
+def test_turn_is_blended_at_both_ends(scene, lead):
     rig, frames = jumper("QUATERNION", spin=2.0), range(1, END + 1)
     before, spun = poses_in_world(rig, frames), angular_momenta(rig, FLIGHT)
-    assert SPIN(lead=lead, blend=5, **TYPED) == {"FINISHED"}
+    given = {} if lead == 8 else {"lead": lead}  # the default
+    assert SPIN(blend=5, **given, **TYPED) == {"FINISHED"}
     after, found = poses_in_world(rig, frames), angular_momenta(rig, FLIGHT)
     size = np.linalg.norm(spun[0])
     assert np.abs(found - found[0]).max() < 0.01 * size and np.abs(found[0] - spun[0]).max() < 0.03 * size
@@ -327,6 +328,7 @@ REFUSALS = {
     "no such bone": (lambda rig: None, {"bone": "tail"}),
     "bone carries a part": (lambda rig: None, {"bone": "head"}),
     "always in the air": (lambda rig: setattr(rig.body_moments_weight, "ground", -5.0), {}),
+    "noise and moved landing": (lambda rig: curves_of(rig)[-1].modifiers.new("NOISE"), {"keep": "HEIGHT"}),
     "layer moves landing": (lambda rig: None, {"use_layer": True, "keep": "HEIGHT"}),
 }
 
