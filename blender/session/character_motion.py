@@ -46,8 +46,8 @@ NOT_CARRIED = (
 HELD_IN_PART = "“{names}” is held at some of the frames only. Choose frames at which the same objects are held."
 LAYERED_TIMES = "A layer cannot move the landing. Turn off As Layer and empty the NLA, or keep the times."
 MODIFIED_TIMES = (
-    "“{curve}” has F-curve modifiers, which cannot move with the landing. Bake its channel in the Graph Editor, or keep "
-    "the times."
+    "“{curve}” has F-curve modifiers, which cannot move with the landing. Bake its channel in the Graph Editor, or "
+    "keep the times."
 )
 NO_FLIGHT = (
     "“{name}” does not leave the ground and land again in frames {start} to {end}. Turn off Find by Contacts and type "
