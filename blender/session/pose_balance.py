@@ -69,8 +69,7 @@ class _Handle:
 class _Search:
     """The search for one character.
 
-    noise: float32 rounding of places in the world, which inverse kinematics see. points: (k, 3) contacts, `count` of
-    them, and ends of their bones. failure: of the first bone of any use.
+    noise: float32 rounding of places in the world, which inverse kinematics see. failure: of the first bone of any use.
     """
 
     def __init__(self, context: Context, armature: Object, known: Character, weight: Weight, margin: float | None):
@@ -81,14 +80,8 @@ class _Search:
         self.axes = ground_axes(-weight.support.up)
         self.target = weight.support.target(margin)
         is_carried = weight.contacts.bones >= 0
-        touching, points = weight.contacts.bones[is_carried], weight.contacts.points[is_carried]
-        every, carriers = bone_matrices(armature, context.evaluated_depsgraph_get()), np.unique(touching)
-        heads, lengths = every[carriers, :3, 3], [[armature.pose.bones[bone].length] for bone in carriers]
-        # A foot that rests on its toes shall stay as a whole.
-        self.count = len(points)
-        self.points = np.concatenate([points, heads, heads + lengths * every[carriers, :3, 1]])
-        self.bones = np.concatenate([touching, carriers, carriers])
-        matrices = every[self.bones]
+        self.bones, self.points = weight.contacts.bones[is_carried], weight.contacts.points[is_carried]
+        matrices = bone_matrices(armature, context.evaluated_depsgraph_get())[self.bones]
         self.noise = float(np.finfo(np.float32).eps * np.abs(weight.contacts.points).max())
         self.local = np.linalg.solve(matrices[:, :3, :3], (self.points - matrices[:, :3, 3])[:, :, None])
 
@@ -96,8 +89,8 @@ class _Search:
         """Return how far the target is from a center, (2,) along the ground."""
         return (self.target - center) @ self.axes[:, :2]
 
-    def look(self, handle: _Handle, change: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-        """Evaluate a change: return the (3,) center, the bone's head, and the lengths of the points' moves."""
+    def look(self, handle: _Handle, change: NDArray) -> tuple[NDArray, NDArray, float]:
+        """Evaluate a change: return the (3,) center, the bone's head, and the farthest move of a contact's bone."""
         handle.put(change)
         self.context.view_layer.update()
         depsgraph = self.context.evaluated_depsgraph_get()
@@ -105,7 +98,8 @@ class _Search:
         head = matrices[self.armature.pose.bones.find(handle.bone.name), :3, 3]
         matrices = matrices[self.bones]
         moves = (matrices[:, :3, :3] @ self.local)[:, :, 0] + matrices[:, :3, 3] - self.points
-        return self.known.pose(self.armature, depsgraph).center, head, np.linalg.norm(moves, axis=1)
+        slip = float(np.linalg.norm(moves, axis=1).max(initial=0.0))
+        return self.known.pose(self.armature, depsgraph).center, head, slip
 
     def balance(self, handle: _Handle) -> bool:
         """Move the bone and return True, or if that is impossible, leave it and return False."""
@@ -116,8 +110,7 @@ class _Search:
         units, shifts, moves = [], [], []  # of usable channels, and how they move the center and the bone
         for axis, sign in ((axis, sign) for axis in handle.free for sign in (1.0, -1.0)):
             unit = sign * np.eye(3)[axis]
-            shown, moved, slips = self.look(handle, nudge / scale * unit)
-            slip = slips[: self.count].max(initial=0.0)
+            shown, moved, slip = self.look(handle, nudge / scale * unit)
             move = nudge * unit if handle.turns else moved - head
             reach = float(np.linalg.norm(shown - center if handle.turns else move))
             lifts = not handle.turns and move @ up > 1e-2 * nudge  # stretches the legs
@@ -131,20 +124,18 @@ class _Search:
                 shifts.append((shown - center) / nudge)
                 moves.append(move / nudge)
         least, tolerance = LEAST_TURN if handle.turns else LEAST_SHIFT, STAYED * size + self.noise
-        growth = 1.0
         if len(units) > 1 and np.linalg.svd(np.array(shifts) @ self.axes[:, :2])[1][-1] >= least:
             inverse = np.linalg.inv(np.linalg.qr(np.transpose(moves))[1])  # from moves of the bone to changes
             rows = [*self.axes[:, :2].T @ np.transpose(shifts), *([] if handle.turns else [up @ np.transpose(moves)])]
             solve, change, gap, slip = inverse @ np.linalg.pinv(rows @ inverse), np.zeros(len(units)), np.inf, np.inf
             for _ in range(MAX_TRIALS):
-                center, moved, slips = self.look(handle, change @ units / scale)
-                slip = float(slips.max(initial=0.0))
+                center, moved, slip = self.look(handle, change @ units / scale)
                 missing = [*self.gap(center), *([] if handle.turns else [up @ (head - moved)])]
                 gap = float(np.linalg.norm(missing))
                 if gap <= reached and slip <= tolerance:
                     return True
-                if gap <= reached:  # the least lower hip that keeps the contacts; steps grow, as slips fade slowly
-                    head, growth = head - growth * (1.05 * slip + tolerance / 2.0) * up, 1.2 * growth
+                if gap <= reached:  # the least lower hip that keeps the contacts
+                    head = head - (1.05 * slip + tolerance / 2.0) * up
                 change = solve @ (np.array(rows) @ change + missing)
                 change *= min(1.0, FARTHEST * size / max(np.linalg.norm(change), size))
             if self.failure.text == UNMOVABLE:

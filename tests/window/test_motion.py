@@ -14,11 +14,17 @@ from tests.blender.figure import figure
 for obj in list(bpy.data.objects):
     bpy.data.objects.remove(obj)
 rig, body = figure()
-root, scene = rig.pose.bones["root"], bpy.context.scene
+root, hips, scene = rig.pose.bones["root"], rig.pose.bones["hips"], bpy.context.scene
 scene.frame_start, scene.frame_end = 1, 32
 for frame, place in ((1, (0, 0, 0)), (8, (0, 0, 0)), (16, (0, -0.9, 0.9)), (24, (0, -1.8, 0)), (32, (0, -1.8, 0))):
     root.location = place
     root.keyframe_insert("location", frame=frame)
+for frame, low, swing in ((1, 0, -1.2), (5, -0.25, -1.0), (8, 0, -0.6), (16, 0, 0.7), (24, 0, -0.6), (27, -0.25, -1.0), (32, 0, -1.2)):
+    hips.location.y = low
+    hips.keyframe_insert("location", frame=frame)
+    for name, sign in (("arm.L", 1), ("arm.R", -1)):
+        rig.pose.bones[name].rotation_euler.x = swing
+        rig.pose.bones[name].keyframe_insert("rotation_euler", frame=frame)
 scene.frame_set(1)
 rig.data.display_type = "STICK"
 view = area.spaces.active.region_3d

@@ -56,11 +56,9 @@ def test_nearest_point_inside_has_the_margin(scene):
 
 def test_straight_legs_are_lowered_before_they_are_stretched(scene):
     rig, _body = posed()
-    before, feet = weight(rig), [rig.pose.bones["foot." + side] for side in "LR"]
-    ends = np.array([(*bone.head, *bone.tail) for bone in feet])
+    before = weight(rig)
     assert BALANCE() == {"FINISHED"}
     assert np.abs(weight(rig).contacts.points - before.contacts.points).max() < 1e-4 * HEIGHT
-    assert np.abs(np.array([(*bone.head, *bone.tail) for bone in feet]) - ends).max() < 1e-4 * HEIGHT
     assert rig.pose.bones["hips"].location.y < 0.0
 
 
