@@ -17,20 +17,17 @@ import bpy
 
 from ...core.bodies.reading import Reading
 from ...core.inertia.mass_properties import MassProperties
-from ...core.measurement.body import Body
-from ...core.measurement.measurement import Measurement
+from ...core.measurement.measurement import Body, Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
 from ..settings.options import AS_SET, MeasureOptions
-from . import nurbs, wire
+from . import grid, mesh, nurbs, wire
 from .assembly.given import point_measurement, read_point, with_given
-from .flat import region
-from .grids import grid
-from .mesh import mesh
+from .flat import flat
 from .request import Request, measurement_of
 
 THREADS = os.cpu_count() or 1  # for long measurements
-KINDS = (grid, wire, region, mesh, nurbs)
+KINDS = (grid, wire, flat, mesh, nurbs)
 
 
 @dataclass(frozen=True, eq=False)

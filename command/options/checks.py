@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
-from ...core.scans.limits import scan_limits
 from ...core.scans.numpy_files import map_array
+from ...core.scans.scan_files import scan_limits
 from ...core.verdict.finding import MeasureError, system_reason
 from ..files import output
 from ..parser import UsageError

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
-from ...core.scans.suffixes import scan_suffix
+from ...core.scans.scan_files import scan_suffix
 from ..supervisor.processes import has_blender
 from .arguments import fail, words
 

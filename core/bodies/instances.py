@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,15 +70,6 @@ def overlap_findings(reading: Reading, solids: Sequence[SolidIntegrals], compari
     if comparison.undecided_pairs:
         findings.append(finding(OVERLAP_UNCHECKED, count=comparison.undecided_pairs))
     return findings
-
-
-def with_overlaps(health: MeshHealth, comparison: PlaceComparison) -> MeshHealth:
-    """Return the health that also counts components inside, or overlapping, components of another place."""
-    return replace(
-        health,
-        nested_components=health.nested_components + len(comparison.nested),
-        overlapping_components=health.overlapping_components + len(comparison.overlapping),
-    )
 
 
 def instances_overlap(reading: Reading) -> bool:

@@ -71,7 +71,7 @@ class OBJECT_OT_body_moments_import_surfaces(selection.InObjectMode, Operator, I
 
     def _import(self, context: Context, path: Path) -> tuple[list[Object], list[Finding | str]]:
         """Return the objects of a file, and findings about the steps and decisions."""
-        found = scene.import_surfaces(path, core.scans.limits.scan_limits(), self.unit, context)
+        found = scene.import_surfaces(path, core.scans.scan_files.scan_limits(), self.unit, context)
         texts = (
             "Imported {count} patch of order {order} from {file}.",
             "Imported {count} patches of order {order} at most from {file}.",

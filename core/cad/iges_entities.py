@@ -1,0 +1,297 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Entities of IGES files in fixed ASCII form: their parameters as numbers, and curves as B-spline curves.
+
+Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Pointers and counts of a file are not trusted, but
+compared with its length. Lines (110), arcs (100), B-splines (126) and chains of them (102) bound faces, in space or in
+the parameters of a surface, whose third coordinate is zero.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..numerics.bspline import SplineSpace, clamped_space
+from ..nurbs.blender_knots import bezier_curves
+from ..nurbs.splines import Curve
+from ..scans.findings import FILE_UNRECOGNIZED
+from ..verdict.finding import FileError
+from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
+
+FORMAT = "IGES (fixed ASCII form)"
+COLUMNS = 80  # columns
+SECTION = 72  # Column of the letter that names a line's section.
+PARAMETERS = 64  # columns that parameters may take
+UNITS = {
+    **{1: 0.0254, 2: 1e-3, 4: 0.3048, 5: 1609.344, 6: 1.0, 7: 1e3},
+    **{8: 2.54e-5, 9: 1e-6, 10: 1e-2, 11: 2.54e-8},
+}
+UNIT_NAMES = {
+    **{"IN": 0.0254, "INCH": 0.0254, "MM": 1e-3, "FT": 0.3048, "MI": 1609.344, "M": 1.0, "KM": 1e3},
+    **{"MIL": 2.54e-5, "UM": 1e-6, "CM": 1e-2, "UIN": 2.54e-8},
+}
+UNIT_BY_NAME = 3
+MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.
+ARC, CHAIN, LINE, SPLINE = 100, 102, 110, 126
+MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
+MAX_PIECES = 10_000  # pieces of the boundary of a surface
+MAX_ARC = 2.0 * math.pi / 3.0  # radians; a quadratic piece of a circle keeps its weights away from zero
+_DECIMALS = re.compile(r"([0-9]*)\.([0-9]*)(?:[EDed]([+-]?[0-9]+))?")
+_NUMBERS = re.compile(r"[0-9+\-.eEdD \n]*")
+_STRING = re.compile(r"\s*(\d{1,9})H")
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An entity in the directory.
+
+    number: number of its first line, which pointers hold. parameters: first line and count of lines. matrix: pointer to
+    a transformation, or 0. hidden, dependent: flags of its status number.
+    """
+
+    number: int
+    type: int
+    parameters: tuple[int, int]
+    matrix: int
+    hidden: bool
+    dependent: bool
+    label: str
+
+
+class IgesText:
+    """An IGES file. unit: m per unit. entries: entities by number. FileError if it is damaged, or no IGES file."""
+
+    def __init__(self, path: Path) -> None:
+        lines = _lines(path.read_bytes().decode("latin-1"))
+        sections: dict[str, list[str]] = {letter: [] for letter in "SGDPT"}
+        for line in lines:
+            letter = line[SECTION : SECTION + 1]
+            if letter in ("B", "C") and not sections["S"]:
+                raise FileError(IGES_NOT_ASCII)
+            if letter not in sections:
+                raise FileError(FILE_UNRECOGNIZED, format=FORMAT)
+            sections[letter].append(line)
+        if not (sections["G"] and sections["D"] and sections["P"]):
+            raise FileError(FILE_UNRECOGNIZED, format=FORMAT)
+        self._lines = sections["P"]
+        text = "".join(line[:SECTION] for line in sections["G"])
+        try:
+            self._delimiter, self._end, fields = _global_fields(text)
+            self.unit = _unit(fields)
+        except ValueError:
+            raise FileError(IGES_DAMAGED, section="global section", text=text[:COLUMNS]) from None
+        self.entries = _directory(sections["D"])
+
+    def fields(self, entry: Entry) -> list[str]:
+        """Return an entity's parameters without its type. ValueError if they are cut short or of another entity."""
+        first, count = entry.parameters
+        start, end = first - 1, first - 1 + count
+        if not 0 <= start < end <= len(self._lines):
+            raise ValueError("parameters beyond the section")
+        text = "".join(line[:PARAMETERS] for line in self._lines[start:end])
+        fields = _split(text, self._delimiter, self._end)
+        if _integer(fields[0]) != entry.type:
+            raise ValueError("parameters of another entity")
+        return fields[1:]
+
+
+def _lines(text: str) -> list[str]:
+    """Return the lines of a text: split at line breaks, else after every 80 columns; blank lines are left out."""
+    # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
+    cut = [text[start : start + COLUMNS] for start in range(0, len(text), COLUMNS)]
+    lines = re.split(r"\r\n|\r|\n", text) if re.match(r"[^\r\n]{0,80}[\r\n]", text) else cut
+    return [line for line in lines if line.strip("\0 \x1a")]
+
+
+def _global_fields(text: str) -> tuple[str, str, list[str]]:
+    """Return the delimiter of parameters, the end mark, and the parameters from the third on. ValueError if damaged."""
+    delimiter, rest = (text[2:3], text[3:]) if text.startswith("1H") else (",", text)
+    if not rest.startswith(delimiter):
+        raise ValueError("no delimiter")
+    rest = rest[1:]
+    end, rest = (rest[2:3], rest[3:]) if rest.startswith("1H") else (";", rest)
+    if not rest.startswith((delimiter, end)) or delimiter == end:
+        raise ValueError("no end mark")
+    return delimiter, end, _split(rest[1:], delimiter, end)
+
+
+def _unit(fields: list[str]) -> float:
+    """Return the meters per unit of the model. FileError if the unit is unknown, ValueError if a field is wrong."""
+    scale_word, flag_word, name = padded(fields[10:], 3)
+    scale = float(numbers([scale_word])[0]) or 1.0
+    flag = _integer(flag_word) or 1
+    unit = UNIT_NAMES.get(name.strip().upper()) if flag == UNIT_BY_NAME else UNITS.get(flag)
+    if unit is None:
+        raise FileError(IGES_UNIT, unit=name.strip() or str(flag))
+    if not 0.0 < unit / scale < math.inf:
+        raise ValueError("scale")
+    return unit / scale
+
+
+def _directory(lines: list[str]) -> dict[int, Entry]:
+    entries = {}
+    for number in range(1, len(lines) + 1, 2):
+        try:
+            words = [lines[number - 1 + row][start : start + 8] for row in (0, 1) for start in range(0, SECTION, 8)]
+            status = "{:0>8}".format(words[8].strip())
+            entries[number] = Entry(
+                number,
+                _integer(words[0]),
+                (_integer(words[1]), _integer(words[12])),
+                _integer(words[6]),
+                status[:2] == "01",
+                status[2:4] in ("01", "03"),
+                words[16].strip(),
+            )
+        except (ValueError, IndexError):
+            text = "".join(lines[number - 1 : number + 1])
+            raise FileError(IGES_DAMAGED, section="directory", text=text[: 2 * COLUMNS]) from None
+    return entries
+
+
+def _split(text: str, delimiter: str, end: str) -> list[str]:
+    """Return the fields of a record, strings without their lengths. ValueError if it has no end mark."""
+    if "H" not in text:
+        record, found, _ = text.partition(end)
+        if not found:
+            raise ValueError("no end")
+        return record.split(delimiter)
+    fields, at = [], 0
+    stop = re.compile("[{}]".format(re.escape(delimiter + end)))
+    while True:
+        start = _STRING.match(text, at)
+        begin = start.end() if start else at
+        at = begin + int(start[1]) if start else at
+        ending = stop.search(text, at)
+        if ending is None:
+            raise ValueError("no end")
+        fields.append(text[begin:at] if start else text[at : ending.start()])
+        if ending[0] == end:
+            return fields
+        at = ending.end()
+
+
+def _integer(word: str) -> int:
+    """Return the whole number in a field, 0 if it is blank. ValueError if it is no whole number."""
+    word = word.strip()
+    if not re.fullmatch(r"[+-]?[0-9]*", word):
+        raise ValueError("not a whole number")
+    return int(word or 0)
+
+
+def integers(fields: list[str], count: int) -> list[int]:
+    """Return the first `count` fields as whole numbers. ValueError if there are fewer, or one is no whole number."""
+    if not 0 <= count <= len(fields):
+        raise ValueError("too few parameters")
+    return [_integer(word) for word in fields[:count]]
+
+
+def padded(fields: list[str], count: int) -> list[str]:
+    """Return the first `count` fields, with blank fields for missing ones."""
+    return fields[:count] + [""] * (count - len(fields))
+
+
+def decimal_rounding(fields: list[str]) -> float:
+    """Return half a unit of the last digit in numbers with many digits, the largest of these; 0 if there are none."""
+    last_digits = {
+        int(exponent or 0) - len(decimals)
+        for whole, decimals, exponent in _DECIMALS.findall("\n".join(fields))
+        if len((whole + decimals).strip("0")) >= MANY_DIGITS
+    }
+    return 0.5 * 10.0 ** max(last_digits) if last_digits else 0.0
+
+
+def numbers(fields: list[str]) -> NDArray[np.float64]:
+    """Return the real numbers of fields, with Fortran's exponents, 0 for blank ones. ValueError if one is no number."""
+    text = "\n".join(fields)
+    if not _NUMBERS.fullmatch(text):
+        raise ValueError("not a number")
+    words = [word.strip() or "0" for word in text.replace("D", "E").replace("d", "e").split("\n")]
+    values = np.array(words, dtype=np.float64)
+    if not np.isfinite(values).all():
+        raise ValueError("not finite")
+    return values
+
+
+class CurveReader:
+    """A reader of the curves of a file. matrix_of: returns the (4, 4) matrix of an entity."""
+
+    def __init__(self, text: IgesText, matrix_of: Callable[[Entry], NDArray[np.float64]]) -> None:
+        self._text, self._matrix_of = text, matrix_of
+        self._entries: Mapping[int, Entry] = text.entries
+
+    def read(
+        self, pointer: int, matrix: NDArray | None, depth: int = 0, left: Iterator[int] | None = None
+    ) -> list[Curve] | None:
+        """Return a curve as Bézier splines end to end; None if a part is of another kind, too deep, or has weights ≤ 0.
+
+        matrix: (4, 4), of the entities around the curve; None in the parameters of a surface, where nothing is moved.
+        depth, left: chains around it, and an item for each further piece that is allowed. ValueError if it is damaged.
+        """
+        left = iter(range(MAX_PIECES)) if left is None else left
+        entry = self._entries.get(pointer)
+        if entry is None or depth >= MAX_DEPTH or next(left, None) is None or matrix is None and entry.matrix:
+            return None
+        matrix = None if matrix is None else matrix @ self._matrix_of(entry)
+        fields = self._text.fields(entry)
+        if entry.type == CHAIN:
+            (count,) = integers(fields, 1)
+            pieces = []
+            for member in integers(fields[1:], count):
+                part = self.read(member, matrix, depth + 1, left)
+                if part is None:
+                    return None
+                pieces += part
+            return pieces
+        made = _MAKERS[entry.type](fields) if entry.type in _MAKERS else None
+        return made if made is None or matrix is None else [curve.transform(matrix) for curve in made]
+
+
+def _line(fields: list[str]) -> list[Curve]:
+    return [Curve(clamped_space(2), numbers(fields[:6]).reshape(2, 3))]
+
+
+def _arc(fields: list[str]) -> list[Curve]:
+    """Return an arc, counter-clockwise, or a full circle if its ends coincide, as quadratic pieces with weights."""
+    z, *plane = numbers(fields[:7]).tolist()
+    center, begin, end = np.array(plane).reshape(3, 2)
+    arms = begin - center, end - center
+    radius, angles = math.hypot(*arms[0]), [math.atan2(y, x) for x, y in arms]
+    if not radius > 0.0:
+        raise ValueError("an arc without radius")
+    turn = (angles[1] - angles[0]) % (2.0 * math.pi)
+    turn = 2.0 * math.pi if np.array_equal(begin, end) or not turn else turn
+    steps = math.ceil(turn / MAX_ARC)
+    half, curves = turn / steps / 2.0, []
+    for step in range(steps):
+        middle = angles[0] + (2 * step + 1) * half
+        ring = [(middle - half, 1.0), (middle, 1.0 / math.cos(half)), (middle + half, 1.0)]
+        points = [(*(center + radius * far * np.array([math.cos(at), math.sin(at)])), z) for at, far in ring]
+        curves.append(Curve(clamped_space(3), np.array(points), np.array([1.0, math.cos(half), 1.0])))
+    return curves
+
+
+def _spline(fields: list[str]) -> list[Curve] | None:
+    """Return the used part of a B-spline curve; None if a weight is not positive."""
+    last, degree = integers(fields, 2)
+    count, knot_count = last + 1, last + degree + 2
+    if degree < 1 or count <= degree:
+        raise ValueError("too few control points")
+    values = numbers(fields[6 : 6 + knot_count + 4 * count + 2])
+    if len(values) < knot_count + 4 * count + 2:
+        raise ValueError("too few numbers")
+    knots, weights, points, part = np.split(values, np.cumsum([knot_count, count, 3 * count]))
+    if (weights <= 0.0).any():
+        return None
+    curve = Curve(SplineSpace(tuple(knots.tolist()), degree + 1, count), points.reshape(count, 3), weights)
+    return bezier_curves(curve, (float(part[0]), float(part[1])))
+
+
+_MAKERS: dict[int, Callable[[list[str]], list[Curve] | None]] = {ARC: _arc, LINE: _line, SPLINE: _spline}

@@ -1,0 +1,262 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""B-spline curves in space and tensor-product patches, polynomial or rational.
+
+The normal of a patch is ∂S/∂s x ∂S/∂t, s being the direction of the first axis of its control points. Blender's faces
+look the other way: with Blender's v as s and u as t, both normals agree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..numerics.arguments import check_type, float_array
+from ..numerics.bspline import SplineSpace
+from ..verdict.finding import MeasureError
+from ..verdict.tolerances import check_size
+from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
+
+Face: TypeAlias = "Patch | FlatFace"
+SIDES = ((1, 0, True), (0, 1, True), (1, 1, False), (0, 0, False))  # (fixed axis, end, run forward), counter-clockwise
+
+
+def checked_points(
+    points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Return read-only float64 copies of points (*shape, 3) and weights (*shape), None if equal."""
+    points = _frozen_copy(float_array("points", points, *shape, 3))
+    if not np.isfinite(points).all():
+        raise MeasureError(NON_FINITE_CONTROL_POINTS)
+    if weights is None:
+        return points, None
+    weights = _frozen_copy(float_array("weights", weights, *shape))
+    if not (np.isfinite(weights).all() and (weights > 0.0).all()):
+        raise MeasureError(NON_POSITIVE_WEIGHTS)
+    return points, None if (weights == weights.flat[0]).all() else weights
+
+
+def _frozen_copy(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    copy = np.array(values, order="C")
+    copy.setflags(write=False)
+    return copy
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A polynomial or rational B-spline curve in space.
+
+    Parameters
+    ----------
+    space : SplineSpace
+        Function space of the parameter.
+    points : (count, 3) array
+        Control points.
+    weights : (count,) array, optional
+        Positive; None for a polynomial curve.
+
+    Raises
+    ------
+    ValueError
+        If the shapes differ.
+    MeasureError
+        If a number is not finite or a weight not positive.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Curve
+    >>> from body_moments.core.numerics import clamped_space
+    >>> curve = Curve(clamped_space(3), np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]]))
+    >>> curve.evaluate([0.5]).tolist()
+    [[1.0, 1.0, 0.0]]
+    """
+
+    space: SplineSpace
+    points: NDArray[np.float64]
+    weights: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        check_type("space", self.space, SplineSpace)
+        points, weights = checked_points(self.points, self.weights, (self.space.count,))
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "weights", weights)
+
+    def evaluate(self, parameters: ArrayLike) -> NDArray[np.float64]:
+        """Return the (n, 3) points of the curve at n parameters."""
+        return self.apply_weights(self.space.collocation_matrix(parameters))
+
+    def apply_weights(self, table: NDArray) -> NDArray[np.float64]:
+        """Return the (n, 3) points given by a table (n, count) of weights of its control points."""
+        if self.weights is not None:
+            table = table * self.weights
+            table /= table.sum(axis=1, keepdims=True)
+        origin = self.points[0]
+        return np.einsum("ni,id->nd", table, self.points - origin) + origin
+
+    def velocity(self, parameters: ArrayLike) -> NDArray[np.float64]:
+        """Return the (n, 3) derivatives at n parameters."""
+        values, slopes = (self.space.collocation_matrix(parameters, k) for k in (0, 1))
+        points = self.points - self.points[0]
+        if self.weights is None:
+            return np.einsum("ni,id->nd", slopes, points)
+        values, slopes = values * self.weights, slopes * self.weights
+        bottom = values.sum(axis=1, keepdims=True)
+        place = np.einsum("ni,id->nd", values, points) / bottom
+        return (np.einsum("ni,id->nd", slopes, points) - place * slopes.sum(axis=1, keepdims=True)) / bottom
+
+    def transform(self, matrix: ArrayLike) -> Curve:
+        """Return the image of the curve under a (4, 4) affine map."""
+        matrix = float_array("matrix", matrix, 4, 4)
+        return Curve(self.space, self.points @ matrix[:3, :3].T + matrix[:3, 3], self.weights)
+
+    def reverse(self) -> Curve:
+        """Return the same curve, run backward."""
+        # In this order the first point of the reversed curve is that of function 0.
+        if self.space.function_count > self.space.count:
+            order = (self.space.function_count - 1 - np.arange(self.space.count)) % self.space.count
+        else:
+            order = np.arange(self.space.count)[::-1]
+        knots = tuple((-np.asarray(self.space.knots)[::-1]).tolist())
+        return Curve(
+            SplineSpace(knots, self.space.order, self.space.count),
+            self.points[order],
+            None if self.weights is None else self.weights[order],
+        )
+
+    def samples(self, each: int) -> NDArray[np.float64]:
+        """Return (spans * each + 1, 3) points at equal steps in every span, both ends included."""
+        return self.evaluate(self.space.uniform_parameters(each))
+
+
+if TYPE_CHECKING:
+    from .flat_face import FlatFace
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A tensor-product B-spline patch, polynomial or rational.
+
+    Its normal is ∂S/∂s x ∂S/∂t.
+
+    Parameters
+    ----------
+    spaces : (SplineSpace, SplineSpace)
+        Function spaces of s, along the first axis of the control points, and of t.
+    points : (count_s, count_t, 3) array
+        Control points.
+    weights : (count_s, count_t) array, optional
+        Positive; None for a polynomial patch.
+
+    Raises
+    ------
+    ValueError
+        If the shapes differ.
+    MeasureError
+        If a number is not finite or a weight not positive.
+
+    Examples
+    --------
+    >>> from body_moments.core.nurbs import Patch
+    >>> from body_moments.core.numerics import clamped_space
+    >>> square = np.array([[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]])
+    >>> Patch((clamped_space(2), clamped_space(2)), square).evaluate_grid([0.5], [0.5]).tolist()
+    [[[0.5, 0.5, 0.0]]]
+    """
+
+    spaces: tuple[SplineSpace, SplineSpace]
+    points: NDArray[np.float64]
+    weights: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        for space in self.spaces:
+            check_type("spaces", space, SplineSpace)
+        points, weights = checked_points(self.points, self.weights, (self.spaces[0].count, self.spaces[1].count))
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "weights", weights)
+
+    @cached_property
+    def constant_weights(self) -> tuple[bool, bool]:
+        """Two flags: whether the weights are constant along s, and along t."""
+        if self.weights is None:
+            return True, True
+        return bool((self.weights == self.weights[:1]).all()), bool((self.weights == self.weights[:, :1]).all())
+
+    def transform(self, matrix: ArrayLike) -> Patch:
+        """Return the image of the patch under a (4, 4) affine map."""
+        matrix = float_array("matrix", matrix, 4, 4)
+        return replace(self, points=self.points @ matrix[:3, :3].T + matrix[:3, 3])
+
+    def reverse_orientation(self) -> Patch:
+        """Return the same surface facing the other way."""
+        return Patch(
+            (self.spaces[1], self.spaces[0]),
+            self.points.swapaxes(0, 1),
+            None if self.weights is None else self.weights.T,
+        )
+
+    def evaluate_grid(self, s: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
+        """Return the (len(s), len(t), 3) points at all pairs of parameters from s and t."""
+        return self.apply_weights(*(space.collocation_matrix(values) for space, values in zip(self.spaces, (s, t))))
+
+    def apply_weights(self, *tables: NDArray) -> NDArray[np.float64]:
+        """Return the (m, n, 3) points given by tables (m, count_s) and (n, count_t) of basis function values."""
+        points, bottom = self.points, None
+        if self.weights is not None:
+            points = points * self.weights[..., None]
+            bottom = np.einsum("ai,bi->ab", np.einsum("ai,ij->aj", tables[0], self.weights), tables[1])
+        top = np.einsum("ajd,bj->abd", np.einsum("ai,ijd->ajd", tables[0], points), tables[1])
+        return top if bottom is None else top / bottom[..., None]
+
+    def side(self, axis: int, end: int) -> Curve:
+        """Return the boundary curve at the first (end 0) or last (end 1) s (axis 0) or t (axis 1)."""
+        weigh: NDArray[np.float64] = self.spaces[axis].end_weights[end]
+        points, weights = self.points, self.weights
+        if weights is None:
+            return Curve(self.spaces[1 - axis], np.tensordot(weigh, points, (0, axis)))
+        bottom = np.tensordot(weigh, weights, (0, axis))
+        top = np.tensordot(weigh, points * weights[..., None], (0, axis))
+        return Curve(self.spaces[1 - axis], top / bottom[:, None], bottom)
+
+    @property
+    def sides(self) -> tuple[tuple[Curve, bool], ...]:
+        """The four boundary curves, in the order of `SIDES`, each with True if the patch is on its left."""
+        return tuple((self.side(axis, end), forward) for axis, end, forward in SIDES)
+
+    def samples(self, each: int) -> NDArray[np.float64]:
+        """Return a grid of points at `each` equal steps in every span of both directions, ends included."""
+        return self.apply_weights(*(_sample_table(space, each) for space in self.spaces))
+
+
+@lru_cache(maxsize=64)
+def _sample_table(space: SplineSpace, each: int) -> NDArray[np.float64]:
+    """Return (n, count) weights of control points at `each` equal steps in every span; cached: do not modify."""
+    return space.collocation_matrix(space.uniform_parameters(each))
+
+
+def control_box(patches: Sequence[Face]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the least (3,) and the largest (3,) coordinates of all control points."""
+    for patch in patches:
+        if not hasattr(patch, "sides"):
+            check_type("patches", patch, Patch)
+    return (
+        np.min([patch.points.min(axis=(0, 1)) for patch in patches], axis=0),
+        np.max([patch.points.max(axis=(0, 1)) for patch in patches], axis=0),
+    )
+
+
+def patches_center(patches: Sequence[Face]) -> NDArray[np.float64]:
+    """Return the (3,) middle of the box around all control points: the reference point."""
+    low, high = control_box(patches)
+    return low + (high - low) / 2.0
+
+
+def patches_size(patches: Sequence[Face]) -> float:
+    """Return the diagonal of the box around all control points."""
+    low, high = control_box(patches)
+    check_size(*(high - low).tolist())
+    return float(np.linalg.norm(high - low))
