@@ -37,7 +37,6 @@ TRIAL, FOLLOWS = 1e-2, 1e-4  # of the character's size: a tried move, and how ex
 LAYER = "Body Moments"  # the name of the track and the strip
 CHECKED = 16  # frames that are looked at again after the keys
 
-NO_GRAVITY = "The scene has no gravity, so nothing falls. Turn it on in Scene Properties > Gravity."
 NOT_FREE = "“{name}” cannot be keyed: its {channel:word} is {state:word}. Free it, or choose another bone."
 NOT_CARRIED = (
     "No bone carries the whole character: “{part}” does not follow “{name}”. Choose the bone that all others hang on, "
@@ -60,9 +59,8 @@ class CharacterMotion(BalanceGroup):
 
     def __init__(self, context: Context, armature: Object, frames: range):
         scene = context.scene
-        self.gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
-        if not self.gravity.any():
-            raise Refused(NO_GRAVITY)
+        character.require_gravity(scene)
+        self.gravity = np.array(scene.gravity, np.float64)
         before, subframe = scene.frame_current, scene.frame_subframe
         scene.frame_set(frames[0])
         try:
