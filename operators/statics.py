@@ -309,7 +309,7 @@ class POSE_OT_body_moments_keep_spin(KeyedFlight, Operator):
             "Frames before take-off over which the character turns already, so that less is left after the landing. "
             "If 0, the turn begins at take-off"
         ),
-        default=0,
+        default=8,
         min=0,
     )
     blend: IntProperty(

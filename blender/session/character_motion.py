@@ -37,7 +37,6 @@ TRIAL, FOLLOWS = 1e-2, 1e-4  # of the character's size: a tried move, and how ex
 LAYER = "Body Moments"  # the name of the track and the strip
 CHECKED = 16  # frames that are looked at again after the keys
 
-NO_GRAVITY = "The scene has no gravity, so nothing falls. Turn it on in Scene Properties > Gravity."
 NOT_FREE = "“{name}” cannot be keyed: its {channel:word} is {state:word}. Free it, or choose another bone."
 NOT_CARRIED = (
     "No bone carries the whole character: “{part}” does not follow “{name}”. Choose the bone that all others hang on, "
@@ -45,6 +44,10 @@ NOT_CARRIED = (
 )
 HELD_IN_PART = "“{names}” is held at some of the frames only. Choose frames at which the same objects are held."
 LAYERED_TIMES = "A layer cannot move the landing. Turn off As Layer and empty the NLA, or keep the times."
+MODIFIED_TIMES = (
+    "“{curve}” has F-curve modifiers, which cannot move with the landing. Bake its channel in the Graph Editor, or "
+    "keep the times."
+)
 NO_FLIGHT = (
     "“{name}” does not leave the ground and land again in frames {start} to {end}. Turn off Find by Contacts and type "
     "Take-off and Landing, or set Ground."
@@ -56,9 +59,8 @@ class CharacterMotion(BalanceGroup):
 
     def __init__(self, context: Context, armature: Object, frames: range):
         scene = context.scene
-        self.gravity = np.array(scene.gravity, np.float64) if scene.use_gravity else np.zeros(3)
-        if not self.gravity.any():
-            raise Refused(NO_GRAVITY)
+        character.require_gravity(scene)
+        self.gravity = np.array(scene.gravity, np.float64)
         before, subframe = scene.frame_current, scene.frame_subframe
         scene.frame_set(frames[0])
         try:
@@ -137,6 +139,10 @@ class CharacterMotion(BalanceGroup):
         if keep_height:
             count = max(2, round(motion.frames_of_height(np.array(self.centers[rows]), self.step, self.gravity)))
         self.landing = self.first + count
+        if self.landing != self.last:
+            for curve in fcurves.existing_curves(self.armature):
+                if any(not one.mute for one in curve.modifiers):
+                    raise Refused(MODIFIED_TIMES, curve=curve.data_path)
         self.before, self.after = before, after
         self.times = [*range(self.first - before, self.first), *np.linspace(self.first, self.last, count + 1).tolist()]
         self.times += range(self.last + 1, self.last + after + 1)

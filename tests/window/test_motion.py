@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A floaty jump in the real window: its momentum from nothing is listed, and Put on Parabola takes it away."""
 
+import os
 from pathlib import Path
 
 import pytest
+
+from tests.window.conftest import open_window
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = """
@@ -14,11 +17,18 @@ from tests.blender.figure import figure
 for obj in list(bpy.data.objects):
     bpy.data.objects.remove(obj)
 rig, body = figure()
-root, scene = rig.pose.bones["root"], bpy.context.scene
+root, hips, scene = rig.pose.bones["root"], rig.pose.bones["hips"], bpy.context.scene
 scene.frame_start, scene.frame_end = 1, 32
 for frame, place in ((1, (0, 0, 0)), (8, (0, 0, 0)), (16, (0, -0.9, 0.9)), (24, (0, -1.8, 0)), (32, (0, -1.8, 0))):
     root.location = place
     root.keyframe_insert("location", frame=frame)
+lows, swings = (0, -0.25, 0, 0, 0, -0.25, 0), (-1.2, -1.0, -0.6, 0.7, -0.6, -1.0, -1.2)
+for frame, low, swing in zip((1, 5, 8, 16, 24, 27, 32), lows, swings):
+    hips.location.y = low
+    hips.keyframe_insert("location", frame=frame)
+    for name, sign in (("arm.L", 1), ("arm.R", -1)):
+        rig.pose.bones[name].rotation_euler.x = swing
+        rig.pose.bones[name].keyframe_insert("rotation_euler", frame=frame)
 scene.frame_set(1)
 rig.data.display_type = "STICK"
 view = area.spaces.active.region_3d
@@ -71,3 +81,38 @@ def test_spin_is_keyed_and_the_path_is_traced(jump):
     window.press("pose.body_moments_trace")
     window.wait(f"'body_balance_momentum' not in {EMPTY}")
     assert "Traceback" not in window.output()
+
+
+@pytest.mark.skipif("BODY_MOMENTS_FILM" not in os.environ, reason="takes minutes; set BODY_MOMENTS_FILM for the film")
+def test_jump_is_filmed_floaty_and_falling(run_blender, cube_file, tmp_path):
+    """Ten seconds for docs/weight.md, left among the artefacts as jump.webp."""
+    image = pytest.importorskip("PIL.Image")
+    with open_window(run_blender, cube_file, tmp_path) as window:
+        window.ask(BUILD.format(str(ROOT)))
+        window.ask("view = area.spaces.active.region_3d\nview.view_location.y, view.view_distance = -0.65, 4.6")
+        window.ask("bpy.context.preferences.system.viewport_aa = '8'")
+        window.open_tab("Moments")
+        window.point_at_view()
+        window.key("ctrl+Tab")
+        window.wait("bpy.context.mode == 'POSE'")
+        window.press("pose.body_moments_show_weight")
+        files = []
+        for part in ("floaty", "falling"):
+            window.open_tab("Moments")
+            if part == "falling":
+                window.press("pose.body_moments_parabola")
+                window.key("Return")
+                window.wait(f"len({CURVES}[2].keyframe_points) > 10")
+            window.press("pose.body_moments_bake_curves")
+            window.wait("any('body_balance_group' in obj for obj in bpy.data.objects)")
+            window.wait(f"('body_balance_spans' in {EMPTY}) == {part == 'floaty'}")
+            window.ask("area.spaces.active.show_region_ui = False")
+            window.point_at_view()
+            for frame in range(1, 33):
+                window.ask(f"bpy.context.scene.frame_set({frame})")
+                window.redraw()
+                files.append(window.picture(f"film-{part}-{frame:02d}", "png"))
+    several = [image.open(file).convert("RGB").crop((60, 130, 820, 690)).resize((570, 420)) for file in files]
+    film, milliseconds = files[0].with_name("jump.webp"), [*[150] * 31, 350] * 2
+    several[0].save(film, save_all=True, append_images=several[1:], duration=milliseconds, loop=0, quality=60)
+    assert film.stat().st_size <= 700_000
