@@ -14,7 +14,6 @@ from ..blender.session.displayed import displayed
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.settings.preferences import shows_advanced
 from ..blender.write import properties
-from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
 from ..core.lazy import loaded_module
 from . import rows
@@ -41,27 +40,26 @@ class AdvancedPanel:
 
     def draw(self, context: Context) -> None:
         layout, obj, scene = self.layout, context.object, context.scene
-        units = Units.from_settings(scene.unit_settings)
         shown = displayed(obj, scene)
         if shown is not None and shown.live is None:
             numbers = shown.in_frame(scene.body_moments.frame)
-            _bounds(layout, obj, units, numbers)
-            _display_mesh(layout, obj, units, numbers)
-        rows.button(layout, context, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
+            _bounds(layout, obj, numbers)
+            _display_mesh(layout, obj, numbers)
+        rows.button(layout, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
 
 
-def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> None:
+def _display_mesh(layout: UILayout, obj: Object, shown: PlainBody) -> None:
     display = properties.optional(obj, "body_display_volume")
     if display is None:
         return
     body = rows.fold(layout, "body_moments_display_mesh", "Display Mesh")
     if body is not None:
         column = body.column(align=True)
-        rows.values(column, units, ("Volume", "Difference"), "volume", (display, display - shown.volume))
+        rows.values(column, ("Volume", "Difference"), "volume", (display, display - shown.volume))
         rows.filled(column, "{:+.3g}% of the volume", 100.0 * (display / shown.volume - 1.0))
 
 
-def _bounds(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> None:
+def _bounds(layout: UILayout, obj: Object, shown: PlainBody) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return
@@ -80,7 +78,7 @@ def _bounds(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> No
             for name, (label, quantity) in BOUND_LABELS.items()
             if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
         ]
-        rows.bounds(column, units, entries)
+        rows.bounds(column, entries)
 
 
 class MomentsPanel:
@@ -95,23 +93,23 @@ class MomentsPanel:
         rows.setting(column, settings, "moments_of")
         rows.setting(column, settings, "moments_about")
         rows.setting(column, settings, "frame", expand=True)
-        rows.button(layout, context, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
+        rows.button(layout, "object.body_moments_compute_moments", "PHYSICS", short="Compute")
         table = loaded_module(stored, "moments")
         computed = None if table is None else table.computed_moments(obj)
         if computed is None:
             return
-        rows.stale_row(layout, context, stale_reason(obj, context.scene, table.stamp_of))
+        rows.stale_row(layout, stale_reason(obj, context.scene, table.stamp_of))
         degrees, missing = table.current_numbers(obj, context.scene)
         if missing is not None:
-            rows.message(layout, context, missing)
+            rows.message(layout, missing)
         for degree in degrees:
             column = layout.column(align=True)
             rows.filled(column, "Order {:d} ({:s})" if degree.unit else "Order {:d}", degree.degree, degree.unit)
             rows.table(column, [(*row, degree.unit) for row in degree.rows])
         if computed.order > table.MAX_SHOWN_ORDER:
             text, first = "Orders {first} to {last} are only in the copy.", table.MAX_SHOWN_ORDER + 1
-            rows.remark(layout, context, text, first=first, last=computed.order)
-        rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "MOMENTS"
+            rows.remark(layout, text, first=first, last=computed.order)
+        rows.button(layout, "object.body_moments_copy", "COPYDOWN").what = "MOMENTS"
 
 
 CLASSES = (

@@ -11,7 +11,6 @@ from bl_ui.utils import PresetPanel
 from bpy.types import Context, Material, Menu, Panel, Scene, UILayout
 
 from ..blender.settings.properties import density_field_name
-from ..blender.write.units import Units
 from ..core.density.materials import CATEGORIES, FILAMENT, MATERIALS
 from ..operators.setup.presets import (
     PRESET_FOLDER,
@@ -76,7 +75,7 @@ def _draw_category(self: Menu, context: Context) -> None:
 
 
 def _entries(layout: UILayout, context: Context, category: str) -> None:
-    units = Units.from_settings(context.scene.unit_settings)
+    units = rows.scene_units()
     for material in MATERIALS:
         if material.category == category:
             text = "{:s}  ({:s})".format(material.name, units.text("density", material.density))
@@ -142,7 +141,7 @@ class MATERIAL_PT_body_moments(Panel):
         if material.body_moments.material:
             column.label(text=material.body_moments.material, icon="CHECKMARK", translate=False)
         elif not material.body_moments.density:
-            rows.remark(column, context, "None: the object's density is used")
+            rows.remark(column, "None: the object's density is used")
 
 
 CLASSES = (

@@ -236,19 +236,15 @@ def _select(_scene: Scene, index: int) -> None:
 
 
 def register() -> None:
-    """Register the operators, and the property with the index of the list's active line."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    """Add the property with the index of the list's active line."""
     Scene.body_moments_listed = IntProperty(
         name="Object", description="Select this object", get=_active_index, set=_select, options={"SKIP_SAVE"}
     )
 
 
 def unregister() -> None:
-    """Remove the property and the operators."""
+    """Remove the property."""
     del Scene.body_moments_listed
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
 
 
 CLASSES = (
