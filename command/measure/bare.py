@@ -34,10 +34,8 @@ from ...core.verdict.finding import FileError, Finding, MeasureError, QueryError
 from .. import measure
 from ..files.suffixes import STREAMED, UNITLESS, check_file, file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS
-from ..options.arguments import words
-from ..options.checks import density_of
-from ..options.file import OF_ARRAYS, body_findings, file_findings, unused
-from ..options.needs_blender import NEEDS_BLENDER, boolean_and_wire, options_of_blender
+from ..options.arguments import NEEDS_BLENDER, boolean_and_wire, options_of_blender, words
+from ..options.checks import OF_ARRAYS, body_findings, density_of, file_findings, unused
 from ..supervisor.processes import has_blender
 from .entries import Contents, failure
 

@@ -98,8 +98,7 @@ class OBJECT_OT_body_moments_import_scan(selection.InObjectMode, Operator, Impor
             findings = self._import(context, module, path)
         except MeasureError as error:
             return selection.refuse(self, error.about(path.name))
-        reports.report(self, *findings)
-        return {"FINISHED"}
+        return reports.report(self, *findings)
 
     def _import(self, context: Context, module: ModuleType, path: Path) -> list[Finding | str]:
         """Make the object, and return findings and texts about the steps and decisions."""

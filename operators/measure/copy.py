@@ -213,8 +213,7 @@ class OBJECT_OT_body_moments_save_numbers(Operator):
         document = selected_document(context)
         selection.write_file(path, measurement.FORMATS[SUFFIXES[path.suffix.lower()]]([document]))
         texts = ("Saved {count} object to “{file}”.", "Saved {count} objects to “{file}”.")
-        selection.report(self, reports.phrase(*texts, count=len(document["objects"]), file=path.name))
-        return {"FINISHED"}
+        return selection.report(self, reports.phrase(*texts, count=len(document["objects"]), file=path.name))
 
 
 def _active_index(_scene: Scene) -> int:

@@ -30,16 +30,14 @@ class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
     def execute(self, context: Context) -> set[str]:
         group, obj = scene.center_of_mass_group(), context.object
         if not self.marker or obj is None or not measurable(obj):
-            reports.report(self, reports.phrase("Added the node group “{group}”", group=group.name))
-            return {"FINISHED"}
+            return reports.report(self, reports.phrase("Added the node group “{group}”", group=group.name))
         marker = scene.add_marker(context, obj, group)
         text = "Added the node group “{group}” and the marker “{object}”"
         texts = [reports.phrase(text, group=group.name, object=marker.name)]
         settings = obj.body_moments
         if (settings.kind, settings.mass_from, settings.density_from) != ("SOLID", "DENSITY", "VALUE"):
             texts.append(reports.phrase("nodes take the object as a solid of one density"))
-        reports.report(self, *texts)
-        return {"FINISHED"}
+        return reports.report(self, *texts)
 
 
 CLASSES = (OBJECT_OT_body_moments_add_nodes,)
