@@ -4,11 +4,9 @@
 
 # The modules that are registered, in this order.
 MODULES = (
-    *("setup." + name for name in ("presets", "remedies", "node_group", "rigid_bodies", "colliders")),
-    *("imports.import_scan", "imports.import_surfaces"),
-    "assembly",
-    *("measure." + name for name in ("measure_selected", "moments", "select_faults", "copy")),
-    *("measure." + name for name in ("library", "reference", "fourier")),
+    *("setup." + name for name in ("presets", "remedies", "rigid_bodies", "colliders")),
+    *("imports", "assembly"),
+    *("measure." + name for name in ("measure_selected", "moments", "select_faults", "copy", "library", "fourier")),
     *("snap.frames", "snap.sculpt_balance"),
     "statics",
     *("export." + name for name in ("robot", "audit")),

@@ -147,10 +147,22 @@ def summarize(
     parts = [done] if changed or not failures else []
     if failures:
         parts.append(reports.phrase("{count} of {total} left unchanged:", count=len(failures), total=total))
+    return finish(operator, parts, failures, findings, is_changed=bool(changed))
+
+
+def finish(
+    operator: Operator,
+    texts: Sequence[str],
+    failures: Sequence[Finding],
+    findings: Sequence[Finding | str] = (),
+    level: Severity = Severity.NOTE,
+    is_changed: bool = True,
+) -> set[str]:
+    """Report texts, and the first of the failures and findings, redraw, and return the result of `execute`."""
     outcome.remember(operator.bl_label, [part for part in (*failures, *findings) if isinstance(part, Finding)])
-    reports.report(operator, *parts, *reports.first(failures), *reports.first(findings))
     redraw(bpy.context)
-    return {"FINISHED"} if changed else {"CANCELLED"}
+    reports.report(operator, *texts, *reports.first(failures), *reports.first(findings), level=level)
+    return {"FINISHED"} if is_changed else {"CANCELLED"}
 
 
 def iterate_objects(

@@ -34,9 +34,10 @@ from ...core.verdict.finding import FileError, Finding, MeasureError, finding, s
 from ..files.files import newer_version, open_file, requested_file
 from ..files.references import Opened, blocked_scripts, missing_links, scripts_of_open_file
 from ..files.saving import Place, write_assets
-from ..files.suffixes import BLEND, file_suffix
+from ..files.suffixes import file_suffix
 from ..findings import FOURIER_OBJECT_COUNT, PART_UNAVAILABLE, RESULTS_NEED_BLEND, SOLID_OPERAND_MEASURED
 from ..options.checks import body_findings, density_of, file_findings, is_unitless
+from ..supervisor.listing import BLEND
 from . import robots
 from .combined import Combined, measure_combined
 from .entries import Contents, failure

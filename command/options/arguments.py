@@ -19,6 +19,7 @@ from typing import Any, NoReturn
 
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.scans.suffixes import scan_suffix
+from ..supervisor.listing import UNITLESS
 from ..supervisor.processes import has_blender
 from .measure_parser import DEFAULT_ORDER, measure_parser
 
@@ -33,7 +34,6 @@ _ROOT = __name__.removesuffix(".command.options.arguments")
 ONE_FILE = "argument --format: {} takes one FILE, as a robot is one file"
 ONE_OBJECT = "argument --fourier: takes one object of one FILE"
 NEEDS_BLENDER = "{} Blender: add --blender PATH, or install the bpy module"
-MESHES = (".stl", ".ply", ".obj")  # formats that are measured without an import
 _OF_OBJECTS = ("polynomial", "density_from", "fourier", "flat", "pose", "signature")
 
 
@@ -177,6 +177,6 @@ def check_blender(options: argparse.Namespace, paths: Sequence[str]) -> None:
     for path in paths:
         is_scan = bool(scan_suffix(path))
         given = words(options_of_blender(options, is_scan))
-        if given or not (is_scan or Path(path).suffix.lower() in MESHES):
+        if given or not (is_scan or Path(path).suffix.lower() in UNITLESS):
             what = ", ".join(given) if given else "“{}”".format(path)
             fail(NEEDS_BLENDER.format(what + (" need" if len(given) > 1 else " needs")))

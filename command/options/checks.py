@@ -22,9 +22,10 @@ from ...core.measurement.measurement import Measurement
 from ...core.scans.limits import scan_limits
 from ...core.scans.numpy_files import map_array
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
-from ..files.suffixes import UNITLESS, file_suffix
+from ..files.suffixes import file_suffix
 from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED
 from ..parser import UsageError
+from ..supervisor.listing import UNITLESS
 from .arguments import fail, words
 from .option_types import MAX_GRID
 

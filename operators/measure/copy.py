@@ -23,7 +23,7 @@ from ...core.robots import write as robot_formats
 from ...core.robots.formats import FORMATS
 from ...core.verdict.finding import Finding, Severity
 from .. import selection
-from .reference import reference_text
+from .moments import reference_text
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: str) -> None:

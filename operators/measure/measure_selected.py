@@ -15,7 +15,6 @@ from ...blender import bodies, session, write
 from ...blender.read.visibility import measurable
 from ...blender.scene.changes import require_editable
 from ...blender.session import live
-from ...blender.session.stored import outcome
 from ...blender.session.tracking import armatures, staleness, stamps
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import properties, reports
@@ -113,11 +112,9 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
         refusals = {**self._refusals, **failed}
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
         count = len(self._results) - len(failed)
-        self._report(count)
-        selection.redraw(context)
-        return {"FINISHED"} if count else {"CANCELLED"}
+        return self._report(count)
 
-    def _report(self, count: int) -> None:
+    def _report(self, count: int) -> set[str]:
         warnings = [
             finding(OBJECT_WARNINGS, object=obj.name_full, causes=[cause.as_record() for cause in causes])
             for obj, measured in self._results
@@ -134,9 +131,8 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             )
             if warnings:
                 done.append(reports.phrase("{count} with warnings: {objects}", count=len(names), objects=names))
-        outcome.remember(self.bl_label, self._failures)
         level = Severity.WARNING if warnings else Severity.NOTE
-        reports.report(self, *done, *reports.first(self._failures), level=level)
+        return selection.finish(self, done, self._failures, level=level, is_changed=bool(count))
 
 
 class OBJECT_OT_body_moments_live(Operator):

@@ -18,7 +18,6 @@ from bpy.types import Context, Event, Operator, PropertyGroup, Scene
 from ...blender import scene, session
 from ...blender.read.tracking import tracking_paused
 from ...blender.read.visibility import measurable_objects
-from ...blender.session.stored import outcome
 from ...blender.write import reports
 from ...core.verdict.finding import Finding, MeasureError, system_reason
 from .. import selection
@@ -90,7 +89,6 @@ class _SearchMixin:
             row = search.found.add()
             for name in ("name", "file", "verdict", "distance", "scale"):
                 setattr(row, name, getattr(match, name))
-        selection.redraw(context)
         counts = Counter(match.verdict for match in matches)
         alike = [reports.phrase(*COUNTS[kind], count=counts[kind]) for kind in COUNTS if counts[kind]]
         found = ", ".join(alike) if alike else reports.phrase("none is similar")
@@ -98,8 +96,7 @@ class _SearchMixin:
         if matches:
             text = "nearest is {object}, at {distance:.2e}"
             done.append(reports.phrase(text, object=matches[0].name, distance=matches[0].distance))
-        outcome.remember(self.bl_label, failures)
-        return reports.report(self, *done, *reports.first(failures))
+        return selection.finish(self, done, failures)
 
 
 class OBJECT_OT_body_moments_find_similar(ModalSteps, _SearchMixin, Operator):

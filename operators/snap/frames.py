@@ -4,7 +4,7 @@
 
 Physics engines take an object's origin as its center of mass and a diagonal inertia along its axes. Blender's own
 operator for origins ignores modifiers and moves other users of the data. Blender makes orientations only from a 3D
-view; without one, as in background mode, that operator only warns.
+view; without one, as in background mode, that operator only warns. A node group shows the center at every frame.
 """
 
 from collections.abc import Sequence
@@ -15,6 +15,7 @@ from bpy.types import Context, Object, Operator, View3DCursor
 from mathutils import Matrix
 
 from ...blender import bodies, scene, session
+from ...blender.read.visibility import measurable
 from ...blender.scene.findings import OPEN_OBJECT
 from ...blender.write import reports
 from ...core import inertia
@@ -303,6 +304,35 @@ def _view_3d(context: Context) -> dict | None:
     return None
 
 
+class OBJECT_OT_body_moments_add_nodes(selection.InObjectMode, Operator):
+    """Add a node group that computes the center of mass in geometry nodes."""
+
+    bl_idname = "object.body_moments_add_nodes"
+    bl_label = "Center of Mass Node Group"
+    bl_description = (
+        "Add the node group “Center of Mass” to the file, marked as an asset: it computes center, volume and mass in "
+        "geometry nodes, follows modifiers and animation, and works without the add-on"
+    )
+
+    marker: BoolProperty(
+        name="Add Marker",
+        description="Add an object that shows the center of mass of the active object at every frame",
+        default=True,
+    )
+
+    def execute(self, context: Context) -> set[str]:
+        group, obj = scene.center_of_mass_group(), context.object
+        if not self.marker or obj is None or not measurable(obj):
+            return reports.report(self, reports.phrase("Added the node group “{group}”", group=group.name))
+        marker = scene.add_marker(context, obj, group)
+        text = "Added the node group “{group}” and the marker “{object}”"
+        texts = [reports.phrase(text, group=group.name, object=marker.name)]
+        settings = obj.body_moments
+        if (settings.kind, settings.mass_from, settings.density_from) != ("SOLID", "DENSITY", "VALUE"):
+            texts.append(reports.phrase("nodes take the object as a solid of one density"))
+        return reports.report(self, *texts)
+
+
 CLASSES = (
     OBJECT_OT_body_moments_origin_to_center,
     OBJECT_OT_body_moments_axes_to_principal,
@@ -310,4 +340,5 @@ CLASSES = (
     VIEW3D_OT_body_moments_cursor_to_center,
     OBJECT_OT_body_moments_add_empty,
     OBJECT_OT_body_moments_create_orientation,
+    OBJECT_OT_body_moments_add_nodes,
 )
