@@ -23,8 +23,8 @@ from ...blender.bodies.measure_object import Measured, measure_object
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.bodies.stacks.many import measured_in_turn
 from ...blender.bodies.stacks.stack import Stacked
+from ...blender.read.assembly import left_out_reasons
 from ...blender.read.objects import read_object
-from ...blender.read.total_caveats import left_out_reasons
 from ...blender.read.visibility import measurable, measurable_objects
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection

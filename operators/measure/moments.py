@@ -10,6 +10,7 @@ import bmesh
 from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
+from ...blender import bodies
 from ...blender.read.visibility import SECTION_TYPES, measurable
 from ...blender.session import stored
 from ...blender.write import properties, reports
@@ -19,7 +20,7 @@ from ...core.verdict.sentences import of_severity
 from .. import selection
 
 if TYPE_CHECKING:
-    from ...blender.read.reference import ReferenceChoice
+    from ...blender.session.stored.reference import ReferenceChoice
     from ...core.inertia.reference import ReferredInertia
 
 
@@ -81,10 +82,10 @@ class OBJECT_OT_body_moments_measure_section(Operator):
 
         def measure(obj: Object) -> None:
             properties.require_storable(obj)
-            sections.append((obj, stored.sections.section_of(obj, depsgraph)))
+            sections.append((obj, bodies.section_of(obj, depsgraph)))
 
         measured, failures = selection.apply_to_all(_objects_with_sections(context), measure)
-        stored.sections.store_sections(context, sections)
+        stored.results.store_sections(context, sections)
         warned = [obj.name for obj, found in sections if of_severity(found[2], Severity.WARNING, Severity.ERROR)]
         if len(measured) == 1:
             text = "Measured the section of {object}, with warnings" if warned else "Measured the section of {object}"

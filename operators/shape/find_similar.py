@@ -24,7 +24,7 @@ from .. import selection
 from ..modal import ModalSteps
 
 if TYPE_CHECKING:
-    from ...blender.scene.copies.find import Copies
+    from ...blender.scene.copies import Copies
     from ...blender.session.similar import Match
 
 MAX_LISTED_BODIES = 20
