@@ -19,15 +19,6 @@ from ..core.lazy import loaded_module
 from . import rows
 from .places import in_both_places
 
-BOUNDS = (("Rounding, at Most", None), ("Float32 Coordinates, at Most", "input"))
-ESTIMATED = "Quadrature and Rounding, Estimated"
-BOUND_LABELS = {
-    "volume": ("Volume", "volume"),
-    "area": ("Area", "area"),
-    "center_of_mass": ("Center", "length"),
-    "inertia": ("Inertia", "inertia"),
-}
-
 
 class AdvancedPanel:
     """Error bounds and analyses"""
@@ -63,22 +54,13 @@ def _bounds(layout: UILayout, obj: Object, shown: PlainBody) -> None:
     body = rows.fold(layout, "body_moments_bounds", "Error Bounds")
     if body is None:
         return
-    sizes = {
-        "volume": shown.volume,
-        "area": shown.area,
-        "center_of_mass": max(map(abs, shown.center)),
-        "inertia": max(shown.moments),
-    }
-    for heading, bound in BOUNDS:
-        column = body.column(align=True)
-        column.label(text=ESTIMATED if bound is None and properties.is_estimated(obj) else heading)
-        values = shown.error_bound if bound is None else shown.error_bound[bound]
-        entries = [
-            (label, quantity, values[name], sizes[name])
-            for name, (label, quantity) in BOUND_LABELS.items()
-            if name not in ("volume", "area") or sizes[name]  # a wire has neither, a grid of densities no surface
-        ]
-        rows.bounds(column, entries)
+    rounding = "Quadrature and Rounding, Estimated" if properties.is_estimated(obj) else "Rounding, at Most"
+    sources = ((rounding, shown.error_bound), ("Float32 Coordinates, at Most", shown.error_bound["input"]))
+    measures = ("Volume", "volume", "volume", shown.volume), ("Area", "area", "area", shown.area)
+    entries = [entry for entry in measures if entry[-1]]  # a wire has neither, a grid of densities no surface
+    entries.append(("Center", "length", "center_of_mass", max(map(abs, shown.center))))
+    entries.append(("Inertia", "inertia", "inertia", max(shown.moments)))
+    rows.error_bounds(body, sources, entries)
 
 
 class MomentsPanel:

@@ -22,7 +22,7 @@ from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.sentences import Group, severity
 from . import remedies, rows
 from .density import given_rows
-from .places import in_both_places
+from .places import AmongProperties, in_both_places
 
 MEMBER_ICONS = {
     "COLLECTION": "OUTLINER_COLLECTION",
@@ -157,15 +157,10 @@ class AssemblyPanel:
         draw_assembly(self.layout, context, root, "OF_OBJECT")
 
 
-class COLLECTION_PT_body_moments(Panel):
+class COLLECTION_PT_body_moments(AmongProperties, Panel):
     """The active collection as one body"""
 
-    bl_idname = "COLLECTION_PT_body_moments"
-    bl_label = "Body Moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
     bl_context = "collection"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

@@ -8,7 +8,7 @@ settings of its own. An empty may stand for a point mass.
 
 from __future__ import annotations
 
-from bpy.types import Context, Object, PropertyGroup, Scene, UILayout
+from bpy.types import Context, Object, PropertyGroup, UILayout
 
 from ..blender.read.visibility import GEOMETRY_TYPES
 from ..blender.session import stored
@@ -167,15 +167,9 @@ def _uniform_density(column: UILayout, context: Context, settings, heading: str)
 
 def _material(column: UILayout, context: Context, settings, heading: str) -> None:
     row = _labeled_row(column, heading)
-    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or _unset_material(settings, context.scene))
+    default = "" if settings.is_property_set("density") else default_material(context.scene)
+    row.menu("OBJECT_MT_body_moments_materials", text=settings.material or default or "Custom")
     row.popover("OBJECT_PT_body_moments_presets", text="", icon="PRESET")
-
-
-def _unset_material(settings, scene: Scene) -> str:
-    """Return the name shown in place of a material if none was chosen from the table."""
-    if settings.is_property_set("density"):
-        return "Custom"
-    return default_material(scene) or "Custom"
 
 
 def _grid_settings(layout: UILayout, obj: Object) -> bool:

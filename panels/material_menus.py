@@ -19,6 +19,7 @@ from ..operators.setup.presets import (
     OBJECT_OT_body_moments_set_material,
 )
 from . import rows
+from .places import AmongProperties
 
 
 class OBJECT_MT_body_moments_materials(Menu):
@@ -117,15 +118,10 @@ class OBJECT_PT_body_moments_presets(PresetPanel, Panel):
         row.operator(self.preset_add_operator, text="", icon="ADD").name = manager.preset_name
 
 
-class MATERIAL_PT_body_moments(Panel):
+class MATERIAL_PT_body_moments(AmongProperties, Panel):
     """A material's density, for objects that take theirs from their materials"""
 
-    bl_idname = "MATERIAL_PT_body_moments"
-    bl_label = "Body Moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
     bl_context = "material"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

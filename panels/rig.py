@@ -16,7 +16,7 @@ from ..blender.write.translations import localized
 from ..core.lazy import loaded_module
 from ..core.numerics.float32 import shortest_decimal
 from . import rows
-from .places import in_both_places
+from .places import AmongProperties, in_both_places
 
 if TYPE_CHECKING:
     from ..blender.session.live.character import Weight
@@ -156,15 +156,10 @@ def _motion(layout: UILayout, context: Context) -> None:
         jump.data_path, jump.value = "scene.frame_current", round(first)
 
 
-class BONE_PT_body_moments(Panel):
+class BONE_PT_body_moments(AmongProperties, Panel):
     """The part of the active bone, in rest pose and the bone's rest frame"""
 
-    bl_idname = "BONE_PT_body_moments"
-    bl_label = "Body Moments"
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
     bl_context = "bone"
-    bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
     def poll(cls, context: Context) -> bool:

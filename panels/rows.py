@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
+from typing import Any
 
 import blf
 import bpy
@@ -111,6 +112,16 @@ def bounds(layout: UILayout, entries: Sequence[tuple[str, str, float, float]]) -
             for label, quantity, bound, beside in entries
         ],
     )
+
+
+def error_bounds(
+    layout: UILayout, sources: Sequence[tuple[str, Any]], entries: Sequence[tuple[str, str, str, float]]
+) -> None:
+    """Draw each source, a heading and bounds by name, with a row for each (label, quantity, name, value beside it)."""
+    for source, errors in sources:
+        column = layout.column(align=True)
+        column.label(text=source)
+        bounds(column, [(label, quantity, errors[name], size) for label, quantity, name, size in entries])
 
 
 def heading(layout: UILayout, label: str, quantity: str, si: Sequence[float]) -> None:

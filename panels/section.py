@@ -20,12 +20,6 @@ from .places import in_both_places
 
 FLAT_RTOL = 1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
 ABOUT_LABELS = ("x", "y", "1", "2")
-BOUND_LABELS = {
-    "area": ("Area", "area"),
-    "perimeter": ("Perimeter", "length"),
-    "centroid": ("Centroid", "length"),
-    "second": ("Moments", "area_moment"),
-}
 
 
 class SectionPanel:
@@ -99,20 +93,15 @@ def _more_numbers(layout: UILayout, section) -> None:
         column.label(text="Jp = Ix + Iy is not the torsion constant")
     body = rows.fold(layout, "body_moments_section_bounds", "Error Bounds")
     if body is not None:
-        sizes = {
-            "area": section.area,
-            "perimeter": section.perimeter,
-            "centroid": section.area**0.5,
-            "second": section.polar,
-        }
-        for title, bounds in (
-            ("Rounding, at Most", section.rounding_error),
-            ("Float32 Coordinates, at Most", section.input_error),
-        ):
-            column = body.column(align=True)
-            column.label(text=title)
-            entries = [(*BOUND_LABELS[name], bounds[name], size) for name, size in sizes.items()]
-            rows.bounds(column, entries)
+        entries = [
+            ("Area", "area", "area", section.area),
+            ("Perimeter", "length", "perimeter", section.perimeter),
+            ("Centroid", "length", "centroid", section.area**0.5),
+            ("Moments", "area_moment", "second", section.polar),
+        ]
+        rounding, coordinates = section.rounding_error, section.input_error
+        sources = ("Rounding, at Most", rounding), ("Float32 Coordinates, at Most", coordinates)
+        rows.error_bounds(body, sources, entries)
 
 
 CLASSES = in_both_places(SectionPanel, "section", shown_for=_may_have_section)
