@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from ..blender.write.findings import FILE_NOT_WRITTEN
-from ..core.files.whole_file import whole_file
 from ..core.measurement.plain_text import counted, print_message
 from ..core.robots.audit import Audit, Auditor
 from ..core.robots.findings import DESCRIPTION_UNKNOWN, XML_ENTITIES
@@ -24,6 +23,7 @@ from ..core.robots.write import audit_report
 from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
+from ..core.whole_file import whole_file
 from . import audit_gate
 from .files import output
 from .options import option_types

@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 from ..core.measurement.plain_text import print_message
 from ..core.measurement.record import described
 from ..core.polyhedron import enclosed_moments, facet_moments, facets_of
-from ..core.polyhedron.n_dimensions import SimplexMoments, multi_indices
-from ..core.polyhedron.simplices import closes, outer_facets
-from ..core.scans.limits import scan_limits
+from ..core.polyhedron.n_dimensions import SimplexMoments, closes, multi_indices, outer_facets
 from ..core.scans.numpy_files import read_arrays
+from ..core.scans.scan_files import scan_limits
 from ..core.verdict.finding import MeasureError, finding, system_reason
 from .findings import SIMPLEX_OPEN
 from .options import option_types as types

@@ -37,7 +37,6 @@ The packages, each with its own public names in its `__init__` (none imports a l
     statics      support polygons, resting poses; derivatives by every vertex, the least change that moves the center
     cad          B-spline surfaces of IGES and .obj files, with Blender's knots
     measurement  `Measurement`, all results of one measured object
-    files        files that are written whole or not at all
     robots       links, joints and inertials; their formats; the audit of inertials by geometry
 
 Importing this package loads neither numpy nor any of these: each name is imported when it is first used.

@@ -206,7 +206,7 @@ def apply_to_all(
 def write_file(path: Path, pieces: Iterable[str | bytes]) -> None:
     """Write a file, whole or not at all. FileError if it cannot be written."""
     try:
-        with core.files.whole_file.whole_file(path) as file:
+        with core.whole_file.whole_file(path) as file:
             file.writelines(piece if isinstance(piece, bytes) else piece.encode() for piece in pieces)
     except OSError as error:
         raise FileError(FILE_NOT_WRITTEN, file=path.name, error=system_reason(error)) from error

@@ -11,7 +11,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.bodies.density_grid import Samples, density_body
 from ...core.bodies.findings import (
     DENSITY_FROM_GRID,
     GRID_AS_SHELL,
@@ -21,16 +20,16 @@ from ...core.bodies.findings import (
     GRID_TOO_LARGE,
     SAMPLES_POSITIONED,
 )
+from ...core.bodies.grid import MAX_SAMPLES, Samples, ThresholdGrid, density_body, threshold_grid_body
 from ...core.bodies.mesh_body import MeshBody
 from ...core.bodies.reading import Part, to_si
-from ...core.bodies.threshold import MAX_SAMPLES, ThresholdGrid, threshold_grid_body
 from ...core.density.grid_options import GridOptions
 from ...core.density.grid_values import sample_positions
 from ...core.density.spline_grid import Blocks
-from ...core.measurement.body import Body
+from ...core.measurement.measurement import Body
 from ...core.measurement.settings import Settings
 from ...core.moments.exponents import KNOWN_ORDER
-from ...core.scans.positions import AXES, Positions
+from ...core.scans.formats import AXES, Positions
 from ...core.verdict.finding import ReadError, finding
 from ...core.verdict.method import Method, Source
 from ..read.tracking import tracking_paused

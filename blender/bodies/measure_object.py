@@ -17,8 +17,7 @@ import bpy
 
 from ...core.bodies.reading import Reading
 from ...core.inertia.mass_properties import MassProperties
-from ...core.measurement.body import Body
-from ...core.measurement.measurement import Measurement
+from ...core.measurement.measurement import Body, Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
 from ..settings.options import AS_SET, MeasureOptions

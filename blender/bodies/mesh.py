@@ -15,11 +15,10 @@ from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
 from ...core.bodies.instances import singular_instances_message
-from ...core.bodies.mesh_body import MeshBody, triangle_count
-from ...core.bodies.polygons import drawn_names, of_drawn, sum_of_instances
+from ...core.bodies.mesh_body import MeshBody, drawn_names, of_drawn, sum_of_instances, triangle_count
 from ...core.bodies.reading import Reading
 from ...core.bodies.wall import find_walls
-from ...core.measurement.body import Body
+from ...core.measurement.measurement import Body
 from ...core.mesh.hulls import ConvexHull, convex_hull
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.solid.findings import HOLES_CAPPED, INVERTED_COMPONENTS

@@ -25,17 +25,17 @@ from ...core.bodies.instances import (
 )
 from ...core.bodies.mesh_body import MeshBody, extend_input_error
 from ...core.bodies.reading import Part, Reading, SplineReading, to_si
-from ...core.measurement.body import Body
 from ...core.measurement.findings import WALL_UNSUPPORTED
+from ...core.measurement.measurement import Body
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
 from ...core.moments.images import sum_of_images
 from ...core.moments.moments import Measure, Moments, monomial_count, sum_moments
-from ...core.nurbs.creases import sharpest_crease
 from ...core.nurbs.findings import ERROR_ESTIMATE_LARGE
-from ...core.nurbs.patch import Face
 from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volume_moments
+from ...core.nurbs.seams import sharpest_crease
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
+from ...core.nurbs.splines import Face
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
 from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE

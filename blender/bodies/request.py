@@ -11,8 +11,7 @@ from functools import cached_property
 import bpy
 
 from ...core.bodies.reading import Reading, measure_reading
-from ...core.measurement.body import Body
-from ...core.measurement.measurement import Measurement
+from ...core.measurement.measurement import Body, Measurement
 from ...core.measurement.settings import Settings
 from ...core.verdict.finding import Finding
 from ..read.fingerprint import transform_key

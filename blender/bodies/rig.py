@@ -22,8 +22,7 @@ from ...core.moments.exponents import KNOWN_ORDER
 from ...core.moments.moments import Measure, Moments, sum_moments
 from ...core.numerics.float32 import shortest_decimal
 from ...core.polyhedron import polyhedron_moments
-from ...core.rig.cuts import bone_pieces, bones_of_caps
-from ...core.rig.dominance import dominant_bones
+from ...core.rig.cuts import bone_pieces, bones_of_caps, dominant_bones
 from ...core.solid.measure import measure_solid
 from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...core.bodies.reading import Reading
-from ...core.measurement.body import Body
+from ...core.measurement.measurement import Body
 from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, U, monomial_count, monomials
-from ...core.nurbs.curve import Curve
 from ...core.nurbs.curve_moments import length_moments
+from ...core.nurbs.splines import Curve
 from ...core.verdict.finding import ReadError
 from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...core.bodies.reading import Part, float64_matrix
 from ...core.numerics.rotations import rotation_matrix
-from ...core.rig.dominance import VertexWeights
+from ...core.rig.cuts import VertexWeights
 from .visibility import evaluated_geometry
 
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from ...core.numerics.bspline import SplineSpace
 from ...core.nurbs.blender_knots import blender_space
-from ...core.nurbs.curve import Curve
 from ...core.nurbs.findings import NON_FINITE_CONTROL_POINTS
+from ...core.nurbs.splines import Curve
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import CURVE_MEASURED_WHOLE, NO_CURVE, SPLINES_LEFT_OUT, UNKNOWN_KNOTS
 from .splines import deform, is_deformed, spline_modifiers, weighted_points

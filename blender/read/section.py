@@ -20,7 +20,7 @@ from ...core.bodies.findings import DRAWN_AS_POLYGONS
 from ...core.bodies.reading import Reading
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation
-from ...core.nurbs.curve import Curve
+from ...core.nurbs.splines import Curve
 from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import Finding, ReadError, finding
 from .curves import read_curves, text_curves

@@ -21,7 +21,7 @@ from ...core.bodies.reading import SplineReading, float64_matrix
 from ...core.moments.moments import FLOAT32_HALF_ULP
 from ...core.numerics.bspline import SplineSpace
 from ...core.nurbs.blender_knots import blender_space, display_parameters, display_table
-from ...core.nurbs.patch import Patch
+from ...core.nurbs.splines import Patch
 from ...core.verdict.finding import ReadError, finding
 from .findings import CONTROL_POINTS_RECOVERED, SCALE_ZERO_AXIS, SPLINES_LEFT_OUT
 

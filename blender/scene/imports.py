@@ -27,14 +27,13 @@ from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.density.grid_values import positions_text
 from ...core.numerics.float32 import shortest_decimal
-from ...core.nurbs.bezier_form import bezier_space
+from ...core.nurbs.blender_knots import bezier_space
 from ...core.nurbs.flat_face import FlatFace
-from ...core.nurbs.patch import Face, Patch
-from ...core.scans.formats import read_scan, sample_matrix, scan_suffix
-from ...core.scans.limits import Limits
+from ...core.nurbs.splines import Face, Patch
+from ...core.scans.formats import Positions, place_samples, read_all_positions, read_scan, sample_matrix
 from ...core.scans.numpy_files import read_raw
-from ...core.scans.positions import Positions, place_samples, read_all_positions
 from ...core.scans.scan import Scan
+from ...core.scans.scan_files import Limits, scan_suffix
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.splines import keep_faces

@@ -29,7 +29,7 @@ from ..read.findings import OBJECT_WITHOUT_GEOMETRY
 from ..read.fingerprint import colliders_digest
 from ..scene import colliders as scene
 from ..scene.changes import require_storable_data
-from ..settings.given import COLLIDERS
+from ..settings.given import COLLIDER, COLLIDERS
 from ..settings.options import MeasureOptions
 from .tracking import staleness, stamps
 
@@ -75,12 +75,11 @@ def plan_colliders(
     if correct == "VERTICES":
         shapes = correct_vertices(body, shapes, surface, wanted.outward, wanted.inward)
         shapes = [scene.as_stored(shape, stretch, unit) for shape in shapes]
-    if wanted.shape.startswith("equal_"):
-        masses = [body.mass]
-    elif correct == "MASSES":
+    masses = uniform_masses(measurement.density, shapes)
+    if correct == "MASSES":
         masses = correct_masses(body, shapes)
-    else:
-        masses = uniform_masses(measurement.density, shapes)
+    elif correct == "VERTICES" or wanted.shape.startswith("equal_"):
+        masses = [mass * body.mass / sum(masses) for mass in masses]
     shapes = [replace(shape, mass=float(mass)) for shape, mass in zip(shapes, masses)]
     outward, inward, bound = distances(surface, shapes, hull)
     record = {
@@ -146,14 +145,18 @@ def store_colliders(context: Context, plans: Sequence[Plan], engine: str) -> lis
 
 
 def remove_colliders(context: Context, objects: Iterable[Object]) -> int:
-    """Remove the colliders of objects with what is stored about them; return the number of bodies that had any."""
+    """Remove the colliders of objects with what is stored about them; return the number of objects that had any.
+
+    Colliders whose bodies were deleted are removed themselves.
+    """
     by_body = scene.colliders_by_body(context.scene.objects)
+    orphans = [obj for obj in objects if COLLIDER in obj and obj.parent is None]
     chosen = [obj for obj in objects if obj in by_body or COLLIDERS in obj]
-    scene.remove_colliders([collider for obj in chosen for collider in by_body.get(obj, ())])
+    scene.remove_colliders([*orphans, *(collider for obj in chosen for collider in by_body.get(obj, ()))])
     for obj in chosen:
         if COLLIDERS in obj:
             del obj[COLLIDERS]
-    return len(chosen)
+    return len(chosen) + len(orphans)
 
 
 def collider_record(obj: Object, measurement: Measurement, context: Context) -> dict[str, Any] | None:

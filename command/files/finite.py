@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from ...core.cad.obj_text import check_obj_text
 from ...core.scans.findings import DAMAGE_SIZE, FILE_DAMAGED
 from ...core.streams.findings import AT_ROW, NON_FINITE_COORDINATES
-from ...core.streams.misread import MAX_FLOAT32, SHORT, Data, find_number_fault, map_file, refuse_line
+from ...core.streams.text_fields import MAX_FLOAT32, SHORT, Data, find_number_fault, map_file, refuse_line
 from ...core.verdict.finding import FileError, Finding, finding
 from ..findings import MISSING_REFERENCES
 

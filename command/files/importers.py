@@ -22,9 +22,8 @@ from ...core.cad.findings import FACES_NOT_READ
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import SurfaceFile
-from ...core.scans.limits import scan_limits
-from ...core.streams.boxes import box_of_blocks
-from ...core.streams.file_mesh import FileMesh
+from ...core.scans.scan_files import scan_limits
+from ...core.streams.file_mesh import FileMesh, box_of_blocks
 from ...core.streams.measure import KINDS
 from ...core.streams.threemf import Placed, read_3mf
 from ...core.verdict.finding import FileError, Finding, finding

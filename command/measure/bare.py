@@ -16,9 +16,8 @@ from typing import Any
 
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.write.thumbnail import thumbnail
-from ...core.bodies.array_file import ArrayOptions, measure_array
+from ...core.bodies.files import ArrayOptions, body_of_mesh, measure_array, measure_mesh_file, read_mesh
 from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
-from ...core.bodies.mesh_file import body_of_mesh, measure_mesh_file, read_mesh
 from ...core.bodies.reading import measure_reading
 from ...core.cad.obj import has_surfaces
 from ...core.cad.surface_file import read_meshes

@@ -13,9 +13,9 @@ from contextlib import redirect_stderr, suppress
 from pathlib import Path
 from typing import Any
 
-from ...core.scans.limits import scan_limits
 from ...core.scans.nrrd import data_file, read_header
-from ...core.streams.misread import map_file
+from ...core.scans.scan_files import scan_limits
+from ...core.streams.text_fields import map_file
 from ...core.verdict.finding import MeasureError
 from ..files.finite import MALFORMED, Buffers, unquote
 from ..interruption import Progress

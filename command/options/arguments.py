@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
-from ...core.scans.suffixes import scan_suffix
+from ...core.scans.scan_files import scan_suffix
 from ..supervisor.listing import UNITLESS
 from ..supervisor.processes import has_blender
 from .measure_parser import DEFAULT_ORDER, measure_parser

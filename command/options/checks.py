@@ -19,8 +19,8 @@ from ...core.density.materials import BY_NAME
 from ...core.density.polynomial import parse_polynomial
 from ...core.fourier.wave_vectors import FrequencyGrid, wave_vectors
 from ...core.measurement.measurement import Measurement
-from ...core.scans.limits import scan_limits
 from ...core.scans.numpy_files import map_array
+from ...core.scans.scan_files import scan_limits
 from ...core.verdict.finding import Finding, MeasureError, finding, system_reason
 from ..files.suffixes import file_suffix
 from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED

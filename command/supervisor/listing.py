@@ -16,7 +16,7 @@ from collections.abc import Iterable, Iterator
 from errno import ENOENT
 from pathlib import Path
 
-from ...core.scans import suffixes as scans
+from ...core.scans import scan_files as scans
 from ...core.verdict.finding import system_reason
 from ..parser import UsageError
 

@@ -15,9 +15,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..measurement.body import Body
 from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
-from ..mesh.boxes import boxes_overlap
+from ..measurement.measurement import Body
+from ..mesh.bvh import boxes_overlap
 from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.images import sum_of_images
@@ -156,8 +156,10 @@ class Walls:
             findings.append(finding(WALL_OVERLAP_UNCHECKED))
         elif any(piece.self_intersects(self.side, thickness) for piece in self.pieces):
             findings.append(finding(WALLS_OVERLAP))
-        elif self._instances_overlap(thickness):
-            findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
+        else:
+            centers, extents = zip(*(piece.boxes(self.side, thickness) for piece in self.pieces))
+            if boxes_overlap(np.concatenate(centers), np.concatenate(extents)):
+                findings.append(finding(INSTANCE_OVERLAP_UNCHECKED))
         return findings
 
     def _unevenness(self) -> float:
@@ -168,10 +170,6 @@ class Walls:
         sheet = surface.about_point(center).truncate(2).raw
         reach = np.sqrt(sheet[(degree == 2) & (monomials(2).max(axis=1) == 2)].sum() / sheet[0])
         return float((np.abs(wall - sheet) / (sheet[0] * reach**degree)).max())
-
-    def _instances_overlap(self, thickness: float) -> bool:
-        centers, extents = zip(*(piece.boxes(self.side, thickness) for piece in self.pieces))
-        return boxes_overlap(np.concatenate(centers), np.concatenate(extents))
 
 
 @dataclass(frozen=True, eq=False)

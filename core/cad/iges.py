@@ -18,14 +18,12 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.curve import Curve
 from ..nurbs.flat_face import FlatFace
-from ..nurbs.patch import Face, Patch, patches_size
+from ..nurbs.splines import Curve, Face, Patch, patches_size
 from ..streams.findings import FILE_TOO_LARGE
 from ..verdict.finding import FileError, finding
 from .findings import CURVES_LEFT_OUT, SURFACE_DAMAGED, SURFACE_TRIMMED, SURFACE_UNSUPPORTED, SURFACES_HIDDEN
-from .iges_curves import MAX_DEPTH, CurveReader
-from .iges_text import Entry, IgesText, decimal_rounding, integers, numbers, padded
+from .iges_entities import MAX_DEPTH, CurveReader, Entry, IgesText, decimal_rounding, integers, numbers, padded
 from .surfaces import (
     MAX_SURFACES,
     Refusals,
@@ -65,15 +63,9 @@ Value = TypeVar("Value")
 Pair: TypeAlias = tuple[Value, Value]
 
 
-def read_iges(path: Path, for_blender: bool = True) -> SurfaceFile:
-    """Read the faces as one body, named after the file, or those that Blender can hold.
+class IgesReader:
+    """A reader of the faces of a file, or of those that Blender can hold."""
 
-    FileError if no face can be kept.
-    """
-    return _Reader(path, for_blender).read()
-
-
-class _Reader:
     def __init__(self, path: Path, for_blender: bool) -> None:
         self._for_blender = for_blender
         self._text = IgesText(path)
@@ -84,6 +76,7 @@ class _Reader:
         self._curves = CurveReader(self._text, self._matrix)
 
     def read(self) -> SurfaceFile:
+        """Read the faces as one body, named after the file. FileError if no face can be kept."""
         used = set(self._references())
         patches: list[Face] = []
         hidden = others = 0

@@ -17,11 +17,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.patch import Face
-from ..streams.decimals import parse_decimals
+from ..nurbs.splines import Face
 from ..streams.file_mesh import FileMesh, name_of_file, without_repeats
 from ..streams.findings import FILE_TOO_LARGE
-from ..streams.misread import map_file
+from ..streams.text_fields import map_file, parse_decimals
 from ..verdict.finding import FileError
 from ..verdict.number_text import parse_number, parse_whole
 from .findings import OBJ_CALL, SURFACE_ORDER, SURFACE_TRIMMED, SURFACE_UNSUPPORTED
@@ -58,11 +57,6 @@ def has_surfaces(path: str | Path) -> bool:
     return False
 
 
-def read_obj(path: Path, for_blender: bool = True) -> SurfaceFile:
-    """Read the surfaces, without a unit, or those that Blender can hold. FileError if no surface can be kept."""
-    return _Reader(path, for_blender).read()
-
-
 @dataclass
 class _Element:
     """A ``surf`` statement, with the settings that are in effect at its place in the file."""
@@ -78,13 +72,16 @@ class _Element:
     trimmed: bool = False
 
 
-class _Reader:
+class ObjReader:
+    """A reader of the surfaces of a file, or of those that Blender can hold."""
+
     def __init__(self, path: Path, for_blender: bool) -> None:
         self._path, self._for_blender, self._refusals = path, for_blender, Refusals()
         self._vertices: list[list[str]] = []
         self._elements: list[_Element] = []
 
     def read(self) -> SurfaceFile:
+        """Read the surfaces, without a unit. FileError if no surface can be kept."""
         self._parse()
         points, weights = self._points()
         bodies: dict[str, list[Face]] = {}

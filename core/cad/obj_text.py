@@ -15,7 +15,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from ..streams.misread import (
+from ..streams.text_fields import (
     BLOCK,
     MARK,
     SHORT,

@@ -11,16 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scans.findings import FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
-from ..scans.limits import DEFAULT_LIMITS, Limits
-from ..streams.boxes import box_of_blocks
-from ..streams.file_mesh import FileMesh
+from ..scans.scan_files import DEFAULT_LIMITS, Limits
+from ..streams.file_mesh import FileMesh, box_of_blocks
 from ..streams.measure import KINDS
 from ..verdict.finding import FileError
-from .iges import read_iges
-from .obj import UPRIGHT, read_obj, read_obj_meshes
+from .iges import IgesReader
+from .obj import UPRIGHT, ObjReader, read_obj_meshes
 from .surfaces import SurfaceFile
 
-_READERS = {".igs": read_iges, ".iges": read_iges, ".obj": read_obj}
+_READERS = {".igs": IgesReader, ".iges": IgesReader, ".obj": ObjReader}
 SUFFIXES = tuple(_READERS)
 
 
@@ -31,7 +30,7 @@ def read_surfaces(path: str | Path, limits: Limits = DEFAULT_LIMITS, for_blender
     """
     path, suffix = _existing_file(path, SUFFIXES)
     limits.check(path, "text_bytes", path.stat().st_size)
-    return _READERS[suffix](path, for_blender)
+    return _READERS[suffix](path, for_blender).read()
 
 
 def read_meshes(path: str | Path) -> tuple[list[FileMesh], NDArray[np.float64]]:

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.bspline import SplineSpace
-from ..nurbs.bezier_form import bezier_patches, bezier_space
+from ..nurbs.blender_knots import bezier_patches, bezier_space
 from ..nurbs.findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
-from ..nurbs.patch import Face, Patch
+from ..nurbs.splines import Face, Patch
 from ..streams.findings import FILE_TOO_LARGE, FILE_WITHOUT_OBJECTS
 from ..verdict.finding import FileError, Finding, MeasureError, finding, truncate_findings
 from .findings import NO_SURFACE_KEPT, SURFACE_DAMAGED, SURFACE_ORDER, SURFACE_POINTS, SURFACE_TOO_LARGE
@@ -92,27 +92,22 @@ class Refusals:
         """Note that one surface, or another entity, was refused, with the finding's code and values."""
         self.names.setdefault((code, kind, tuple(values.items())), []).append(name)
 
-    def findings(self) -> tuple[Finding, ...]:
-        """Return one finding for each reason and kind."""
-        found = []
-        for (code, kind, values), names in self.names.items():
-            known = dict(values)
-            if "cause" in known:
-                known["cause"] = known["cause"].as_record()
-            found.append(finding(code, kind=kind, count=len(names), names=names[:MAX_NAMES], **known))
-        return tuple(found)
-
     def file(
         self, bodies: Sequence[SurfaceBody], unit: float | None = None, notes: Sequence[Finding] = ()
     ) -> SurfaceFile:
         """Return the file's bodies with patches, and its refusals. FileError if no body has patches."""
-        refused, kept = self.findings(), tuple(body for body in bodies if body.patches)
+        refused, kept = [], tuple(body for body in bodies if body.patches)
+        for (code, kind, values), names in self.names.items():  # one finding for each reason and kind
+            known = dict(values)
+            if "cause" in known:
+                known["cause"] = known["cause"].as_record()
+            refused.append(finding(code, kind=kind, count=len(names), names=names[:MAX_NAMES], **known))
         if not kept and refused:
             causes = [reason.as_record() for reason in truncate_findings(refused, MAX_REASONS)]
             raise FileError(NO_SURFACE_KEPT, causes=causes)
         if not kept:
             raise FileError(FILE_WITHOUT_OBJECTS, content="surfaces")
-        return SurfaceFile(kept, unit, refused, tuple(notes), sum(map(len, self.names.values())))
+        return SurfaceFile(kept, unit, tuple(refused), tuple(notes), sum(map(len, self.names.values())))
 
 
 def placed_surface(

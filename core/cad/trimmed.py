@@ -14,11 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..nurbs.curve import Curve
 from ..nurbs.flat_face import FlatFace
-from ..nurbs.patch import Face, Patch, patches_size
 from ..nurbs.patch_moments import vector_area
-from ..nurbs.patch_topology import nearest_parameters
+from ..nurbs.seams import nearest_parameters
+from ..nurbs.splines import Curve, Face, Patch, patches_size
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
 from .findings import SURFACE_TRIMMED
@@ -60,7 +59,9 @@ def trimmed_faces(
             return [patch]
         tolerance = FLAT_RTOL * patches_size([surface]) + 4.0 * rounding
         if _is_flat(patch, tolerance):
-            outer = [] if has_outer else [Boundary(_around(patch), None)]
+            around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
+            around = [curve for curve in around if np.ptp(curve.points, axis=0).any()]
+            outer = [] if has_outer else [Boundary(around, None)]
             return [_flat_face(surface, domain, [*outer, *boundaries], tolerance)]
     raise SurfaceRefusedError(SURFACE_TRIMMED)
 
@@ -81,12 +82,6 @@ def _is_flat(patch: Patch, tolerance: float) -> bool:
     points = patch.points.reshape(-1, 3) - patch.points[0, 0]
     normal = np.linalg.svd(points - points.mean(axis=0), full_matrices=True)[2][2]
     return bool(np.ptp(points @ normal) <= tolerance)
-
-
-def _around(patch: Patch) -> list[Curve]:
-    """Return the sides of a patch as a loop."""
-    around = [curve if ahead else curve.reverse() for curve, ahead in patch.sides]
-    return [curve for curve in around if np.ptp(curve.points, axis=0).any()]
 
 
 def _flat_face(
@@ -127,6 +122,27 @@ def _follow_sides(
     samples = [[curve.evaluate(np.linspace(*curve.space.domain, SAMPLES)) for curve in row] for row in sides]
     poles = tuple((_is_point(first, tolerance), _is_point(last, tolerance)) for first, last in samples)
     closed = tuple(bool(np.abs(first - last).max() <= tolerance) for first, last in samples)
+
+    def along_sides(points: NDArray) -> Piece | None:
+        """Return the run of points along a side, in its parameters from 0 to 1; None if they are on no side."""
+        for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
+            if poles[axis][end]:
+                continue
+            side = sides[axis][end]
+            t = nearest_parameters(side, samples[axis][end], points, tolerance)
+            if np.linalg.norm(points - side.evaluate(t), axis=1).max() > tolerance:
+                continue
+            low, high = side.space.domain
+            share = (t - low) / (high - low)
+            if closed[1 - axis]:
+                steps = np.diff(share)
+                share = share[0] + np.append(0.0, np.cumsum(steps - np.round(steps)))
+            ends = np.full((2, 2), float(end))
+            ends[:, 1 - axis] = share[[0, -1]]
+            whole = np.round(ends)
+            return Piece(np.where(np.abs(ends - whole) <= END_TOLERANCE, whole, ends), True)
+        return None
+
     pieces: list[Piece] = []
     if all(boundary.parameters is not None for boundary in boundaries):
         for curve in [curve for boundary in boundaries for curve in boundary.parameters or ()]:
@@ -140,7 +156,7 @@ def _follow_sides(
                 points = curve.evaluate(np.linspace(*curve.space.domain, SAMPLES))
                 if _is_point(points, tolerance):
                     continue
-                piece = _along_sides(points, sides, samples, poles, closed, tolerance)
+                piece = along_sides(points)
                 if piece is None:
                     return False
                 pieces.append(piece)
@@ -149,34 +165,6 @@ def _follow_sides(
 
 def _is_point(points: NDArray, tolerance: float) -> bool:
     return bool(np.linalg.norm(points - points[0], axis=1).max() <= tolerance)
-
-
-def _along_sides(
-    points: NDArray,
-    sides: Sequence[Sequence[Curve]],
-    samples: Sequence[Sequence[NDArray]],
-    poles: Sequence[Sequence[bool]],
-    closed: Sequence[bool],
-    tolerance: float,
-) -> Piece | None:
-    """Return the run of points along a side of a patch, in its parameters from 0 to 1; None if they are on no side."""
-    for axis, end in ((0, 0), (0, 1), (1, 0), (1, 1)):
-        if poles[axis][end]:
-            continue
-        side = sides[axis][end]
-        t = nearest_parameters(side, samples[axis][end], points, tolerance)
-        if np.linalg.norm(points - side.evaluate(t), axis=1).max() > tolerance:
-            continue
-        low, high = side.space.domain
-        share = (t - low) / (high - low)
-        if closed[1 - axis]:
-            steps = np.diff(share)
-            share = share[0] + np.append(0.0, np.cumsum(steps - np.round(steps)))
-        ends = np.full((2, 2), float(end))
-        ends[:, 1 - axis] = share[[0, -1]]
-        whole = np.round(ends)
-        return Piece(np.where(np.abs(ends - whole) <= END_TOLERANCE, whole, ends), True)
-    return None
 
 
 @dataclass(frozen=True, eq=False)

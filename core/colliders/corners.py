@@ -3,10 +3,14 @@
 """The least motion of hulls' corners that gives colliders of uniform density the mass properties of a body.
 
 The volume and the first and second moments of the hulls together are ten functions of the corners, with exact
-derivatives. The moves have the least Σ area |move|², each corner standing for an equal share of its faces' areas, and
-each at most the limit. They are found by Gauss and Newton's method with a trust region for every corner. Each step
-takes the hulls of the moved corners anew, so that they stay convex: a face that folds one way has other derivatives
-than if it folds the other way, so after a failed step the mean of both is tried.
+derivatives. No known convex body has a greater determinant of the covariance, at its volume, than a tetrahedron, so no
+hull comes near to a chair. Then the volume is given up and the nine ratios to it remain, which an affine map alone can
+meet. Engines are told the mass.
+
+The moves have the least Σ area |move|², each corner standing for an equal share of its faces' areas, and each at most
+the limit. They are found by Gauss and Newton's method with a trust region for every corner. Each step takes the hulls
+of the moved corners anew, so that they stay convex: a face that folds one way has other derivatives than if it folds
+the other way, so after a failed step the mean of both is tried.
 """
 
 from __future__ import annotations
@@ -32,7 +36,8 @@ from ..verdict.finding import MeasureError
 
 SUMS = monomial_count(2)
 DEGREE = monomials(2).sum(axis=1)
-REACHED = 1e-10  # of the body's volume and size
+REACHED = 1e-8  # of the body's volume and size, as precise as single precision
+NEAR = 1e-6  # beyond which the volume is given up
 MAX_STEPS, MAX_MULTIPLIER_STEPS = 60, 60
 FIRST_RADIUS, LEAST_RADIUS = 0.1, 1e-6  # of the trust region, in the body's radii of gyration
 MIN_AREA = 1e-3  # of the largest share: corners with less move as if they had so much
@@ -45,16 +50,22 @@ def correct_vertices(
 ) -> list[Shape]:
     """Move corners of hulls as little as possible so that uniform density gives mass, center and inertia of a body.
 
-    No corner moves farther than the smaller tolerance, in m; if that does not suffice, the result comes as near to the
-    body as it is found to come. Primitives stay as they are. surface: the body's. MeasureError if it has no volume.
+    The density is the body's if it can be, else another that gives the mass. No corner moves farther than the smaller
+    tolerance, in m; if that does not suffice, the result comes as near to the body as it is found to come. Primitives
+    stay as they are. surface: the body's. MeasureError if it has no volume.
     """
     places = [place for place, shape in enumerate(shapes) if shape.kind == "mesh"]
     if not places:
         return list(shapes)
     fixed = [moments_of(shape) for shape in shapes if shape.kind != "mesh"]
-    hulls = _Hulls(body, polyhedron_moments(surface)[0].total, [_corners(shapes[place]) for place in places], fixed)
+    parts, volume = [_corners(shapes[place]) for place in places], polyhedron_moments(surface)[0].total
+    hulls = _Hulls(body, volume, parts, fixed)
+    points, off = _solve(hulls, min(outward, inward) / hulls.size)
+    if off > NEAR:
+        hulls = _Hulls(body, volume, parts, fixed, is_density_free=True)
+        points, _ = _solve(hulls, min(outward, inward) / hulls.size)
     result = list(shapes)
-    for place, hull in zip(places, hulls.take(_solve(hulls, min(outward, inward) / hulls.size))):
+    for place, hull in zip(places, hulls.take(points)):
         moved = Surface(hulls.size * hull.points + body.center, hull.triangles)
         result[place] = replace(shapes[place], size=(1.0, 1.0, 1.0), pose=Pose(), surface=moved)
     return result
@@ -67,22 +78,25 @@ def _corners(shape: Shape) -> NDArray[np.float64]:
 
 
 class _Hulls:
-    """The ten sums of hulls as functions of all their corners, relative to the body's volume.
+    """The ten sums of hulls as functions of all their corners, relative to the body's volume, or to their own.
 
     Lengths are in radii of gyration of the body, `size`, from its center. start: (n, 3) corners before they move.
     """
 
-    def __init__(self, body: MassProperties, volume: float, parts: list[NDArray], fixed: list[Moments]) -> None:
+    def __init__(
+        self, body: MassProperties, volume: float, parts: list[NDArray], fixed: list[Moments], is_density_free=False
+    ) -> None:
+        self.is_density_free = is_density_free
         second = (body.inertia.trace() / 2.0 * np.eye(3) - body.inertia) / body.mass
         self.size = sqrt(float(second.trace()))
         self.start = (np.concatenate(parts) - body.center) / self.size
         self.starts = np.cumsum([0, *(len(part) for part in parts)])
         self.density = self.size**3 / volume
-        self.target = np.zeros(SUMS)
+        self.target, self.fixed = np.zeros(SUMS), np.zeros(SUMS)
         self.target[0] = 1.0
         self.target[SECOND_MOMENT_INDEX] = second / self.size**2
         for moments in fixed:
-            self.target -= moments.about_point(body.center).raw[:SUMS] / (volume * self.size**DEGREE)
+            self.fixed += moments.about_point(body.center).raw[:SUMS] / (volume * self.size**DEGREE)
 
     def take(self, points: NDArray[np.float64]) -> list[ConvexHull]:
         """Return the hulls of moved corners. MeasureError if one has no volume."""
@@ -97,16 +111,20 @@ class _Hulls:
             gradient[:, places] = volume_gradient(surface, np.zeros(3), order=2).transpose(1, 0, 2)
             shares = np.repeat(triangle_areas(hull.points, hull.triangles), 3)
             areas[places] = sums_by_index(hull.triangles.ravel(), shares, len(hull.points))
-        return self.target - self.density * sums, self.density * gradient, areas
+        sums, gradient = self.fixed + self.density * sums, self.density * gradient
+        if self.is_density_free:
+            sums, gradient = sums / sums[0], gradient / sums[0]
+            gradient -= sums[:, None, None] * gradient[0]
+        return self.target - sums, gradient, areas
 
 
-def _solve(hulls: _Hulls, limit: float) -> NDArray[np.float64]:
-    """Return the (n, 3) corners that have the body's sums with the least motion, or nearly have them."""
+def _solve(hulls: _Hulls, limit: float) -> tuple[NDArray[np.float64], float]:
+    """Return the (n, 3) corners that have the body's sums with the least motion, or nearly, and what is missing."""
     moves, (missing, gradient, areas) = np.zeros_like(hulls.start), hulls.evaluate(hulls.start)
+    off = float(np.linalg.norm(missing))
     areas = np.maximum(areas, MIN_AREA * areas.max())
     radius = FIRST_RADIUS
     for _ in range(MAX_STEPS):
-        off = float(np.linalg.norm(missing))
         if off <= REACHED or radius < LEAST_RADIUS:
             break
         # Each corner moves within a ball that is in its trust region and within the limit.
@@ -121,14 +139,14 @@ def _solve(hulls: _Hulls, limit: float) -> NDArray[np.float64]:
         except MeasureError:
             radius /= 4.0
             continue
-        gain = off - float(np.linalg.norm(state[0]))
-        if gain > 0.1 * (off - expected):
-            moves, (missing, gradient, _) = trial, state
-            radius *= 2.0 if gain > 0.5 * (off - expected) else 1.0
+        still_off = float(np.linalg.norm(state[0]))
+        if off - still_off > 0.1 * (off - expected):
+            radius *= 2.0 if off - still_off > 0.5 * (off - expected) else 1.0
+            off, moves, (missing, gradient, _) = still_off, trial, state
         else:
             gradient = (gradient + state[1]) / 2.0
             radius /= 2.0
-    return hulls.start + moves
+    return hulls.start + moves, off
 
 
 def _least_moves(

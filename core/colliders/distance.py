@@ -43,7 +43,7 @@ def distances(
     triangles = surface.all_triangles()[0].astype(np.intp)
     points = np.asarray(surface.points, np.float64)
     size = float(np.ptp(hull.points, axis=0).max())
-    solids, sags = zip(*map(_polyhedron, shapes))
+    solids, sags = zip(*(_polyhedron(shape, hull) for shape in shapes))
     samples, step = (hull.points, 0.0) if len(solids) == 1 else _samples(points, triangles, size / STEPS)
     nearest = np.full(len(samples), np.inf)
     for shape, solid in zip(shapes, solids):
@@ -102,11 +102,14 @@ def _unit(kind: str) -> ConvexHull:
     return convex_hull(points, 1e-9)
 
 
-def _polyhedron(shape: Shape) -> tuple[ConvexHull, float]:
-    """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies in a round shape."""
+def _polyhedron(shape: Shape, body: ConvexHull) -> tuple[ConvexHull, float]:
+    """Return a shape as a convex polyhedron in the link's frame, and the depth by which that lies in a round shape.
+
+    body: the hull of the body, which may be the shape.
+    """
     if shape.surface is not None:
-        hull = convex_hull(np.asarray(shape.surface.points, np.float64) * shape.size, 1e-9)
-        return replace(hull, points=_placed(hull.points, shape)), 0.0
+        points = _placed(shape.surface.points * shape.size, shape)
+        return body if np.array_equal(points, body.points) else convex_hull(points, 1e-9), 0.0
     hull, size = _unit("sphere" if shape.kind == "ellipsoid" else shape.kind), shape.size
     if shape.kind == "capsule":  # the ends move apart, and no face changes
         ends = np.where((hull.indices < ROUND_POINTS)[:, None], END, -END)

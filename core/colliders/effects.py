@@ -12,18 +12,17 @@ can, then the inertia.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
-from math import asin, sqrt
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.findings import NO_CERTAIN_VOLUME
 from ..inertia.mass_properties import MassProperties
-from ..inertia.plain_body import EQUAL_MOMENTS_RTOL
 from ..moments.exponents import monomial_count, monomials
 from ..moments.moments import SECOND_MOMENT_INDEX
-from ..robots.model import Shape
+from ..robots.comparison import Effect, compare, ratio
+from ..robots.model import Inertial, Shape
 from ..robots.shapes import moments_of
 from ..verdict.finding import MeasureError
 
@@ -34,27 +33,6 @@ IN_NORM = np.where(monomials(2).max(axis=1) * 2 == DEGREE, np.sqrt(2.0), 1.0) * 
 HELD_WEIGHT, NEARNESS = 30.0, 1e-5  # Beside sums that are not held. Repetition takes the effect on held ones away.
 REPETITIONS = 40
 ROUNDING, REACHED = 1e-15, 1e-11  # of the body's mass and size
-
-
-@dataclass(frozen=True)
-class Effect:
-    """Mass properties of the colliders beside those of the body, in the body's frame, SI.
-
-    The ratios are those of colliders to body, None if the body's number is zero. center_shift: (3,) m, from the body's
-    center. moment_ratios: (3,) of the ascending principal moments. axes_turn: the angle between the principal axes that
-    both have, rad. inertia_change: the norm of the change of the tensor, in parts of the norm of the body's.
-    """
-
-    volume_ratio: float | None
-    mass_ratio: float | None
-    center_shift: tuple[float, ...]
-    moment_ratios: tuple[float | None, ...]
-    axes_turn: float
-    inertia_change: float | None
-
-    def as_record(self) -> dict[str, float | list[float | None] | None]:
-        """Return the plain numbers by their keys in a record."""
-        return {key: list(value) if isinstance(value, tuple) else value for key, value in asdict(self).items()}
 
 
 def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effect:
@@ -68,19 +46,8 @@ def effect(body: MassProperties, shapes: Sequence[Shape], volume: float) -> Effe
         raise MeasureError(NO_CERTAIN_VOLUME)
     shift = sums[1:4] / sums[0]
     second = sums[SECOND_MOMENT_INDEX] - sums[0] * np.outer(shift, shift)
-    spreads, axes = np.linalg.eigh(second)
-    spreads, axes = np.maximum(spreads[::-1], 0.0), axes[:, ::-1]
-    moments = spreads.sum() - spreads
-    inertia = second.trace() * np.eye(3) - second
-    own = body.principal.moments
-    return Effect(
-        _ratio(float(sum(shares)), volume),
-        _ratio(float(sums[0]), body.mass),
-        tuple(shift.tolist()),
-        tuple(_ratio(a, b) for a, b in zip(moments.tolist(), own.tolist())),
-        _axes_turn(own, body.principal.axes, moments, axes),
-        _ratio(float(np.linalg.norm(inertia - body.inertia)), float(np.linalg.norm(body.inertia))),
-    )
+    own = Inertial(body.mass, body.center, body.inertia, body.principal.moments, body.principal.axes)
+    return compare(own, float(sums[0]), shift, second, ratio(float(sum(shares)), volume))
 
 
 def uniform_masses(density: float, shapes: Sequence[Shape]) -> list[float]:
@@ -111,7 +78,8 @@ def correct_masses(body: MassProperties, shapes: Sequence[Shape]) -> list[float]
             center, _ = _nearest(rows[:4], target[:4], 1, weights)
             target[1:4] = rows[1:4] @ center
         roots, _ = _nearest(rows, target, 4, weights)
-    return (body.mass * weights * roots).tolist()
+    shares = weights * roots
+    return (body.mass / shares.sum() * shares).tolist()
 
 
 def _ten_sums(body: MassProperties, shapes: Sequence[Shape]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -169,27 +137,3 @@ def _nonnegative(system: NDArray[np.float64], target: NDArray[np.float64], x: ND
             break
         free[entering] = True
     return x
-
-
-def _ratio(value: float, of: float) -> float | None:
-    return value / of if of > 0.0 else None
-
-
-def _axes_turn(own: NDArray, own_axes: NDArray, moments: NDArray, axes: NDArray) -> float:
-    """Return the least angle that turns a body's principal axes to others; moments ascend, (3, 3) columns are axes.
-
-    Equal moments leave their axes free: then the angle between the third axes counts, or none if all are equal.
-    """
-    equal = [(np.diff(one) <= EQUAL_MOMENTS_RTOL * one[2]).tolist() for one in (own, moments)]
-    low, high = equal[0][0] or equal[1][0], equal[0][1] or equal[1][1]
-    if low and high:
-        return 0.0
-    if low or high:
-        axis = 2 if low else 0
-        a, b = own_axes[:, axis], axes[:, axis]
-        return 2.0 * asin(min(1.0, float(min(np.linalg.norm(a - b), np.linalg.norm(a + b))) / 2.0))
-    along = np.diagonal(own_axes.T @ axes)
-    signs = np.where(along < 0.0, -1.0, 1.0)
-    if np.linalg.det(axes * signs) < 0.0:
-        signs[np.abs(along).argmin()] *= -1.0
-    return 2.0 * asin(min(1.0, float(np.linalg.norm(axes * signs - own_axes)) / sqrt(8.0)))

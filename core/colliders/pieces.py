@@ -5,16 +5,12 @@
 Each step divides the piece whose best plane gains most. Candidates for planes contain a concave edge, or divide the
 piece evenly; all of them are compared at once on a coarse copy of the piece. More pieces than wanted are made; those
 whose common hull costs least are merged afterwards.
-
-A piece is a closed set of planar faces, each a cycle of directed edges, so that a cut needs no triangulation: in each
-face, the chords between the places where its edges cross the plane close the cycle again, and all chords together
-bound the new face in the plane.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -22,11 +18,11 @@ from numpy.typing import NDArray
 
 from ..mesh.hulls import ConvexHull, convex_hull, hull_volumes
 from ..mesh.point_triangle import triangle_distances
-from ..mesh.surface import Surface, normals, triangle_areas
+from ..mesh.surface import Surface, triangle_areas
 from ..numerics.graph import connected_components
 from ..robots.plausibility import spread_directions
+from .cuts import ON_PLANE_RTOL, Piece, connected_parts, cut, piece_from_surface
 
-ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
 HULL_RTOL = 1e-6  # of the resulting hulls
 SEARCH_RTOL = 1e-4  # of hulls that are only compared
 COARSE_POINTS = 96  # of the copy that planes are compared on
@@ -40,43 +36,6 @@ MERGE_CORNERS = 96  # of hulls that are compared before they are merged
 SPARE = 2  # pieces made for each wanted piece, before they are merged
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise from outside.
-
-    face, start, end: (e,). normals: (f, 3) of faces.
-    """
-
-    points: NDArray[np.float64]
-    face: NDArray[np.intp]
-    start: NDArray[np.intp]
-    end: NDArray[np.intp]
-    normals: NDArray[np.float64]
-
-    def volume(self) -> float:
-        """Return the signed volume: the sum of the cones of each face's fan."""
-        origin = self.points[self.start[0]]
-        a, b, c = (self.points[ids] - origin for ids in (self.first()[self.face], self.start, self.end))
-        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
-
-    def first(self) -> NDArray[np.intp]:
-        """Return (f,) a point of each face."""
-        first = np.zeros(len(self.normals), np.intp)
-        first[self.face[::-1]] = self.start[::-1]
-        return first
-
-    def take(self, chosen: NDArray[np.bool_]) -> _Piece:
-        """Return the piece of some of the edges, with only the points and faces that they use."""
-        ids, ends = np.unique(np.stack([self.start[chosen], self.end[chosen]]), return_inverse=True)
-        faces, face = np.unique(self.face[chosen], return_inverse=True)
-        start, end = ends.reshape(2, -1)
-        return _Piece(self.points[ids], face, start, end, self.normals[faces])
-
-    def edges(self) -> NDArray[np.intp]:
-        """Return the (k, 2) different edges without a direction."""
-        return np.unique(np.sort(np.stack([self.start, self.end], axis=1), axis=1), axis=0)
-
-
 def cut_into_pieces(
     surface: Surface, outward: float, pieces: int, corners: int
 ) -> Generator[float, None, list[ConvexHull]]:
@@ -85,14 +44,14 @@ def cut_into_pieces(
     surface: closed and outward. outward: m; a piece is not divided if its hull is nowhere seen farther from it.
     pieces: at most so many. corners: of each hull, at most.
     """
-    body = [*_connected(_from_surface(surface))]
+    body = [*connected_parts(piece_from_surface(surface))]
     volume = sum(piece.volume() for piece in body)
     open_pieces = [(piece, *_best_plane(piece, outward, volume)) for piece in body]
-    done: list[_Piece] = []
+    done: list[Piece] = []
     while open_pieces and len(done) + len(open_pieces) < SPARE * pieces:
         best = max(range(len(open_pieces)), key=lambda i: open_pieces[i][1])
         piece, gain, plane = open_pieces.pop(best)
-        parts = [*_cut(piece, plane)] if gain > LEAST_GAIN * volume else []
+        parts = [*cut(piece, plane)] if gain > LEAST_GAIN * volume else []
         if len(parts) < 2:
             done.append(piece)
             continue
@@ -103,148 +62,7 @@ def cut_into_pieces(
     return [convex_hull(points, HULL_RTOL, corners) for points in groups]
 
 
-def _from_surface(surface: Surface) -> _Piece:
-    triangles = surface.all_triangles()[0].astype(np.intp)
-    points = np.asarray(surface.points, np.float64)
-    triangles = _join_open_edges(points, triangles)
-    normal = normals(points, triangles)
-    real = np.linalg.norm(normal, axis=1) > 0.0
-    triangles, normal = triangles[real], normal[real]
-    face = np.arange(len(triangles)).repeat(3)
-    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
-    return _Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
-
-
-def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Return triangles whose open edges share points that coincide: lids of curves and texts have points of their own.
-
-    Other points stay apart, so that parts that only touch do not become one.
-    """
-    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
-    is_open = ~np.isin(start * len(points) + end, end * len(points) + start)
-    ends = np.unique(np.concatenate([start[is_open], end[is_open]]))
-    if not len(ends):
-        return triangles
-    _, first, which = np.unique(points[ends] + 0.0, axis=0, return_index=True, return_inverse=True)
-    number = np.arange(len(points))
-    number[ends] = ends[first[which.ravel()]]
-    return number[triangles]
-
-
-def _cut(piece: _Piece, plane: NDArray[np.float64]) -> Iterator[_Piece]:
-    """Yield the connected parts on both sides of a plane, (4,) its normal and offset."""
-    normal = plane[:3]
-    height = piece.points @ normal - plane[3]
-    height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(piece.points, axis=0).max()] = 0.0
-    low, high = np.minimum(piece.start, piece.end), np.maximum(piece.start, piece.end)
-    crosses = np.flatnonzero(height[low] * height[high] < 0.0)
-    keys, which = np.unique(low[crosses] * len(height) + high[crosses], return_inverse=True)
-    low, high = np.divmod(keys, len(height))
-    share = (height[low] / (height[low] - height[high]))[:, None]
-    points = np.concatenate([piece.points, (1.0 - share) * piece.points[low] + share * piece.points[high]])
-    crossing = np.full(len(piece.start), -1)
-    crossing[crosses] = len(height) + which
-    for sign in (1.0, -1.0):
-        half = _half(replace(piece, points=points), sign * height, crossing, sign * normal)
-        if half is not None:
-            yield from _connected(half)
-
-
-def _half(piece: _Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> _Piece | None:
-    """Return the part of a piece above a plane, closed in the plane; crossing: the point on each edge, or -1."""
-    from_above, to_above = height[piece.start] > 0.0, height[piece.end] > 0.0
-    crosses = crossing >= 0
-    from_below, to_below = height[piece.start] < 0.0, height[piece.end] < 0.0
-    kept = (from_above | to_above) & ~from_below & ~to_below | crosses
-    if not kept.any():
-        return None
-    start = np.where(crosses & from_below, crossing, piece.start)
-    end = np.where(crosses & to_below, crossing, piece.end)
-    leaves, enters = kept & from_above & ~to_above, kept & to_above & ~from_above
-    where = np.concatenate([end[leaves], start[enters]])
-    face = np.concatenate([piece.face[leaves], piece.face[enters]])
-    step = np.ones(len(where), np.intp)
-    step[int(np.count_nonzero(leaves)) :] = -1
-    along = np.einsum("ij,ij->i", piece.points[where], np.cross(piece.normals[face], normal))
-    order = np.lexsort((along, face))
-    where, face, count = where[order], face[order], np.cumsum(step[order])
-    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:]))
-    chords = chords.repeat(np.abs(count[chords]))
-    forward = count[chords] > 0
-    begin = np.where(forward, where[chords], where[chords + 1])
-    stop = np.where(forward, where[chords + 1], where[chords])
-    lid = np.full(len(chords), len(piece.normals))
-    whole = _Piece(
-        piece.points,
-        np.concatenate([piece.face[kept], face[chords], lid]),
-        np.concatenate([start[kept], begin, stop]),
-        np.concatenate([end[kept], stop, begin]),
-        np.concatenate([piece.normals, -normal[None]]),
-    )
-    return whole.take(np.ones(len(whole.start), bool))
-
-
-def _connected(piece: _Piece) -> Iterator[_Piece]:
-    """Yield the connected parts of a piece; a cavity, and a hole of a face, belong to the part around them."""
-    label, number = connected_components(len(piece.points), piece.start, piece.end)
-    if number == 1:
-        yield piece
-        return
-    first, second = _joined_by_faces(piece, label)
-    group, _ = connected_components(number, first, second)
-    label = group[label]
-    parts = [piece.take(label[piece.start] == one) for one in np.unique(label[piece.start])]
-    volumes = [part.volume() for part in parts]
-    boxes = [(part.points.min(axis=0), part.points.max(axis=0)) for part in parts]
-    owner = list(range(len(parts)))
-    for i in np.flatnonzero(np.array(volumes) < 0.0).tolist():
-        around = [
-            j for j in owner
-            if volumes[j] > 0.0 and (boxes[j][0] <= boxes[i][0]).all() and (boxes[j][1] >= boxes[i][1]).all()
-        ]  # fmt: skip
-        owner[i] = min(around, key=volumes.__getitem__, default=i)
-    for i in sorted({*owner}):
-        members = [part for part, whose in zip(parts, owner) if whose == i]
-        yield members[0] if len(members) == 1 else _join(members)
-
-
-def _join(parts: Sequence[_Piece]) -> _Piece:
-    points = np.cumsum([0, *(len(part.points) for part in parts)])
-    faces = np.cumsum([0, *(len(part.normals) for part in parts)])
-    return _Piece(
-        np.concatenate([part.points for part in parts]),
-        np.concatenate([part.face + shift for part, shift in zip(parts, faces)]),
-        np.concatenate([part.start + shift for part, shift in zip(parts, points)]),
-        np.concatenate([part.end + shift for part, shift in zip(parts, points)]),
-        np.concatenate([part.normals for part in parts]),
-    )
-
-
-def _joined_by_faces(piece: _Piece, label: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return pairs of labels: of the holes in faces, and of the cycles around these."""
-    pairs = []
-    of_edge = label[piece.start]
-    low, high = np.full(len(piece.normals), len(label)), np.zeros(len(piece.normals), np.intp)
-    np.minimum.at(low, piece.face, of_edge)
-    np.maximum.at(high, piece.face, of_edge)
-    for face in np.flatnonzero(low < high).tolist():
-        edges = np.flatnonzero(piece.face == face)
-        a, b = piece.points[piece.start[edges]], piece.points[piece.end[edges]]
-        middle = a.mean(axis=0)
-        twice = np.einsum("ij,j->i", np.cross(a - middle, b - middle), piece.normals[face])
-        cycles, which = np.unique(of_edge[edges], return_inverse=True)
-        area = np.bincount(which, twice)
-        box = np.array([[a[which == i].min(axis=0), a[which == i].max(axis=0)] for i in range(len(cycles))])
-        for hole in np.flatnonzero(area <= 0.0).tolist():
-            around = (area > 0.0) & (box[:, 0] <= box[hole, 0]).all(axis=1) & (box[:, 1] >= box[hole, 1]).all(axis=1)
-            if around.any():
-                outer = np.flatnonzero(around)[area[around].argmin()]
-                pairs.append((cycles[hole], cycles[outer]))
-    first, second = np.array(pairs, np.intp).reshape(-1, 2).T
-    return first, second
-
-
-def _best_plane(piece: _Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
+def _best_plane(piece: Piece, outward: float, volume: float) -> tuple[float, NDArray[np.float64]]:
     """Return the largest reduction of hulls by a plane, on a coarse copy of the piece, and the (4,) plane.
 
     No single plane reduces the hulls of a ring or a cup: then planes through the middle are followed by another one.
@@ -259,12 +77,12 @@ def _best_plane(piece: _Piece, outward: float, volume: float) -> tuple[float, ND
     if excess < LEAST_EXCESS * piece.volume():
         return gain, best
     middle = _even_planes(coarse.points, np.array([0.5]))
-    gains = [sum(_best_of(part, part)[0] for part in _cut(coarse, plane)) for plane in middle]
+    gains = [sum(_best_of(part, part)[0] for part in cut(coarse, plane)) for plane in middle]
     # The hulls of a spiral's halves overlap: nothing gains until it is cut often, and most is merged again.
     return max(*gains, HOPE * excess), middle[int(np.argmax(gains))]
 
 
-def _best_of(coarse: _Piece, piece: _Piece) -> tuple[float, NDArray[np.float64]]:
+def _best_of(coarse: Piece, piece: Piece) -> tuple[float, NDArray[np.float64]]:
     """Return the largest reduction of the hulls by one plane, and the plane."""
     size = float(np.ptp(piece.points, axis=0).max())
     planes = np.concatenate([_concave_planes(piece, size), _even_planes(piece.points, SHARES)])
@@ -279,7 +97,7 @@ def _best_of(coarse: _Piece, piece: _Piece) -> tuple[float, NDArray[np.float64]]
     return float(gains.max()), near[gains.argmax()]
 
 
-def _is_near_hull(piece: _Piece, limit: float) -> bool:
+def _is_near_hull(piece: Piece, limit: float) -> bool:
     """Return whether places on the hull's faces and edges, of the largest faces first, are all this near to a piece."""
     hull = convex_hull(piece.points, SEARCH_RTOL, 64)
     largest = np.argsort(-triangle_areas(hull.points, hull.triangles), kind="stable")
@@ -289,7 +107,7 @@ def _is_near_hull(piece: _Piece, limit: float) -> bool:
     return all(float(triangle_distances(sample, fans).min()) <= limit for sample in samples)
 
 
-def _coarse(piece: _Piece) -> _Piece:
+def _coarse(piece: Piece) -> Piece:
     """Return a copy of a piece with at most some points: one for each cell of a grid, the farthest from the middle."""
     points, cells = piece.points, 16
     if len(points) <= COARSE_POINTS:
@@ -309,7 +127,7 @@ def _coarse(piece: _Piece) -> _Piece:
     return moved.take(moved.start != moved.end)
 
 
-def _concave_planes(piece: _Piece, size: float) -> NDArray[np.float64]:
+def _concave_planes(piece: Piece, size: float) -> NDArray[np.float64]:
     """Return (k, 4) planes through concave edges: in either face, and halfway between; the most important ones."""
     count = len(piece.points)
     key = np.minimum(piece.start, piece.end) * count + np.maximum(piece.start, piece.end)
@@ -350,7 +168,7 @@ def _even_planes(points: NDArray[np.float64], shares: NDArray[np.float64]) -> ND
 
 
 def _gains(
-    piece: _Piece, planes: NDArray[np.float64], measure: Callable[..., NDArray[np.float64]] = hull_volumes
+    piece: Piece, planes: NDArray[np.float64], measure: Callable[..., NDArray[np.float64]] = hull_volumes
 ) -> NDArray[np.float64]:
     """Return by how much each plane reduces the volume of the hulls of connected parts, for each part it adds."""
     points, edges = piece.points, piece.edges()

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scans.positions import AXES, EVEN, Positions
+from ..scans.formats import AXES, EVEN, Positions
 from ..verdict.finding import Finding, MeasureError, ReadError, finding
 from .findings import (
     BACKGROUND_EMPTY,

@@ -18,12 +18,11 @@ table adds no more than 9 roundings for each order and each corner to sums with 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
-from math import factorial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments.exponents import factorial_ratios
 from ..moments.moments import (
     FLOAT32_HALF_ULP,
     PAIRWISE_SUM_ROUNDINGS,
@@ -41,23 +40,6 @@ MIN_TRIANGLES_PER_BLOCK = 64
 CORNERS_PER_BLOCK = 1 << 16  # triangles whose corners are compared at a time
 
 
-@lru_cache
-def _degrees(order: int) -> NDArray[np.intp]:
-    """Return the (K,) degrees p + q + r of the monomials."""
-    return monomials(order).sum(axis=1)
-
-
-@lru_cache
-def _scales(order: int, more: int) -> NDArray[np.float64]:
-    """Return the (K,) factors α! / (|α| + more)! of the monomials."""
-    return np.array(
-        [
-            factorial(p) * factorial(q) * factorial(r) / factorial(p + q + r + more)
-            for p, q, r in monomials(order).tolist()
-        ]
-    )
-
-
 def _block_size(order: int) -> int:
     return max(TRIANGLES_PER_BLOCK * 20 // monomial_count(order), MIN_TRIANGLES_PER_BLOCK)
 
@@ -66,10 +48,10 @@ def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, li
     """Return ∫ ρ x^p y^q z^r dV for triangles (t, 3) with (t,) densities of their parts; like: their volume moments."""
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
-    raw = sums * _scales(like.order, 3)
+    raw = sums * factorial_ratios(monomials(like.order), 3)
     error = (
         (9.0 * U * (reach @ tau) + _relative_rounding(len(triangles), like.order) * sizes)
-        / (2.0 * _degrees(like.order) + 6.0)
+        / (2.0 * monomials(like.order).sum(axis=1) + 6.0)
         * _monomial_bounds(reach, like.order)
     )
     return Moments(
@@ -92,7 +74,7 @@ def sheet_mass_moments(
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=False)
     reach = _reach(points, triangles, like.about)
     more = density.ndim - 1
-    raw = sums * _scales(like.order, 2 + more)
+    raw = sums * factorial_ratios(monomials(like.order), 2 + more)
     bounds = _monomial_bounds(reach, like.order)
     size = sizes / 2.0 * bounds
     error = 9.0 * U * tau.sum() / 2.0 * bounds + _relative_rounding(len(triangles), like.order) * size
@@ -166,7 +148,7 @@ def _reach(points: NDArray, triangles: NDArray, center: NDArray) -> NDArray[np.f
 
 def _relative_rounding(count: int, order: int) -> NDArray[np.float64]:
     """Return the (K,) rounding errors relative to the sum of the terms' sizes."""
-    return U * (27.0 * (_degrees(order) + 1) + PAIRWISE_SUM_ROUNDINGS + count / _block_size(order) + 2.0)
+    return U * (27.0 * (monomials(order).sum(axis=1) + 1) + PAIRWISE_SUM_ROUNDINGS + count / _block_size(order) + 2.0)
 
 
 def _monomial_bounds(reach: NDArray, order: int) -> NDArray[np.float64]:

@@ -108,15 +108,19 @@ class Polynomial:
         net = np.zeros((self.degree + 1,) * 3)
         net[tuple(top.T)] = local * np.multiply.reduce((high - low) ** top, axis=1)
         tolerance = 64.0 * U * (self.degree + 1) * float(np.abs(net).sum())
-        for axis in range(3):
-            net = np.moveaxis(np.tensordot(_to_bernstein(self.degree), net, (1, axis)), 0, axis)
+        every = range(self.degree + 1)
+        bernstein = np.array([[math.comb(i, j) / math.comb(self.degree, j) for j in every] for i in every])
+        for axis in range(3):  # from coefficients of t^j to Bernstein coefficients on [0, 1]
+            net = np.moveaxis(np.tensordot(bernstein, net, (1, axis)), 0, axis)
         boxes = [(float(net.min()), 0, net)]  # a heap: the least bound first; the number breaks ties
         for number in range(1, 2 * MAX_BOXES, 2):
             least, _, net = boxes[0]
             if least >= -tolerance or min(net[corner] for corner in CORNERS) < 0.0:  # corners of the net are values
                 break
             heapq.heappop(boxes)
-            for i, half in enumerate(_halves(net, _most_curved_axis(net))):
+            # Second differences bound the net's distance from the polynomial.
+            curved = int(np.argmax([np.abs(np.diff(net, 2, axis)).max() for axis in range(3)]))
+            for i, half in enumerate(_halves(net, curved)):
                 heapq.heappush(boxes, (float(half.min()), number + i, half))
         return boxes[0][0] - tolerance
 
@@ -247,16 +251,6 @@ def _translate(terms: dict[Exponents, Fraction], axis: int, by: Fraction) -> dic
             factor = math.comb(powers[axis], k) * by ** (powers[axis] - k)
             result[p, q, r] = result.get((p, q, r), Fraction(0)) + value * factor
     return _nonzero(result)
-
-
-def _to_bernstein(degree: int) -> NDArray[np.float64]:
-    """Return the (n+1, n+1) matrix from coefficients of t^j to Bernstein coefficients on [0, 1]."""
-    return np.array([[math.comb(i, j) / math.comb(degree, j) for j in range(degree + 1)] for i in range(degree + 1)])
-
-
-def _most_curved_axis(net: NDArray) -> int:
-    """Return the axis of the largest second differences, which bound the net's distance from the polynomial."""
-    return int(np.argmax([np.abs(np.diff(net, 2, axis)).max() for axis in range(3)]))
 
 
 def _halves(net: NDArray, axis: int) -> tuple[NDArray, NDArray]:

@@ -29,7 +29,7 @@ from ..numerics.quadrature import gauss_legendre
 from ..verdict.finding import MeasureError
 from .findings import DENSITY_NON_FINITE, GRID_TRANSFORM_SINGULAR
 from .spline_grid import contract
-from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules, interpolate
+from .threshold_cells import TURNS, Cells, Columns, amounts_of, compare_rules
 
 RULES = ((3, 5), (8, 12))  # points along x and y of two rules to compare; then of two finer rules
 TOLERANCE = 1e-11  # Relative to the volume: allowed difference of the rules in all uncut cells together.
@@ -145,19 +145,15 @@ def threshold_body(
             sums.add_cut_cells(Cells.join(cut), threshold)
             cut = []
     about = about.astype(np.float64)
-    volume = Moments(sums.volume, about, Measure.VOLUME, sums.rounding_error("volume")).transform(matrix)
-    area = Moments(sums.area, about, Measure.MASS, sums.rounding_error("area")).transform(
-        matrix
-    )  # its scale is in the sums
-    mass = (
-        Moments(sums.mass, about, Measure.VOLUME, sums.rounding_error("mass")).transform(matrix)
-        if with_density
-        else None
-    )
+
+    def moments(name: str, measure: Measure, scaled_as: Measure = Measure.VOLUME) -> Moments:
+        raw, error = getattr(sums, name), sums.rounding_error(name)
+        return replace(Moments(raw, about, scaled_as, error).transform(matrix), measure=measure)
+
     return ThresholdBody(
-        volume,
-        replace(area, measure=Measure.AREA),
-        None if mass is None else replace(mass, measure=Measure.MASS),
+        moments("volume", Measure.VOLUME),
+        moments("area", Measure.AREA, Measure.MASS),  # its scale is in the sums
+        moments("mass", Measure.MASS) if with_density else None,
         count,
         bool(clipped),
     )
@@ -300,27 +296,14 @@ class _Sums:
             self.volume[number] += np.einsum("i,i->", across[p, q], inside[r])
             self.area[number] += np.einsum("i,i->", across[p, q], levels[r])
         self.terms += len(cell)
-        if self.with_density:
-            self._add_masses(columns, kept, place, (z0, size), floor, turn, threshold)
-
-    def _add_masses(
-        self,
-        columns: Columns,
-        kept: NDArray,
-        place: list[NDArray],
-        column: tuple[NDArray, NDArray],
-        floor: NDArray,
-        turn: tuple,
-        threshold: float,
-    ) -> None:
-        """Add the masses of columns with densities that are linear along them, for which Gauss's rule is exact."""
-        first, size = column
-        low, height = columns.low[kept], (columns.high - columns.low)[kept]
+        if not self.with_density:
+            return
+        # The density is linear along a column, so that Gauss's rule is exact for the masses.
+        first, height = columns.low[kept], (columns.high - columns.low)[kept]
         for node, weight in zip(*gauss_legendre((self.order + 1) // 2 + 1)):
-            z = low + node * height
+            z = first + node * height
             density = threshold + columns.density[kept] + columns.growth[kept] * z
-            points = [*place, first + size * z]
-            self._add_points("mass", floor * size * height * weight * density, points, turn)
+            self._add_points("mass", floor * size * height * weight * density, [*place, z0 + size * z], turn)
 
     def _add_points(self, measure: str, amounts: NDArray, points: list[NDArray], turn: tuple = TURNS[2]) -> None:
         total, size = getattr(self, measure), getattr(self, measure + "_size")
@@ -341,19 +324,16 @@ class _Sums:
             volumes = weights[list(place)].prod() * cells.size**3
             self._add_points("volume", volumes, points)
             if self.with_density:
-                self._add_points("mass", volumes * (threshold + interpolate(cells.corners, u, v, w)), points)
+                above = np.einsum("nijk,i,j,k->n", cells.corners, (1.0 - u, u), (1.0 - v, v), (1.0 - w, w))
+                self._add_points("mass", volumes * (threshold + above), points)
         self.terms += len(cells.size)
 
     def _give_up(self, cells: Cells, threshold: float) -> None:
         """Add half of the remaining cells to the moments, and all of them to the error estimate."""
         center = cells.origin + cells.size[:, None] / 2.0
-        tables = [power_table(values, self.order) for values in center.T]
-        for number, (p, q, r) in enumerate(self.powers.tolist()):
-            self.volume[number] += (cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]).sum()
-            if self.with_density:
-                self.mass[number] += (
-                    threshold * cells.size**3 / 2.0 * tables[0][p] * tables[1][q] * tables[2][r]
-                ).sum()
+        self._add_points("volume", cells.size**3 / 2.0, list(center.T))
+        if self.with_density:
+            self._add_points("mass", threshold * cells.size**3 / 2.0, list(center.T))
         self._add_largest("estimate", cells, threshold, cells.size**3, 6.0 * self.face * cells.size**2)
 
     def _add_largest(self, name: str, cells: Cells, threshold: float, volumes: NDArray, areas: NDArray) -> None:

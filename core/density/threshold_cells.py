@@ -158,9 +158,3 @@ def compare_rules(
     columns = [columns_of(turned, points, metric) for points in rules]
     amounts = [amounts_of(each, cells) for each in columns]
     return columns[-1], np.abs(amounts[-1] - amounts[0])
-
-
-def interpolate(corners: NDArray, u: float, v: float, w: float) -> NDArray[np.float64]:
-    along_x = corners[:, 0] + u * (corners[:, 1] - corners[:, 0])
-    along_y = along_x[:, 0] + v * (along_x[:, 1] - along_x[:, 0])
-    return along_y[:, 0] + w * (along_y[:, 1] - along_y[:, 0])

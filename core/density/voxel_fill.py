@@ -13,7 +13,6 @@ below plus the filled part of the piece's voxel, and Gauss's rule integrates it 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -52,7 +51,9 @@ def inside_moments(triangles: ArrayLike, densities: ArrayLike, order: int = 3) -
     below = _sums_below(densities, about[2], order)
     nodes, weights = triangle_rule((order + 3) // 2)  # exact to order + 1
     volume, terms = 0.0, 0
-    for part in _batches(triangles, shape):
+    spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
+    expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
+    for part in batches(expected, PIECES_PER_BATCH):
         pieces = _cut_at_voxels(triangles[part], shape)
         centers = pieces.mean(axis=1)
         inside = ((centers[:, :2] > 0) & (centers[:, :2] < shape[:2])).all(axis=1) & (centers[:, 2] > 0)
@@ -94,13 +95,6 @@ def _sums_below(densities: NDArray, center: float, order: int) -> list[NDArray[n
         integrals[:, :, 0] = 0.0
         sums.append(integrals)
     return sums
-
-
-def _batches(triangles: NDArray, shape: NDArray) -> Iterator[slice]:
-    """Yield slices of the triangles that are expected to give about PIECES_PER_BATCH pieces each."""
-    spans = np.minimum(np.ptp(triangles, axis=1), shape) + 1.0
-    expected = spans[:, 0] * spans[:, 1] + spans[:, 1] * spans[:, 2] + spans[:, 2] * spans[:, 0]
-    return batches(expected, PIECES_PER_BATCH)
 
 
 def _cut_at_voxels(triangles: NDArray, shape: NDArray) -> NDArray[np.float64]:

@@ -10,5 +10,5 @@ __getattr__, __dir__, __all__ = lazy_names(
     directed_edges="polygon",
     fit_plane="section",
     measure_section="section",
-    region_moments="regions",
+    region_moments="polygon",
 )

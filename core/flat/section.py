@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..mesh.edges import uncancelled_sides
 from ..mesh.surface import normals
 from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
@@ -16,8 +17,7 @@ from ..numerics.arguments import check_type, float_array, index_array
 from ..polyhedron.n_dimensions import facet_moments
 from ..verdict.finding import MeasureError
 from .findings import SECTION_ENCLOSES_NOTHING, SECTION_NO_AREA, SECTION_NOT_FLAT
-from .polygon import boundary_edges, edge_arrays, outline_areas
-from .regions import plane_positions, region_moments
+from .polygon import edge_arrays, outline_areas, plane_positions, region_moments
 from .section_properties import Plane, Section
 
 # Relative to a region's size: points farther off their plane are not planar; an area errs by the square of this.
@@ -123,7 +123,8 @@ def region(
     np.maximum.at(noise, faces, longest)  # slivers have no side to look to
     flipped = areas < -(4.0 * error + 1e-12 * noise) * noise
     triangles = np.where(flipped[faces][:, None], triangles[:, ::-1], triangles)
-    return boundary_edges(triangles, len(points)), int(np.count_nonzero(flipped))
+    _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), np.intp))
+    return np.stack([start, stop], axis=1), int(np.count_nonzero(flipped))
 
 
 def projection_rounding(plane: Plane, points: NDArray, flat: NDArray) -> float:

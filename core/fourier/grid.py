@@ -31,7 +31,7 @@ from ..numerics.arguments import check_type
 from ..numerics.compensated import compensated_normals
 from ..numerics.quadrature import gauss_legendre, triangle_rule
 from .transform import Transform
-from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans
+from .triangle_kernel import PAIRS_PER_BLOCK, PhaseMeans, TriangleBlock
 from .wave_vectors import APPROXIMATE, FrequencyGrid, ListWaves, Spectrum
 
 POINTS_PER_CHUNK = 1 << 14  # points that are spread between two steps
@@ -114,7 +114,7 @@ class GridTransform(Transform):
         faces, waves, total = self.faces.select(triangle_rows), ListWaves(q), np.zeros(len(q), np.complex128)
         every = slice(0, len(q))
         for run in faces.blocks(PAIRS_PER_BLOCK // len(q)):
-            block = faces.block(run)
+            block = TriangleBlock(faces, run)
             real, imaginary = PhaseMeans(block, waves, every)(every)
             weights = self._weights(block.normals, waves.q)
             total += (weights * (real + 0.5)).sum(axis=1) + 1j * (weights * imaginary).sum(axis=1)
@@ -171,33 +171,23 @@ class GridTransform(Transform):
             size = max(1, POINTS_PER_CHUNK // count)
             for start in range(0, len(triangle_rows), size):
                 some = triangle_rows[start : start + size]
-                self._spread(self.faces.triangles[some], n)
+                points, strengths, weights = self._nodes(self.faces.triangles[some], n)
+                if self.measure == Measure.AREA:
+                    strengths = np.sqrt((strengths**2).sum(axis=0))[None]
+                strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
+                self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
                 done += len(some) * count * self.width**3
                 yield SHARING_TIME + (1.0 - SHARING_TIME - checked) * done / total
         if self.fine:
-            yield from (1.0 - checked for _ in self._collect_spread())
+            vectors, middle = self.waves.vectors(slice(0, self.waves.rows)), (self.grid.half, self.grid.half, 0)
+            for axis, waves in enumerate(self.spreading.sums()):
+                spread = waves.reshape(-1) - waves[middle].real  # less the 1/2 that `Transform` subtracts from each D
+                self.sums += vectors[axis] * spread if self.measure == Measure.VOLUME else spread
+                yield 1.0 - checked
             self.exact = Transform(
                 self.surface, self.grid.vectors()[_sample_indices(self.grid)], self.measure, self.threads
             )
             yield from (1.0 - checked * (1.0 - share) for share in self.exact.steps())
-
-    def _spread(self, triangles: NDArray, n: int) -> None:
-        """Put the points of some triangles on the fine grid."""
-        points, strengths, weights = self._nodes(triangles, n)
-        if self.measure == Measure.AREA:
-            strengths = np.sqrt((strengths**2).sum(axis=0))[None]
-        strengths = (strengths[..., None] * weights).reshape(len(strengths), -1)
-        self.spreading.add(points.reshape(3, -1) * (self.grid.step * self.faces.scale), strengths)
-
-    def _collect_spread(self) -> Iterator[None]:
-        """Add the spread sources to the sums, minus the 1/2 that `Transform` subtracts from each D."""
-        vectors = self.waves.vectors(slice(0, self.waves.rows))
-        for axis, waves in enumerate(self.spreading.sums()):
-            if self.measure == Measure.VOLUME:
-                self.sums += vectors[axis] * (waves.reshape(-1) - waves[self.grid.half, self.grid.half, 0].real)
-            else:
-                self.sums += waves.reshape(-1) - waves[self.grid.half, self.grid.half, 0].real
-            yield
 
     def result(self) -> Spectrum:
         """Return the spectrum, when all steps are done; its error includes the difference from closed-form samples."""
@@ -280,9 +270,9 @@ class Spreading:
         size = max(1, CELLS_PER_BLOCK // self.width**3)
         for start in range(0, len(order), size):
             some = order[start : start + size]
-            self._spread(positions[:, some], strengths[:, some])
+            self._add_block(positions[:, some], strengths[:, some])
 
-    def _spread(self, positions: NDArray, strengths: NDArray) -> None:
+    def _add_block(self, positions: NDArray, strengths: NDArray) -> None:
         n, w, p = self.side, self.width, positions.shape[1]
         steps = np.arange(w)
         first = np.floor(positions - w / 2.0) + 1.0
@@ -330,14 +320,6 @@ def _grid_side(half: int, width: int) -> int:
     """Return the cells along a side of the fine grid: even, with small prime factors only, for a fast transform."""
     n = int(OVERSAMPLING * (2 * half + 1)) + width
     n += n % 2
-    while _has_large_prime(n):
+    while pow(2 * 3 * 5 * 7, 64, n):  # A larger prime divides n.
         n += 2
     return n
-
-
-def _has_large_prime(n: int) -> bool:
-    """Return whether a prime above 7 divides n."""
-    for prime in (2, 3, 5, 7):
-        while n % prime == 0:
-            n //= prime
-    return n > 1

@@ -31,7 +31,7 @@ from ..numerics.compensated import phase_factors, two_sum
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from .findings import FOURIER_OF_OPEN_SURFACE
-from .triangle_kernel import PAIRS_PER_BLOCK, TRIANGLES_PER_BLOCK, PhaseMeans, SortedTriangles
+from .triangle_kernel import PAIRS_PER_BLOCK, TRIANGLES_PER_BLOCK, PhaseMeans, SortedTriangles, TriangleBlock
 from .wave_vectors import FrequencyGrid, GridWaves, ListWaves, Spectrum, wave_vectors
 
 PAIRS_PER_TASK = 1 << 20  # pairs of triangles and frequencies that are handed out at a time: about a tenth of a second
@@ -141,14 +141,17 @@ class Transform:
         """Return (3,) ∫ n exp(-i q·x) dA at GENERIC_WAVE_VECTOR, parallel to it for a closed surface."""
         waves, total = ListWaves(GENERIC_WAVE_VECTOR), np.zeros(3, np.complex128)
         for run in self.faces.blocks(PAIRS_PER_BLOCK):
-            block = self.faces.block(run)
+            block = TriangleBlock(self.faces, run)
             real, imaginary = PhaseMeans(block, waves, slice(0, 1))(slice(0, 1))
             total += (block.normals * real).sum(axis=1) + 1j * (block.normals * imaginary).sum(axis=1)
         return total
 
     def steps(self) -> Iterator[float]:
         """Do the work in parts; yield the fraction done, from 0 to 1, after each."""
-        shares = self._tasks()
+        faces = min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1))
+        size, rows = max(1, PAIRS_PER_TASK // (faces * self.waves.columns)), self.waves.rows
+        parts = [slice(i, min(i + size, rows)) for i in range(0, rows, size)]
+        shares = [(run, part) for run in self.direct.blocks() for part in parts]
         if self.threads == 1:
             results = map(self._run_task, shares)
             for done, (part, values) in enumerate(results, 1):
@@ -175,19 +178,10 @@ class Transform:
         self.sums[part], rest = two_sum(self.sums[part], values)
         self.rest[part] += rest
 
-    def _tasks(self) -> list[tuple[slice, slice]]:
-        """Return the tasks: every pair of a slice of triangles and a slice of rows of wave vectors."""
-        runs = self.direct.blocks()
-        size = max(
-            1, PAIRS_PER_TASK // (min(TRIANGLES_PER_BLOCK, max(len(self.direct.triangles), 1)) * self.waves.columns)
-        )
-        row_count = self.waves.rows
-        return [(run, slice(i, min(i + size, row_count))) for run in runs for i in range(0, row_count, size)]
-
     def _run_task(self, share: tuple[slice, slice]) -> tuple[slice, NDArray[np.complex128]]:
         """Return the slice of a task's results, and Σ (q·N) (D - 1/2) or Σ |N| (D - 1/2) there."""
         run, part = share
-        block, columns = self.direct.block(run), self.waves.columns
+        block, columns = TriangleBlock(self.direct, run), self.waves.columns
         means = PhaseMeans(block, self.waves, part)
         across = self.waves.dot(part, block.normals)
         size = max(1, PAIRS_PER_BLOCK // (len(block.lengths) * columns))

@@ -107,9 +107,6 @@ class SortedTriangles:
         )
         return some
 
-    def block(self, run: slice) -> TriangleBlock:
-        return TriangleBlock(self.points, self.triangles[run], float(self.diameters[run].max()))
-
 
 def _morton_code(cells: NDArray) -> NDArray[np.int64]:
     """Interleave the bits of three numbers below 1024, (3, k): the position of a place on a Z-shaped curve."""
@@ -125,9 +122,11 @@ class TriangleBlock:
     middles, halves: (3, e) the middles of edges, and half of the differences of their ends.
     """
 
-    def __init__(self, points: NDArray, triangles: NDArray, diameter: float):
+    def __init__(self, faces: SortedTriangles, run: slice):
+        points, triangles = faces.points, faces.triangles[run]
         a, b, c = (points[corner].T for corner in triangles.T)
-        self.diameter, self.normals, self.centers = diameter, compensated_normals(a, b, c), (a + b + c) / 3.0
+        self.diameter = float(faces.diameters[run].max())
+        self.normals, self.centers = compensated_normals(a, b, c), (a + b + c) / 3.0
         self.from_center = ((a - b) + (a - c)) / 3.0, ((b - a) + (b - c)) / 3.0
         ends = np.sort(np.stack([triangles[:, [1, 2]], triangles[:, [2, 0]], triangles[:, [0, 1]]]).astype(np.int64))
         unique, edges = np.unique(ends[..., 0] * len(points) + ends[..., 1], return_inverse=True)
@@ -152,57 +151,35 @@ class PhaseMeans:
     def __call__(self, wave_rows: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return (m, k) real and imaginary parts of D - 1/2 for some rows of the part."""
         vectors = self.waves.vectors(wave_rows)
-        a, b, c, spare = (np.empty((vectors.shape[1], len(self.block.lengths))) for _ in range(4))
+        a, b, spare = (np.empty((vectors.shape[1], len(self.block.lengths))) for _ in range(3))
         self.first(wave_rows, a, spare)
         self.second(wave_rows, b, spare)
-        np.add(a, b, out=c)
-        np.negative(c, out=c)
-        if self.largest <= MAX_SERIES_DIAMETER:
-            return self._by_series(wave_rows, a, b, c, spare)
-        return self._by_edges(wave_rows, vectors, a, b, c, spare)
-
-    def _by_series(
-        self, wave_rows: slice, a: NDArray, b: NDArray, c: NDArray, spare: NDArray
-    ) -> tuple[NDArray, NDArray]:
-        square, cube = a * a, np.multiply(a, b, out=spare)
-        np.add(square, cube, out=square)
-        np.multiply(cube, c, out=cube)
-        np.multiply(b, b, out=c)
-        np.add(square, c, out=square)
-        real, imaginary = _series(square, cube, self.terms)
-        self.half(wave_rows, a, b, c)
+        c = -(a + b)
+        if self.largest > MAX_SERIES_DIAMETER:
+            return self._by_edges(wave_rows, vectors, a, b, c)
+        real, imaginary = _series(a * a + a * b + b * b, a * b * c, self.terms)
+        self.half(wave_rows, a, b, spare)
         return _apply_phase(a, b, real, imaginary)
 
     def _by_edges(
-        self, wave_rows: slice, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray, spare: NDArray
+        self, wave_rows: slice, vectors: NDArray, a: NDArray, b: NDArray, c: NDArray
     ) -> tuple[NDArray, NDArray]:
-        block, d = self.block, (a, b, c)
-        square = a * a
-        for scratch in (b, c):
-            np.multiply(scratch, scratch, out=spare)
-            np.add(square, spare, out=square)
-        cosine, sine, phase, scratch = (np.empty((len(a), block.middles.shape[1])) for _ in range(4))
-        self.middle(wave_rows, cosine, sine, scratch)
-        self.along(wave_rows, phase, scratch)
-        np.abs(phase, out=phase)
-        np.maximum(phase, TINY, out=phase)
-        np.sin(phase, out=scratch)
-        np.divide(scratch, phase, out=phase)
-        np.multiply(cosine, phase, out=cosine)
-        np.multiply(sine, phase, out=sine)
+        block, square = self.block, a * a + b * b + c * c
+        cosine, sine, phase, spare = (np.empty((len(a), block.middles.shape[1])) for _ in range(4))
+        self.middle(wave_rows, cosine, sine, spare)
+        self.along(wave_rows, phase, spare)
+        np.maximum(np.abs(phase, out=phase), TINY, out=phase)
+        np.divide(np.sin(phase, out=spare), phase, out=phase)
         small = np.flatnonzero(square < MAX_SERIES_SQUARE)
         series = self._series_of_pairs(small, vectors, a, b, c)
-        results = []
-        for wave in (sine, cosine):
-            total = np.zeros_like(a)
-            for edge, edge_difference in zip(block.edges, d):
-                np.take(wave, edge, axis=1, out=spare, mode="clip")
-                np.multiply(spare, edge_difference, out=spare)
-                np.subtract(total, spare, out=total)
-            results.append(total)
-        np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
-        real, imaginary = (np.divide(total, square, out=total) for total in results)
-        np.subtract(real, 0.5, out=real)
+        x, y, z = block.edges
+        negative = -np.maximum(square, MAX_SERIES_SQUARE / 2.0, out=square)
+        real, imaginary = (
+            (wave.take(x, 1, mode="clip") * a + wave.take(y, 1, mode="clip") * b + wave.take(z, 1, mode="clip") * c)
+            / negative
+            for wave in (sine * phase, cosine * phase)
+        )
+        real -= 0.5
         real.reshape(-1)[small], imaginary.reshape(-1)[small] = series
         return real, imaginary
 
@@ -218,42 +195,19 @@ class PhaseMeans:
 
 
 def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
-    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g; overwrites all arguments."""
-    np.multiply(cosine, sine, out=cosine)
-    np.multiply(cosine, -2.0, out=cosine)  # The imaginary part of v.
-    np.multiply(sine, sine, out=sine)
-    np.multiply(sine, -2.0, out=sine)  # The real part of v.
-    whole = real + 0.5
-    scratch = cosine * imaginary
-    np.subtract(real, scratch, out=real)
-    np.multiply(sine, whole, out=scratch)
-    np.add(real, scratch, out=real)
-    np.multiply(sine, imaginary, out=scratch)
-    np.add(imaginary, scratch, out=imaginary)
-    np.multiply(cosine, whole, out=scratch)
-    np.add(imaginary, scratch, out=imaginary)
-    return real, imaginary
+    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g."""
+    turn, fall, whole = -2.0 * sine * cosine, -2.0 * sine * sine, real + 0.5  # exp(-i s0) - 1 = fall + i turn
+    return real - turn * imaginary + fall * whole, imaginary + fall * imaginary + turn * whole
 
 
 def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArray]:
     """Return real and imaginary part of the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, from -e2 and e3."""
-    even, odd, before = -square, cube.copy(), np.zeros_like(square)  # n = 2, 3 and 1
+    even, odd, before = -square, cube, np.zeros_like(square)  # n = 2, 3 and 1
     real, imaginary = even / 24.0, odd / 120.0
-    product, scratch = np.empty_like(square), np.empty_like(square)
     for n in range(4, terms, 2):
-        # h_n from h_(n-2) and h_(n-3), h_(n+1) from h_(n-1) and h_(n-2)
-        np.multiply(square, even, out=product)
-        np.multiply(cube, before, out=before)
-        np.add(product, before, out=product)
-        np.negative(product, out=product)
-        np.multiply(square, odd, out=scratch)
-        np.multiply(cube, even, out=even)
-        np.subtract(even, scratch, out=even)
-        even, odd, before, product = product, even, odd, before
-        np.multiply(even, 1.0 / factorial(n + 2), out=scratch)
-        np.add(real, scratch, out=real)
-        np.multiply(odd, 1.0 / factorial(n + 3), out=scratch)
-        np.add(imaginary, scratch, out=imaginary)
+        even, odd, before = -(square * even + cube * before), cube * even - square * odd, odd
+        real += even * (1.0 / factorial(n + 2))
+        imaginary += odd * (1.0 / factorial(n + 3))
     return real, imaginary
 
 

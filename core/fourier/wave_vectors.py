@@ -181,12 +181,8 @@ class GridWaves:
             c, s, scratch = (a.reshape(len(i), *z[0].shape) for a in (cosine, sine, spare))
             a, b, p, q = x[0][i - first], x[1][i - first], y[0][j], y[1][j]
             real, imaginary = (a * p - b * q)[:, None], (a * q + b * p)[:, None]
-            np.multiply(real, z[0], out=c)
-            np.multiply(imaginary, z[1], out=scratch)
-            np.subtract(c, scratch, out=c)
-            np.multiply(real, z[1], out=s)
-            np.multiply(imaginary, z[0], out=scratch)
-            np.add(s, scratch, out=s)
+            np.subtract(real * z[0], imaginary * z[1], out=c)
+            np.add(real * z[1], imaginary * z[0], out=s)
 
         return fill
 

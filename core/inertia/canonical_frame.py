@@ -17,13 +17,14 @@ entry by entry; entries that differ by noise are equal. The remaining frames are
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.exponents import monomial_index, monomials
+from ..moments.exponents import monomial_index, monomials, tensor_index
 from ..moments.moments import Measure, Moments
-from ..moments.symmetric_tensors import _contract, _rotate_tensor, _tensor_positions, distinct_arrays, tensor_index
+from ..numerics.arrays import distinct_arrays
 from ..numerics.quadrature import spread_directions
 from ..verdict.finding import MeasureError
 from .findings import MOMENTS_OVERFLOW
@@ -302,3 +303,26 @@ def _lexicographic_maximum(frames: NDArray, values: NDArray, noise: NDArray) -> 
     for column, least in zip(values.T, noise):
         best = best[column[best] >= column[best].max() - least]
     return frames[best], values[best[0]], noise
+
+
+def _contract(tensor: NDArray, times: int, points: NDArray) -> NDArray[np.float64]:
+    """Return (n, 3, ...) contractions of a symmetric tensor with each of (n, 3) points, `times` times (at least 1)."""
+    out = np.tensordot(points, tensor, axes=(1, 0))
+    for _ in range(times - 1):
+        out = np.einsum("n...i,ni->n...", out, points)
+    return out
+
+
+def _rotate_tensor(tensor: NDArray, frames: NDArray) -> NDArray[np.float64]:
+    """Return the (k, 3, ..., 3) entries of a symmetric tensor along the axes of k frames."""
+    degree = tensor.ndim
+    out = np.broadcast_to(tensor, (len(frames), *tensor.shape))
+    for _ in range(degree):
+        out = np.einsum("kai,ka...->k...i", frames, out)
+    return out
+
+
+@lru_cache
+def _tensor_positions(degree: int) -> NDArray[np.int64]:
+    """Return for each monomial of a degree, in storage order, its first index in the flattened tensor."""
+    return np.unique(tensor_index(degree), return_index=True)[1]

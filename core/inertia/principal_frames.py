@@ -31,12 +31,17 @@ from ..numerics.rotations import quaternion, rotation_array
 from ..verdict.finding import MeasureError, finding
 from ..verdict.findings import OBJECT_TOO_SMALL
 from .canonical_frame import NOISE_LEVEL, EquivalentFrames, canonical_frames
-from .canonical_stack import choose_about_axis, choose_half_turns
 from .findings import AXES_AMBIGUOUS, AXES_FREE, AXES_FREE_BY_SHAPE, NEGATIVE_INERTIA, STRICT_RULE_UNDEFINED
-from .frame_choice import align_frames, complete_free_axes, nearest_frames
 from .plain_body import EQUAL_AXES, SYMMETRIES
-from .shared_search import shared_frames
-from .third_moment_frames import HALF_TURN_SIGNS, ThirdMomentFrames, third_moment_frames
+from .shared_search import choose_about_axis, choose_half_turns, shared_frames
+from .third_moment_frames import (
+    HALF_TURN_SIGNS,
+    ThirdMomentFrames,
+    align_frames,
+    complete_free_axes,
+    nearest_frames,
+    third_moment_frames,
+)
 
 NO_VALUES = np.empty(0)
 SIGN_BITS = np.array([1, 2, 4, 8])  # a bit for each of the HALF_TURN_SIGNS, set if it is allowed

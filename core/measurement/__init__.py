@@ -7,6 +7,6 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     FORMATS="documents",
-    mass_properties="arrays",
+    mass_properties="builder",
     to_html="page",
 )

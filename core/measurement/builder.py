@@ -1,28 +1,29 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Construction of every `Measurement` from a body: mass properties, frame and error bounds."""
+"""Construction of every `Measurement` from a body, or from arrays: mass properties, frame and error bounds."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
-from typing import Any
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..inertia.canonical_frame import MAX_ORDER
 from ..inertia.findings import AXES_FREE, MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
 from ..inertia.mass_properties import MassProperties, has_certain_total
 from ..inertia.principal_frames import OwnMoments, PrincipalFrame
+from ..mesh.surface import Surface
 from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import Measure, Moments, U, monomial_count
+from ..solid.measure import SolidIntegrals, measure_solid
 from ..verdict.finding import Finding, ReadError, finding
 from ..verdict.findings import OBJECT_TOO_LARGE
 from ..verdict.health import MeshHealth
 from ..verdict.method import Method, Verdict
 from ..wall.findings import NO_FACE_AREA
-from .body import Body
 from .findings import (
     AXES_FROM_THIRD_ORDER,
     DENSITY_FROM_MEMBERS,
@@ -31,7 +32,7 @@ from .findings import (
     WALL_UNSUPPORTED,
     ZERO_QUANTITY,
 )
-from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from .measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Body, Measurement
 from .settings import Settings
 
 # Up to so many faces, higher moments for a principal frame take negligible time.
@@ -220,16 +221,16 @@ def _higher(body: Body, shell: bool) -> Callable[[], Moments | OwnMoments] | Non
     """Return a function that computes higher moments for the principal frame, None if they are unknown."""
     if not body.any_order or body.mass is not None or body.length is not None or body.wall is not None:
         return None  # walls have none either, because their axes follow a slider
-    return partial(_frame_moments, body, shell)
 
+    def frame_moments() -> Moments | OwnMoments:
+        with np.errstate(over="ignore", invalid="ignore"):
+            found = body.moments_for_axes(MAX_ORDER, shell)
+        moments = found.moments if isinstance(found, OwnMoments) else found
+        if not (np.isfinite(moments.raw).all() and np.isfinite(moments.rounding_error).all()):
+            raise ReadError(OBJECT_TOO_LARGE)
+        return found
 
-def _frame_moments(body: Body, shell: bool) -> Moments | OwnMoments:
-    with np.errstate(over="ignore", invalid="ignore"):
-        found = body.moments_for_axes(MAX_ORDER, shell)
-    moments = found.moments if isinstance(found, OwnMoments) else found
-    if not (np.isfinite(moments.raw).all() and np.isfinite(moments.rounding_error).all()):
-        raise ReadError(OBJECT_TOO_LARGE)
-    return found
+    return frame_moments
 
 
 def _to_order(body: Body, settings: Settings, order: int) -> tuple[Moments | None, Moments] | None:
@@ -280,3 +281,66 @@ def find_properties(mass: Moments, preferred_axes: NDArray) -> MassProperties:
         rounding_error={**bounds, "inertia": float(central.rounding_error[4:].sum())},
         input_error={"mass": 0.0, "center": 0.0, "inertia": float(central.input_error[4:].sum())},
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _SurfaceBody(Body):
+    """The body that one surface bounds, with moments to any order."""
+
+    any_order: ClassVar[bool] = True
+
+    solid: SolidIntegrals = field(kw_only=True)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments of the volume, and of the area if wanted, to an order."""
+        return self.solid.moments(order, order if area else None)
+
+    def third_order(self) -> Moments:
+        """Return the moments of the volume with exact third order."""
+        return self.solid.exact_third_order()
+
+
+def mass_properties(points: ArrayLike, triangles: ArrayLike, *, density: float) -> Measurement:
+    """Measure the solid that triangles bound: mass, center, inertia, axes, bounds and findings.
+
+    Holes are capped and flipped faces turned on a copy, and both are reported, as for objects in Blender.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like
+        In meters.
+    triangles : (m, 3) array_like of int
+        Corners, counterclockwise as seen from outside.
+    density : float
+        In kg/m³; 1 makes the mass the volume.
+
+    Returns
+    -------
+    Measurement
+        `mass_properties` has mass, center, inertia about the center and principal axes; `method` is the verdict.
+
+    Raises
+    ------
+    MeasureError
+        If the triangles bound no volume, or the density is not positive.
+
+    Examples
+    --------
+    >>> from body_moments.core import mass_properties
+    >>> corners = np.eye(4, 3, -1)
+    >>> body = mass_properties(corners, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], density=6000.0)
+    >>> str(body.method), round(body.mass_properties.mass, 9), body.mass_properties.center.round(9).tolist()
+    ('exact', 1000.0, [0.25, 0.25, 0.25])
+    """
+    solid = measure_solid(Surface.from_triangles(points, triangles))
+    body = _SurfaceBody(
+        solid.volume,
+        solid.area,
+        solid.health,
+        Method(solid.method),
+        solid.findings,
+        face_count=len(solid.repaired_surface.triangles),
+        solid=solid,
+    )
+    place = {"name": "", "type": "MESH", "fingerprint": "", "rotation": np.eye(3), "location": np.zeros(3)}
+    return measure_body(body, Settings(density=float(density)), **place)

@@ -83,7 +83,8 @@ def check_document(document: Any) -> None:
     _check(document, _DOCUMENT)
     level = [document]
     for _ in range(MAX_DEPTH):
-        level = [value for one in level if isinstance(one, (dict, list)) for value in _values(one)]
+        lists = [list(one.values()) if isinstance(one, dict) else one for one in level if isinstance(one, (dict, list))]
+        level = [value for values in lists for value in values]
     if level:
         raise ValueError("it is nested too deeply")
 
@@ -96,10 +97,6 @@ def check_journal_line(line: Any) -> None:
     except _WrongError as error:
         error.path.append(".document")
         raise
-
-
-def _values(container: dict[str, Any] | list[Any]) -> Any:
-    return container.values() if isinstance(container, dict) else container
 
 
 def _check(value: Any, shape: Any) -> None:

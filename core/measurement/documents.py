@@ -190,7 +190,7 @@ def _flat_columns(entry: dict[str, Any]) -> dict[str, Any]:
     row |= {f"center_of_mass_{axis}": value for axis, value in zip("xyz", entry["centroid"])}
     powers = entry.get("moments", {}).get("area", {})
     row |= {f"area_moment_{key.replace(',', '_')}": value for key, value in powers.items()}
-    return row | _signature_columns(entry) | _finding_columns(entry)
+    return row | _shared_columns(entry)
 
 
 def _columns(entry: dict[str, Any]) -> dict[str, Any]:
@@ -215,28 +215,19 @@ def _columns(entry: dict[str, Any]) -> dict[str, Any]:
             for i, line in enumerate(entry["pose"]["matrix"])
             for j, value in enumerate(line)
         }
-    return row | _signature_columns(entry) | _finding_columns(entry)
+    return row | _shared_columns(entry)
 
 
-def _signature_columns(entry: dict[str, Any]) -> dict[str, Any]:
-    row: dict[str, Any] = {}
-    for name, values in (entry.get("signature") or {}).items():
-        if isinstance(values, list):
-            row |= {f"signature_{name}_{number + 1}": value for number, value in enumerate(values)}
-        else:
-            row[f"signature_{name}"] = values
-    return row
+def _shared_columns(entry: dict[str, Any]) -> dict[str, Any]:
+    codes = {"findings": [one["code"] for one in entry["findings"]]}
+    return _nested("signature", entry.get("signature") or {}) | codes | {k: entry[k] for k in ("notes", "warnings")}
 
 
-def _finding_columns(entry: dict[str, Any]) -> dict[str, Any]:
-    return {"findings": [one["code"] for one in entry["findings"]]} | {
-        name: entry[name] for name in ("notes", "warnings")
-    }
-
-
-def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
+def _nested(prefix: str, values: dict[Any, Any]) -> dict[str, Any]:
     row = {}
     for name, value in values.items():
+        if isinstance(value, list):
+            value = dict(enumerate(value, 1))
         row |= _nested(f"{prefix}_{name}", value) if isinstance(value, dict) else {f"{prefix}_{name}": value}
     return row
 

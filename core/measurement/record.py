@@ -18,12 +18,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..flat.regions import plane_positions
+from ..flat.polygon import plane_positions
 from ..flat.section import foot
 from ..flat.section_properties import Plane
 from ..inertia.mass_properties import MassProperties, combine
 from ..moments.complex_form import Invariant
-from ..moments.exponents import monomial_index, order_from_count
+from ..moments.exponents import monomial_index
 from ..moments.moments import Moments, U, monomials
 from ..polyhedron.n_dimensions import multi_indices
 from ..verdict.finding import Finding, MeasureError, Severity
@@ -89,14 +89,12 @@ def record(
         mass = measurement.moments_of_mass(order if length is None else min(order, length.order))
         if mass is not None:
             domains["mass"] = mass
-        placed = {name: _about(point, moments, measurement, frame) for name, moments in domains.items()}
-        entry["moments"] = {
-            "order": order,
-            "about": point,
-            **{name: _by_powers(moments.raw) for name, moments in placed.items()},
-            "error": {name: _by_powers(moments.rounding_error) for name, moments in placed.items()},
-            "input": {name: _by_powers(moments.input_error) for name, moments in placed.items()},
-        }
+        if frame == "object":
+            axes, origin = measurement.rotation, measurement.location + measurement.rotation @ point
+            placed = {name: moments.in_frame(axes, origin) for name, moments in domains.items()}
+        else:
+            placed = {name: moments.about_point(point) for name, moments in domains.items()}
+        entry["moments"] = _moments_record(order, point, placed, monomials(order))
     entry |= more or {}
     if measurement.display_volume is not None:
         entry["display_mesh"] = {
@@ -118,22 +116,13 @@ def described(findings: Iterable[Finding]) -> dict[str, list]:
 def add_findings(entry: dict[str, Any], findings: Iterable[Finding]) -> None:
     """Add findings to a record, unless it has them already."""
     for finding in findings:
-        record = _finding_record(finding)
+        record = {"code": finding.code, "severity": str(severity(finding)), "message": sentence(finding)}
+        record["values"] = plain(finding.values)
+        if len(finding.elements):
+            record["elements"] = plain(finding.elements[:MAX_ELEMENTS])
         if record not in entry["findings"]:
             entry["findings"].append(record)
             entry["notes" if record["severity"] == Severity.NOTE else "warnings"].append(record["message"])
-
-
-def _finding_record(finding: Finding) -> dict[str, Any]:
-    """Return a finding as data: code, severity, message, values, and the first elements if there are any."""
-    entry = {
-        "code": finding.code,
-        "severity": str(severity(finding)),
-        "message": sentence(finding),
-        "values": finding.values,
-    }
-    first = finding.elements[:MAX_ELEMENTS]
-    return plain({**entry, "elements": first} if len(first) else entry)
 
 
 def total(measurements: Sequence[Measurement], findings: Iterable[Finding] = ()) -> dict[str, Any]:
@@ -175,17 +164,17 @@ def _point(
     return np.zeros(3) if about is None or isinstance(about, str) else np.asarray(about, np.float64)
 
 
-def _about(point: NDArray[np.float64], moments: Moments, measurement: Measurement, frame: str) -> Moments:
-    """Return world-frame moments about a point of a frame and along the frame's axes."""
-    if frame == "object":
-        return moments.in_frame(measurement.rotation, measurement.location + measurement.rotation @ point)
-    return moments.about_point(point)
+def _moments_record(
+    order: int, about: NDArray, domains: dict[str, Moments], powers: NDArray, rows: slice | NDArray = slice(None)
+) -> dict[str, Any]:
+    """Return a record's `moments` by powers "p,q,r", (K, d); rows: their places among the moments."""
+    keys = [",".join(map(str, exponents)) for exponents in powers.tolist()]
 
+    def tables(name: str) -> dict[str, dict[str, float]]:
+        return {domain: dict(zip(keys, getattr(each, name)[rows].tolist())) for domain, each in domains.items()}
 
-def _by_powers(values: NDArray[np.float64]) -> dict[str, float]:
-    """Return moments in a dict, with the exponents of x, y and z as keys "p,q,r"."""
-    powers = monomials(order_from_count(len(values))).tolist()
-    return {",".join(map(str, exponents)): value for exponents, value in zip(powers, values.tolist())}
+    bounds = {"error": tables("rounding_error"), "input": tables("input_error")}
+    return {"order": order, "about": about, **tables("raw"), **bounds}
 
 
 def flat_record(
@@ -228,13 +217,8 @@ def flat_record(
     if order is not None:
         point = _plane_point(about, centroid, axes, location, frame[2])
         placed = moments.truncate(order).about_point(foot(plane, point))
-        entry["moments"] = {
-            "order": order,
-            "about": placed.about[:2],
-            "area": _by_plane_powers(placed.raw, order),
-            "error": {"area": _by_plane_powers(placed.rounding_error, order)},
-            "input": {"area": _by_plane_powers(placed.input_error, order)},
-        }
+        powers = multi_indices(2, order)
+        entry["moments"] = _moments_record(order, placed.about[:2], {"area": placed}, powers, plane_positions(order))
     if invariants:
         entry["invariants"] = [
             {
@@ -273,9 +257,3 @@ def _plane_point(
     if about in ("origin", "world"):
         return own if about == "origin" else np.zeros(3)
     return location + axes @ (np.zeros(3) if about is None else np.asarray(about, np.float64))
-
-
-def _by_plane_powers(values: NDArray[np.float64], order: int) -> dict[str, float]:
-    """Return moments in a dict, with the exponents of x and y as keys "p,q"."""
-    powers, positions = multi_indices(2, order).tolist(), plane_positions(order)
-    return {"{},{}".format(p, q): value for (p, q), value in zip(powers, values[positions].tolist())}

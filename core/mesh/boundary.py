@@ -51,7 +51,12 @@ class BoundarySum:
         """Add faces by the (m, k) hashes of their corners."""
         columns = [*np.ascontiguousarray(corners.T)]
         for start, stop in zip(columns, [*columns[1:], columns[0]]):
-            self._total += _sum_of_sides(start, stop)
+            sides = start ^ stop  # a hash of both ends, times their difference
+            sides *= KEYS[3]
+            sides ^= sides >> HALF
+            sides *= KEYS[4]
+            sides *= start - stop
+            self._total += np.add.reduce(sides)
 
 
 def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
@@ -67,13 +72,3 @@ def _hash_places(points: NDArray[np.floating]) -> NDArray[np.uint64]:
         np.right_shift(hashes, HALF, shifted)
         hashes ^= shifted
     return hashes
-
-
-def _sum_of_sides(start: NDArray[np.uint64], stop: NDArray[np.uint64]) -> np.uint64:
-    """Return the sum over sides, each a hash of both its ends times their difference."""
-    sides = start ^ stop
-    sides *= KEYS[3]
-    sides ^= sides >> HALF
-    sides *= KEYS[4]
-    sides *= start - stop
-    return np.add.reduce(sides)

@@ -5,7 +5,7 @@
 A place is located by the winding number, counted along a ray that is parallel to no axis; the crossings are counted in
 the plane across the ray with signs that neighboring triangles share, so that no ray slips through between two of them
 (half-open edges, the watertight rule of rasterizers). Both searches walk down the trees with all pairs and points at
-once, in bounded pieces of work.
+once, in bounded pieces of work. Pairs of single boxes that meet are found by a sweep along the best axis.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.arrays import segment_ranges, spread_bits
+from ..numerics.arrays import following_pairs, segment_ranges, spread_bits
 from .point_triangle import triangle_distances
 
 RAY_SLOPES = (0.08173, 0.05311)  # the ray is (0.08173, 0.05311, 1)
@@ -24,6 +24,7 @@ TRIANGLES_PER_LEAF = 4  # triangles
 PAIRS_PER_BATCH = 1 << 17  # pairs looked at together
 TRIANGLES_PER_BLOCK = 1 << 14  # triangles whose scratch stays in the cache
 MAX_BOX_PAIRS = 10_000_000  # pairs of boxes looked at
+ROUNDING = 1e-6  # relative to a box's sides
 
 
 @dataclass(frozen=True, eq=False)
@@ -344,3 +345,38 @@ def _across(places: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[n
 def _batches(*arrays: NDArray, size: int = PAIRS_PER_BATCH) -> list[tuple[NDArray, ...]]:
     """Cut the arrays into parallel pieces of bounded length."""
     return [tuple(array[k : k + size] for array in arrays) for k in range(0, len(arrays[0]), size)]
+
+
+def _sweep(low: NDArray, high: NDArray, margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return (k,) boxes, sorted along the best axis, and (k,) counts of later boxes that begin before each one ends."""
+    sweeps: list[tuple[NDArray[np.intp], NDArray[np.intp]]] = []
+    for axis in range(3):
+        order = np.argsort(low[:, axis], kind="stable")
+        last = np.searchsorted(low[order, axis], high[order, axis] - margin)
+        sweeps.append((order, np.maximum(last - np.arange(1, len(order) + 1), 0)))
+    return min(sweeps, key=lambda sweep: sweep[1].sum())
+
+
+def overlapping_box_pairs(low: NDArray, high: NDArray, margin: float, most: int) -> tuple[NDArray, NDArray, int]:
+    """Return about `most` pairs (k,), (k,) of boxes that overlap by over `margin`, and the count of untested pairs."""
+    order, count = _sweep(low, high, margin)
+    left, right, pair_count, tested_count = [np.empty(0, np.intp)], [np.empty(0, np.intp)], 0, 0
+    for i, j in following_pairs(order, count, PAIRS_PER_BATCH):
+        if pair_count >= most or tested_count >= 100 * most:
+            break
+        tested_count += len(i)
+        both = np.all(np.minimum(high[i], high[j]) - np.maximum(low[i], low[j]) > margin, axis=1)
+        left.append(i[both])
+        right.append(j[both])
+        pair_count += int(both.sum())
+    return np.concatenate(left), np.concatenate(right), int(count.sum()) - tested_count
+
+
+def boxes_overlap(centers: NDArray, extents: NDArray) -> bool:
+    """Return whether any two of k boxes, (k, 3) centers and half sides, overlap by more than rounding."""
+    extents = extents * (1.0 - ROUNDING)
+    low, high = centers - extents, centers + extents
+    pairs = following_pairs(
+        *_sweep(low, high, 0.0), PAIRS_PER_BATCH
+    )  # a flat box in another one overlaps it by nothing
+    return any(bool(((low[i] < high[j]) & (low[j] < high[i])).all(axis=1).any()) for i, j in pairs)

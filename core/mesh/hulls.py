@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.arguments import float_array
-from ..numerics.arrays import batches, segment_ranges
+from ..numerics.arrays import NEXT_AXIS, batches, segment_ranges
 from ..numerics.vectors import cross
 from ..verdict.finding import MeasureError
 from .findings import HULL_WITHOUT_EXTENT
@@ -27,7 +27,6 @@ from .findings import HULL_WITHOUT_EXTENT
 GRID_BITS = 29
 LOW_BITS = (1 << GRID_BITS) - 1
 PAIRS_PER_BLOCK = 1 << 18
-NEXT = np.array([1, 2, 0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -275,7 +274,7 @@ class _GrowingHull:
         """Replace the faces that each apex sees by a cone to that apex. horizon: sorted by apex."""
         apex, face, side = horizon.T
         size, added = len(self.corners), len(horizon)
-        start, end = self.corners[face, side], self.corners[face, NEXT[side]]
+        start, end = self.corners[face, side], self.corners[face, NEXT_AXIS[side]]
         beyond = self.neighbors[face, side]
         back = (self.neighbors[beyond] == face[:, None]).argmax(axis=1)
         count = len(self.grid)

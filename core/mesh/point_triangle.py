@@ -43,12 +43,17 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
 
 
 def winding_number(points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray) -> float:
-    """Return how often triangles (m, 3), closed or open, surround a point (van Oosterom and Strackee 1983)."""
-    total = 0.0
-    for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
-        a, b, c = (points[triangles[start : start + TRIANGLES_PER_BLOCK, k]] - point for k in range(3))
-        la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
-        volume = (a * np.cross(b, c)).sum(axis=1)
-        below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
-        total += float(np.arctan2(volume, below).sum())
-    return total / (2.0 * math.pi)
+    """Return how often triangles (m, 3), closed or open, surround a point."""
+    blocks = range(0, len(triangles), TRIANGLES_PER_BLOCK)
+    return sum(
+        float(solid_angles(points, triangles[start : start + TRIANGLES_PER_BLOCK], point).sum()) for start in blocks
+    ) / (4.0 * math.pi)
+
+
+def solid_angles(points: NDArray, triangles: NDArray[np.integer], point: ArrayLike = 0.0) -> NDArray[np.float64]:
+    """Return (m,) signed solid angles of triangles seen from a point, by van Oosterom and Strackee (1983), eq. 8."""
+    a, b, c = (points[triangles[:, k]] - np.asarray(point) for k in range(3))
+    la, lb, lc = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
+    volume = (a * np.cross(b, c)).sum(axis=1)
+    below = la * lb * lc + (a * b).sum(axis=1) * lc + (b * c).sum(axis=1) * la + (c * a).sum(axis=1) * lb
+    return 2.0 * np.arctan2(volume, below)

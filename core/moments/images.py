@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sum of one body's images under many affine maps: its instances."""
+"""The sum of one body's images under many affine maps, its instances; and its point reflection."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,18 +18,17 @@ from .moments import Moments, U, image, measure_scale_factors
 MAPS_PER_BLOCK = 2048  # maps at a time at order 3, fewer at higher ones: their functionals stay in the cache
 
 
-def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None = None) -> Moments:
+def sum_of_images(moments: Moments, matrices: ArrayLike) -> Moments:
     """Return the summed moments of one body's images under (k, 4, 4) affine maps, at least one.
 
-    The sum is about the mean of the images of `moments.about`, unless `about` is given. ValueError if a map of areas or
-    lengths is no similarity.
+    It is about the mean of the images of `moments.about`. ValueError if a map of areas or lengths is no similarity.
     """
     matrices = float_array("matrices", matrices, "k", 4, 4, finite=True)
     check_filled("matrices", matrices)
     linear, offsets = to_trailing_axis(matrices)
     point, order = moments.about[:, None], moments.order
     origins = linear[:, 0] * point[0] + linear[:, 1] * point[1] + linear[:, 2] * point[2] + offsets
-    center = origins.mean(axis=1) if about is None else float_array("about", about, 3, finite=True)
+    center = origins.mean(axis=1)
     if len(matrices) == 1:
         return image(moments, matrices[0], center)
     raw, error, extra = np.zeros((3, len(moments.raw)))
@@ -49,6 +49,12 @@ def sum_of_images(moments: Moments, matrices: ArrayLike, about: ArrayLike | None
         error += bounds[0]
         extra += bounds[1]
     return Moments(raw, center, moments.measure, error, extra)
+
+
+def invert_through_point(moments: Moments) -> Moments:
+    """Return the moments of the body's point reflection in `about`: its mirror image, turned."""
+    sign = (-1.0) ** monomials(moments.order).sum(axis=1)
+    return replace(moments, raw=moments.raw * sign)
 
 
 def _image_error_bounds(

@@ -137,3 +137,9 @@ def unique_pairs(pairs: NDArray[np.integer]) -> NDArray[np.intp]:
     width = int(pairs.max(initial=0)) + 1
     key = np.unique(pairs[:, 0].astype(np.int64) * width + pairs[:, 1])
     return np.stack(np.divmod(key, width), axis=1).astype(np.intp, copy=False)
+
+
+def distinct_arrays(arrays: NDArray, within: float) -> NDArray[np.float64]:
+    """Return the (n, ...) vectors or matrices that differ from all earlier ones by at least `within` in some entry."""
+    same = np.abs(arrays[:, None] - arrays[None]).max(axis=tuple(range(2, arrays.ndim + 1))) < within
+    return arrays[np.argmax(same, axis=1) == np.arange(len(arrays))]

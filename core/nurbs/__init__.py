@@ -6,8 +6,8 @@ from ..lazy import lazy_names
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
-    Curve="curve",
-    Patch="patch",
+    Curve="splines",
+    Patch="splines",
     length_moments="curve_moments",
     measure_patches="solid",
 )

@@ -10,16 +10,17 @@ array, the tables at Gauss points are those of Bernstein's polynomials, and halv
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..moments.exponents import monomial_count
 from ..numerics.bspline import SplineSpace, clamped_space
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
-from .patch import Patch
+from .splines import Patch
 
 VOLUME_RTOL = 4e-15  # Relative to the largest possible moment: about the unavoidable rounding.
 ROUNDING = 64.0  # Estimated rounding: units roundoff of the sum of absolute values, per order of a basis.
@@ -27,6 +28,7 @@ Rule = tuple[tuple[int, ...], tuple[int, ...]]  # along s and t the points of a 
 Weights = tuple[NDArray[np.float64], NDArray[np.float64]]
 # Up to this many cells of a patch keep a common anchor: none is so small that rounding by the patch's size matters.
 SMALL_CELL_COUNT = 32
+POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
 MAX_CELLS = 8192  # Cells built at a time.
 # For each highest derivative, all derivatives: how often by s and by t.
 DERIVATIVES = {1: ((0, 0), (1, 0), (0, 1)), 2: ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2))}
@@ -216,3 +218,55 @@ def _quotient_derivatives(derivatives: list[NDArray]) -> list[NDArray[np.float64
         result[row] -= result[0] * bottom[row]
         result[row] *= inverse
     return result
+
+
+Integrand = Callable[[BezierCells, Rule], NDArray]
+
+
+def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
+    """Return (rules, K, c) values of an integrand for cells, evaluated in blocks."""
+    step = max(1, POINTS_PER_BLOCK // (sum(rule[0]) * sum(rule[1])))
+    if len(cells) <= step:
+        return integrand(cells, rule)
+    return np.concatenate(
+        [integrand(cells[start : start + step], rule) for start in range(0, len(cells), step)], axis=2
+    )
+
+
+def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
+    """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros to be filled."""
+    terms = np.empty((monomial_count(order) + more, *density.shape))
+    terms[monomial_count(order) :] = 0.0
+    terms[0] = density
+    if order:
+        np.multiply(place, density, out=terms[1:4])
+    start = 1
+    for degree in range(1, order):
+        end = monomial_count(degree)
+        onward = 2 * end - start
+        np.multiply(place[0], terms[start:end], out=terms[end:onward])
+        np.multiply(place[1], terms[end - degree - 1 : end], out=terms[onward : onward + degree + 1])
+        np.multiply(place[2], terms[end - 1], out=terms[onward + degree + 1])
+        start = end
+    return terms
+
+
+def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
+    """Return (rules, K, c) sums of terms (K, m, c, n) over points, with weights (m, 1 or rules) and (n, 1 or rules)."""
+    count, m, c, n = terms.shape
+    s_weights, t_weights = weights
+    half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
+    sums = np.matmul(s_weights.T, half).reshape(count, s_weights.shape[1], c, -1)
+    return sums.transpose(1, 3, 0, 2).reshape(-1, count, c)
+
+
+def undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
+    """Return (c,) squared diagonals of cells whose weights differ by a factor above `steep`, else 0."""
+    lost = np.zeros(len(cells))
+    if len(cells.net) == 4:
+        weights = cells.net[3]
+        steep_cells = np.flatnonzero(weights.max(axis=(0, 2)) > steep * weights.min(axis=(0, 2)))
+        if len(steep_cells):
+            points = cells.net[:3, :, steep_cells] / cells.net[3:, :, steep_cells]
+            lost[steep_cells] = (np.ptp(points, axis=(1, 3)) ** 2).sum(axis=0)
+    return lost

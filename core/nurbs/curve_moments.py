@@ -24,8 +24,8 @@ from numpy.typing import NDArray
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.arguments import check_type
 from ..verdict.tolerances import check_size
-from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves
-from .curve import Curve
+from .bezier import ROUNDING, VOLUME_RTOL, bernstein, halves, homogeneous
+from .splines import Curve
 
 LENGTH_TOLERANCE = 1e-13
 RULES = (8, 12, 18, 27)  # Gauss points per piece; each rule is compared with the one before.
@@ -134,9 +134,7 @@ def _integrate(
             fine, size = _piece_integrals(net, anchor, RULES[rule + 1], density, order)
             share = share or float(size.mean())
             differ = np.where(unit > 0.0, np.abs(fine - coarse) / np.where(unit > 0.0, unit, 1.0), 0.0).max(axis=1)
-            if kinks:
-                differ += _turn_back_lengths(net)
-            differ += largest * _undersampled_lengths(net)
+            differ += _doubtful_lengths(net, kinks, largest)
             # A piece whose moments overflow is not halved.
             good = ~(differ > tolerance * np.maximum(size, share) * largest) | (depth >= MAX_DEPTH)
             values += fine[good].sum(axis=0)
@@ -155,7 +153,7 @@ def _bezier_pieces(curve: Curve, about: NDArray) -> tuple[NDArray[np.float64], N
     space, origin = curve.space, curve.points[0]
     net = curve.points - origin
     if curve.weights is not None:
-        net = np.concatenate([net * curve.weights[:, None], curve.weights[:, None]], axis=1)
+        net = homogeneous(net, curve.weights)
     net = np.einsum("sij,sjd->sid", space.bezier_extraction, net[space.active_controls])
     return _about_first_control(net, np.tile(origin - about, (len(net), 1)))
 
@@ -168,20 +166,16 @@ def _about_first_control(net: NDArray, anchor: NDArray) -> tuple[NDArray[np.floa
     return np.concatenate([points, net[..., 3:]], axis=2), anchor + first[:, 0]
 
 
-def _turn_back_lengths(net: NDArray) -> NDArray[np.float64]:
-    """Return (c,) upper bounds of the lengths of pieces that may turn back; 0 for other pieces."""
+def _doubtful_lengths(net: NDArray, kinks: bool, largest: float) -> NDArray[np.float64]:
+    """Return (c,) bounds of what rules may miss: of pieces that may turn back, and with very unequal weights."""
     edges = np.diff(net[..., :3] / net[..., 3:] if net.shape[2] == 4 else net, axis=1)
-    ahead = np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0
-    return np.where(ahead, 0.0, np.sqrt((edges**2).sum(axis=2)).sum(axis=1))
-
-
-def _undersampled_lengths(net: NDArray) -> NDArray[np.float64]:
-    """Return (c,) length bounds of pieces with weights so unequal that rules may miss a part; 0 for other pieces."""
-    if net.shape[2] == 3:
-        return np.zeros(len(net))
-    weights, points = net[..., 3], net[..., :3] / net[..., 3:]
-    steep = weights.max(axis=1) > MAX_WEIGHT_RATIO * weights.min(axis=1)
-    return np.where(steep, np.sqrt((np.diff(points, axis=1) ** 2).sum(axis=2)).sum(axis=1), 0.0)
+    length, doubtful = np.sqrt((edges**2).sum(axis=2)).sum(axis=1), np.zeros(len(net))
+    if kinks:
+        doubtful += length * ~(np.einsum("ckd,cd->ck", edges, edges.sum(axis=1)).min(axis=1) >= 0.0)
+    if net.shape[2] == 4:
+        weights = net[..., 3]
+        doubtful += largest * length * (weights.max(axis=1) > MAX_WEIGHT_RATIO * weights.min(axis=1))
+    return doubtful
 
 
 def _piece_integrals(

@@ -14,15 +14,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh.boxes import overlapping_box_pairs
+from ..flat.polygon import orient_loops
+from ..mesh.bvh import overlapping_box_pairs
 from ..moments.moments import Measure, Moments, U, monomials
 from ..numerics.bspline import SplineSpace
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import WELDING_RTOL
-from .curve import Curve
 from .curve_moments import curves_center, plane_moments
 from .findings import CURVE_OPEN, CURVE_TOO_SMALL, CURVES_CROSS, CURVES_NOT_COPLANAR
-from .patch import Face, Patch
+from .splines import Curve, Face, Patch
 
 SAME_HEIGHT_RTOL = 1e-9  # Relative to the extent: corners whose heights differ by less share a row of trapezoids.
 PAIRS_PER_BLOCK = 1 << 22  # rows and edges compared at a time
@@ -206,28 +206,14 @@ def planar_loops(
         if not finer:
             raise MeasureError(CURVES_CROSS)
         flat = polygons(finer.pop(0))
-    oriented = []
-    for i, (loop, polygon) in enumerate(zip(loops, flat)):
-        depth = _depth(flat, i)
-        following = np.roll(polygon, -1, axis=0)
-        area = float((polygon[:, 0] * following[:, 1] - polygon[:, 1] * following[:, 0]).sum())
-        is_right = (area > 0.0) == (depth % 2 == 0)
-        oriented.append(list(loop) if is_right else [curve.reverse() for curve in reversed(loop)])
+    starts = np.cumsum([0, *map(len, flat)])
+    edges = orient_loops(np.concatenate(flat), np.split(np.arange(starts[-1]), starts[1:-1]))
+    ahead = edges[starts[:-1], 0] < edges[starts[:-1], 1]
+    oriented = [
+        list(loop) if is_right else [curve.reverse() for curve in reversed(loop)]
+        for loop, is_right in zip(loops, ahead)
+    ]
     return oriented, normal
-
-
-def _depth(loops: Sequence[NDArray], number: int) -> int:
-    """Return how many of the other polygons (n, 2) the first point of one is in, by the crossings of a ray along +x."""
-    a = np.concatenate(loops)
-    b = np.concatenate([np.roll(loop, -1, axis=0) for loop in loops])
-    x, y = loops[number][0]
-    upward = (a[:, 1] <= y) != (b[:, 1] <= y)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        crossing = a[:, 0] + (y - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
-    starts = np.cumsum([0, *map(len, loops[:-1])])
-    is_inside = np.add.reduceat(upward & (crossing > x), starts, dtype=np.intp) % 2
-    is_inside[number] = 0
-    return int(is_inside.sum())
 
 
 def self_intersects(loop: NDArray, tolerance: float) -> bool:

@@ -15,7 +15,7 @@ differences is reported as an estimate: it is the coarser rule's error, while th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from math import ceil
@@ -23,16 +23,27 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.exponents import monomial_count
 from ..moments.moments import Measure, Moments, U, monomials, sum_moments
 from ..numerics.bspline import SplineSpace
 from ..numerics.quadrature import gauss_legendre, gauss_legendre_with_ends
 from ..numerics.vectors import cross, dot
 from ..verdict.finding import MeasureError
-from .bezier import ROUNDING, VOLUME_RTOL, BezierCells, Rule, Weights, cells_of
+from .bezier import (
+    ROUNDING,
+    VOLUME_RTOL,
+    BezierCells,
+    Integrand,
+    Rule,
+    Weights,
+    cells_of,
+    integrand_in_blocks,
+    sum_over_points,
+    undersampled_areas,
+    weighted_monomials,
+)
 from .findings import WALL_THICKER_THAN_CURVATURE
 from .flat_face import split_faces
-from .patch import Face, Patch, patches_center, patches_size
+from .splines import Face, Patch, patches_center, patches_size
 
 AREA_RTOL = 1e-11
 # Factor on the difference of two rules that do not agree yet when all points are spent.
@@ -47,10 +58,7 @@ COARSE_RULES = (8, 12, 18)  # Used for tolerances from `AREA_RTOL` upward.
 MIN_DIVISOR = 1e-300  # Divisors are at least this.
 MAX_DEPTH = 14  # Limit of successive cuts of a cell.
 MAX_POINTS = 6_000_000  # Limit of evaluated points.
-POINTS_PER_BLOCK = 12288  # points at a time: their arrays stay in the cache
 SLOPE_POINTS, SLOPE_SPANS = 6, 8  # Gauss points in a span, and spans at a time, for the area's gradient
-
-Integrand = Callable[[BezierCells, Rule], NDArray]
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,9 +129,8 @@ def area_moments(faces: Sequence[Face], order: int = 0, about: NDArray | None = 
         normal = np.stack(cross(along, across))
         terms = weighted_monomials(s, _length(normal), order, 1)
         terms[-1] = terms[0]
-        return np.concatenate(
-            [sum_over_points(terms, weights), _reversed_areas(normal, weights, rule)[None, None]], axis=1
-        )
+        lost = _reversed_areas(normal, weights, rule)[None, None]
+        return np.concatenate([sum_over_points(terms, weights), lost], axis=1)
 
     integral = integrate_adaptively(parts, area, unit, AREA_RTOL)
     orders = max(sum(part.orders) for part in parts)
@@ -239,10 +246,10 @@ def sheet_moments(
         length = _length(normal)
         divisor = np.where(length > 0.0, length, 1.0)
         unit = normal / divisor
-        turning = [
-            _tangent(np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1])), unit) / divisor
-            for k in (0, 1)
-        ]
+        turning = []
+        for k in (0, 1):
+            slope = np.stack(cross(second[k], across)) + np.stack(cross(along, second[k + 1]))
+            turning.append((slope - dot(slope, unit) * unit) / divisor)
         # (1 - k h) and (1 - k' h), k and k' the curvatures, must both be positive: their product, and their sum too.
         bend = dot(np.stack(cross(along, turning[1])) + np.stack(cross(turning[0], across)), unit)
         for height in (inner, outer):
@@ -316,7 +323,7 @@ def integrate_adaptively(
     points, enough = (RULES, MAX_POINTS) if tolerance < AREA_RTOL else (COARSE_RULES, MAX_POINTS // 2)
     work = [(part, None, 0) for part in cells]
     whole, count, spent, converged, depth = 0.0, sum(map(len, cells)), 0, True, 0
-    at_stake = thickness * sum(float(_undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells)
+    at_stake = thickness * sum(float(undersampled_areas(part, MAX_WEIGHT_RATIOS[0]).sum()) for part in cells)
     while work:
         waiting, compared = [], []
         for part, coarse, level in work:
@@ -334,12 +341,12 @@ def integrate_adaptively(
             # The worst of all moments stands for each: one may agree by chance.
             differ = np.maximum.reduce(np.abs(fine[:k] - coarse[:k]) / most)
             kinks = fine[k + 1] if len(fine) > k + 1 else 0.0
-            steep = thickness * _undersampled_areas(part, MAX_WEIGHT_RATIOS[1])
+            steep = thickness * undersampled_areas(part, MAX_WEIGHT_RATIOS[1])
             differ += kinks
             good = differ + steep <= tolerance * np.maximum(fine[k], whole / count)
             if last or good.all():
                 converged &= bool(good.all())
-                lost += thickness * float(_undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum())
+                lost += thickness * float(undersampled_areas(part[~good], MAX_WEIGHT_RATIOS[0]).sum())
                 values += np.add.reduce(fine[:k], axis=1)
                 estimate += float(np.add.reduce(differ)) + (UNCONVERGED_FACTOR - 1.0) * float(
                     np.add.reduce(differ[~good])
@@ -357,18 +364,6 @@ def integrate_adaptively(
         depth += any(coarse is None for _, coarse, _ in waiting)
         work = waiting
     return Integral(values, estimate + min(lost, at_stake), whole, converged)
-
-
-def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """Return (c,) squared diagonals of cells whose weights differ by a factor above `steep`, else 0."""
-    lost = np.zeros(len(cells))
-    if len(cells.net) == 4:
-        weights = cells.net[3]
-        steep_cells = np.flatnonzero(weights.max(axis=(0, 2)) > steep * weights.min(axis=(0, 2)))
-        if len(steep_cells):
-            points = cells.net[:3, :, steep_cells] / cells.net[3:, :, steep_cells]
-            lost[steep_cells] = (np.ptp(points, axis=(1, 3)) ** 2).sum(axis=0)
-    return lost
 
 
 @lru_cache(maxsize=256)
@@ -390,43 +385,6 @@ def _rules(
     return (coarse[:1], coarse[1:]), (fine[:1], fine[1:])
 
 
-def integrand_in_blocks(cells: BezierCells, rule: Rule, integrand: Integrand) -> NDArray[np.float64]:
-    """Return (rules, K, c) values of an integrand for cells, evaluated in blocks."""
-    step = max(1, POINTS_PER_BLOCK // (sum(rule[0]) * sum(rule[1])))
-    if len(cells) <= step:
-        return integrand(cells, rule)
-    return np.concatenate(
-        [integrand(cells[start : start + step], rule) for start in range(0, len(cells), step)], axis=2
-    )
-
-
-def weighted_monomials(place: NDArray, density: NDArray, order: int, more: int = 0) -> NDArray[np.float64]:
-    """Return (K + more, ...) the density times the monomials of points (3, ...), then rows of zeros to be filled."""
-    terms = np.empty((monomial_count(order) + more, *density.shape))
-    terms[monomial_count(order) :] = 0.0
-    terms[0] = density
-    if order:
-        np.multiply(place, density, out=terms[1:4])
-    start = 1
-    for degree in range(1, order):
-        end = monomial_count(degree)
-        onward = 2 * end - start
-        np.multiply(place[0], terms[start:end], out=terms[end:onward])
-        np.multiply(place[1], terms[end - degree - 1 : end], out=terms[onward : onward + degree + 1])
-        np.multiply(place[2], terms[end - 1], out=terms[onward + degree + 1])
-        start = end
-    return terms
-
-
-def sum_over_points(terms: NDArray, weights: Weights) -> NDArray[np.float64]:
-    """Return (rules, K, c) sums of terms (K, m, c, n) over points, with weights (m, 1 or rules) and (n, 1 or rules)."""
-    count, m, c, n = terms.shape
-    s_weights, t_weights = weights
-    half = (terms.reshape(-1, n) @ t_weights).reshape(count, m, -1)
-    sums = np.matmul(s_weights.T, half).reshape(count, s_weights.shape[1], c, -1)
-    return sums.transpose(1, 3, 0, 2).reshape(-1, count, c)
-
-
 @lru_cache
 def _degrees(order: int) -> NDArray[np.float64]:
     """Return the (K,) degrees of the monomials."""
@@ -435,10 +393,6 @@ def _degrees(order: int) -> NDArray[np.float64]:
 
 def _length(a: NDArray) -> NDArray[np.float64]:
     return np.sqrt(dot(a, a))
-
-
-def _tangent(a: NDArray, unit: NDArray) -> NDArray[np.float64]:
-    return a - dot(a, unit) * unit
 
 
 def _offset_jacobian(along: NDArray, across: NDArray, turning: list[NDArray], unit: NDArray, height: float) -> NDArray:

@@ -47,9 +47,9 @@ from .findings import (
     PATCH_HOLES_CAPPED,
 )
 from .flat_face import FlatFace, split_faces
-from .patch import Face, Patch, patches_center, patches_size
 from .patch_moments import area_moments, area_slope, sheet_moments, volume_moments, with_area_error, with_swept_error
 from .patch_topology import PatchTopology, find_topology
+from .splines import Face, Patch, patches_center, patches_size
 
 SAMPLES_PER_SPAN, FINE_SAMPLES_PER_SPAN = 8, 48  # For comparing parts, and for parts that seem to cross.
 MAX_TRIANGLES = 1_000_000  # Limit for the fine samples.
@@ -73,17 +73,6 @@ class PatchIntegrals:
     patches: tuple[Face, ...]
     signs: NDArray[np.float64]
     topology: PatchTopology
-
-
-@dataclass(frozen=True, eq=False)
-class _PatchVerdict:
-    """Decisions about parts: (c,) masks of parts with a volume, to turn, and in the sum; cap areas; comparison."""
-
-    solid: NDArray[np.bool_]
-    flipped: NDArray[np.bool_]
-    counted: NDArray[np.bool_]
-    caps: NDArray[np.float64]
-    comparison: ComponentComparison | None
 
 
 def measure_patches(
@@ -161,15 +150,21 @@ def assess(
 ) -> PatchIntegrals:
     """Combine moments `measured` by `volume_moments` of `oriented_parts`, turned or left out, with findings."""
     size = patches_size(patches)
-    verdict = _judge_parts(parts, topology, measured, area.total, size, stored)
+    caps = np.zeros(topology.number)
+    for loop in topology.loops:
+        caps[loop.component] += 0.0 if loop.zero_area else loop.area
+    total = np.array([moments.total for moments, _ in measured])
+    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area.total, caps > 0.0, stored))
+    comparison = _compare_parts(parts, total, solid, welding_tolerance(size, stored))
+    inverted = solid & (total < 0.0) if comparison is None else comparison.flipped
+    is_counted = solid if solid.any() else topology.unclosable
     turned_parts = [
         (part, moments, converged, -1.0 if flip else 1.0)
-        for part, (moments, converged), flip, keep in zip(parts, measured, verdict.flipped, verdict.counted)
+        for part, (moments, converged), flip, keep in zip(parts, measured, inverted, is_counted)
         if keep
     ]
     volumes = [moments * sign for _, moments, _, sign in turned_parts]
     volume = sum_moments(volumes) if volumes else measured[0][0] * 0.0
-    is_open = bool(topology.unclosable.any() or not verdict.solid.any())
     whole_sign = -1.0 if volume.total < 0.0 else 1.0  # May be negative if open, or if cavities overlap.
     volume = replace(volume, raw=whole_sign * volume.raw)
     reach = size + 4.0 * stored
@@ -187,66 +182,40 @@ def assess(
         for part, *_, sign in turned_parts
         for patch in part
     )
-    counted = whole_sign * np.where(verdict.flipped, -1.0, 1.0) * verdict.counted
-    turned = np.flatnonzero(verdict.flipped).tolist()
+    counted = whole_sign * np.where(inverted, -1.0, 1.0) * is_counted
+    turned = np.flatnonzero(inverted).tolist()
+    health = MeshHealth(
+        closed=not (topology.unclosable.any() or caps.any()),
+        boundary_edges=topology.open_sides,
+        non_manifold_edges=topology.non_manifold_sides,
+        inconsistent_edges=topology.misoriented_sides,
+        components=topology.number,
+        inverted_components=len(turned),
+        cap_area_share=float(caps[solid].sum() / area.total) if area.total > 0.0 else 0.0,
+    )
+    if topology.unclosable.any() or not solid.any():
+        method = Verdict.OPEN
+    elif caps[solid].any():
+        method = Verdict.CAPPED
+    else:
+        method = Verdict.REORIENTED if misoriented or turned else Verdict.EXACT
     return PatchIntegrals(
         volume,
         area,
-        _health(topology, verdict, area.total),
-        _method(is_open, verdict, len(misoriented)),
+        health if comparison is None else comparison.add_to(health),
+        method,
         (
             *_orientation_findings(
                 topology, [[patches[k]] for k in misoriented], [parts[k] for k in turned], size, volume.total
             ),
-            *_closing_findings(topology, verdict.solid, area.total, volume.total, size),
-            *_component_findings(verdict.comparison, size),
+            *_closing_findings(topology, solid, area.total, volume.total, size),
+            *_component_findings(comparison, size),
             *further,
         ),
         outward,
         counted[topology.component] * np.where(topology.flipped, -1.0, 1.0),
         topology,
     )
-
-
-def _judge_parts(
-    parts: Sequence[list[Face]],
-    topology: PatchTopology,
-    measured: Sequence[tuple[Moments, bool]],
-    area: float,
-    size: float,
-    stored: float,
-) -> _PatchVerdict:
-    """Find the parts with a volume, and the parts that are inside out."""
-    caps = np.zeros(topology.number)
-    for loop in topology.loops:
-        caps[loop.component] += 0.0 if loop.zero_area else loop.area
-    total = np.array([moments.total for moments, _ in measured])
-    solid = ~topology.unclosable & (np.abs(total) > zero_volume(size, area, caps > 0.0, stored))
-    comparison = _compare_parts(parts, total, solid, welding_tolerance(size, stored))
-    flipped = solid & (total < 0.0) if comparison is None else comparison.flipped
-    return _PatchVerdict(solid, flipped, solid if solid.any() else topology.unclosable, caps, comparison)
-
-
-def _method(is_open: bool, verdict: _PatchVerdict, misoriented: int) -> Verdict:
-    """Return the verdict's method, given the number of patches that face against the rest of their part."""
-    if is_open:
-        return Verdict.OPEN
-    if verdict.caps[verdict.solid].any():
-        return Verdict.CAPPED
-    return Verdict.REORIENTED if misoriented or verdict.flipped.any() else Verdict.EXACT
-
-
-def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> MeshHealth:
-    report = MeshHealth(
-        closed=not (topology.unclosable.any() or verdict.caps.any()),
-        boundary_edges=topology.open_sides,
-        non_manifold_edges=topology.non_manifold_sides,
-        inconsistent_edges=topology.misoriented_sides,
-        components=topology.number,
-        inverted_components=int(verdict.flipped.sum()),
-        cap_area_share=float(verdict.caps[verdict.solid].sum() / area) if area > 0.0 else 0.0,
-    )
-    return report if verdict.comparison is None else verdict.comparison.add_to(report)
 
 
 def measure_sheet(

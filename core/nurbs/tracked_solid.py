@@ -23,10 +23,10 @@ from ..numerics.bspline import SplineSpace
 from ..verdict.method import Verdict
 from ..verdict.tolerances import welding_tolerance
 from .bezier import MAX_CELLS, cells_of_nets, homogeneous
-from .patch import Patch, patches_center, patches_size
 from .patch_moments import area_slope, exact_points, flux_sums, integrand_in_blocks, volume_moments
 from .patch_topology import PatchTopology, find_topology
 from .solid import PatchIntegrals, assess, measure_patches, oriented_parts
+from .splines import Patch, patches_center, patches_size
 
 MAX_RULE_ERROR = 1e-10  # Relative to the largest possible moment: rules with larger errors are not used.
 RULE_ERROR_GROWTH = 8.0  # Estimated growth of the rule's error as control points move.

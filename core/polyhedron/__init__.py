@@ -8,6 +8,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     enclosed_moments="n_dimensions",
     facet_moments="n_dimensions",
-    facets_of="simplices",
+    facets_of="n_dimensions",
     polyhedron_moments="integration",
 )

@@ -140,8 +140,8 @@ def polyhedron_moments(
     if not boundary.is_zero:
         raise MeasureError(BOUNDARY_OPEN)
     if area_order is None or area is None:
-        return _to_order(volume, order), None
-    return _to_order(volume, order), _to_order(area, area_order)
+        return volume.truncate(order), None
+    return volume.truncate(order), area.truncate(area_order)
 
 
 def _summed(stream: Iterable[Surface], boundary: BoundarySum) -> Iterator[Surface]:
@@ -169,10 +169,6 @@ def _center(surfaces: list[Surface]) -> NDArray[np.float64] | None:
     lows, highs = zip(*boxes)
     dtype = np.result_type(*(surface.points for surface in surfaces))
     return box_center(np.min(lows, axis=0), np.max(highs, axis=0), dtype)
-
-
-def _to_order(moments: Moments, order: int) -> Moments:
-    return moments if len(moments.raw) <= monomial_count(order) else moments.truncate(order)
 
 
 def _sum_to_third_order(

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ..moments.exponents import monomials
 from ..moments.moments import Measure, Moments, U, unchecked_moments
-from ..numerics.arrays import batches
+from ..numerics.arrays import NEXT_AXIS, PREVIOUS_AXIS, batches
 from .third_order_kernel import PAIR_INDEX, TRIPLES
 
 EXPONENTS = monomials(3)
@@ -33,7 +33,6 @@ CONE_DIVISORS = 2.0 * DEGREE + 6.0  # ∫ f over a cone is w E[f] / this
 AREA_FACTORS = DEGREE + 3.0  # ∫ f over a triangle is (doubled area E[f]) / 2, this much more
 TRIANGLES_PER_BLOCK = 2048  # triangles whose products stay in the cache
 ROWS, COLUMNS = np.triu_indices(3)
-NEXT_AXIS, PREVIOUS_AXIS = [1, 2, 0], [2, 0, 1]
 AXIS_PAIRS = (1, 2), (2, 0), (0, 1)
 # Indices of the three terms of each symmetric product in a table of x, y, z times xx, xy, xz, yy, yz, zz.
 CUBE = np.array(

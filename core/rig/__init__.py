@@ -7,5 +7,5 @@ from ..lazy import lazy_names
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     cuts="cuts",
-    dominance="dominance",
+    dominance="cuts",
 )

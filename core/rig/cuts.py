@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A closed surface cut into closed pieces, one for each bone.
 
+A face goes with the bone of the most weight at its corners. If weights tie, the nearer bone counts, so that the two
+sides of a symmetric character are cut alike; faces that no bone has any weight on go with the nearest bone.
+
 The faces of a bone are bounded by the edges that they share with other bones' faces. Cut edges that meet, whatever
 their bones, belong to one cut, which is closed to one apex, its centroid. Each bone gets the cone on its side of every
 edge, so that pieces are closed, the cones of neighbors cancel, and the pieces add up to the whole, exactly.
@@ -14,13 +17,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import find_edges
+from ..mesh.edges import find_edges, uncancelled_sides
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
+from ..numerics.arrays import sums_by_index
 from ..numerics.graph import connected_components
 from ..polyhedron.integration import polyhedron_moments
 
 NO_BONE = -1
+TIE_RTOL = 1e-5  # weights are float32, and a mirrored face adds them up in another order
+NEAR_RTOL = 1e-5  # Relative to a distance: the effect of float32 coordinates.
+PAIRS_PER_BLOCK = 1 << 20  # faces times bones whose distances are in memory at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +54,7 @@ def bone_pieces(
 ) -> list[BonePiece]:
     """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by storing."""
     points = points.astype(np.float64)
-    owner, start, stop = _cut_edges(len(points), triangles, bone)
+    owner, start, stop = uncancelled_sides(triangles, bone)
     cut, apexes = _apexes(points, start, stop)
     corners = np.concatenate([triangles, np.stack([stop, start, len(points) + cut], axis=1)])
     labels = np.concatenate([bone, owner])
@@ -80,21 +87,6 @@ def bones_of_caps(
     return result
 
 
-def _cut_edges(
-    count: int, triangles: NDArray[np.integer], bone: NDArray[np.integer]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return (k,) bones, starts and ends of the sides of each bone's triangles that no opposite side cancels."""
-    start = triangles.ravel().astype(np.int64)
-    stop = np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
-    shape = int(bone.max(initial=0)) + 1, count, count
-    key = np.ravel_multi_index((np.repeat(bone, 3), np.minimum(start, stop), np.maximum(start, stop)), shape)
-    edges, place = np.unique(key, return_inverse=True)
-    left = np.bincount(place, np.where(start < stop, 1.0, -1.0)).astype(np.intp)
-    owner, low, high = np.unravel_index(np.repeat(edges, np.abs(left)), shape)
-    forward = np.repeat(left, np.abs(left)) > 0
-    return owner, np.where(forward, low, high), np.where(forward, high, low)
-
-
 def _apexes(
     points: NDArray[np.float64], start: NDArray[np.intp], stop: NDArray[np.intp]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
@@ -113,3 +105,93 @@ def _apexes(
     middle = (begin - origin + (end - origin)) / 2.0
     sums = np.stack([np.bincount(edges[:, 2], length * middle[:, k]) for k in range(3)], axis=1)
     return cut, origin + sums / weight[:, None]
+
+
+@dataclass(frozen=True, eq=False)
+class VertexWeights:
+    """Weights (w,) of bones on vertices, sorted by vertex, not negative; a vertex and a bone appear together once."""
+
+    vertex: NDArray[np.integer]
+    bone: NDArray[np.integer]
+    weight: NDArray[np.floating]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "weight", np.asarray(self.weight, np.float64))
+
+    def normalized(self) -> NDArray[np.float64]:
+        """Return the (w,) weights divided by their sum at each vertex, as an armature modifier does."""
+        total = np.bincount(self.vertex, self.weight)[self.vertex]
+        return np.divide(self.weight, total, out=np.zeros_like(self.weight), where=total > 0.0)
+
+    def unweighted(self, count: int) -> NDArray[np.intp]:
+        """Return the vertices below `count` that no bone has any weight on."""
+        return np.flatnonzero(np.bincount(self.vertex, self.weight, minlength=count)[:count] == 0.0)
+
+
+def dominant_bones(
+    faces: NDArray[np.integer],
+    corners: NDArray[np.integer],
+    points: NDArray[np.floating],
+    weights: VertexWeights,
+    bones: NDArray[np.floating],
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the (f,) bones of faces, -1 without corners, and the (k,) unweighted faces, which get the nearest bone.
+
+    faces, corners: (c,) the face, 0 to f - 1, and the vertex of each corner of the surface. points: (n, 3) in the
+    bones' coordinates. bones: (b, 2, 3) the two ends of each bone.
+    """
+    points, bones = points.astype(np.float64), bones.astype(np.float64)
+    number = len(bones)
+    size = np.bincount(faces)
+    center = np.stack([np.bincount(faces, points[corners, k]) / np.maximum(size, 1) for k in range(3)], axis=1)
+    face, bone, score = _scores(faces, corners, weights, number)
+    result = np.full(len(size), -1)
+    starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
+    leading = score >= (1.0 - TIE_RTOL) * np.repeat(np.maximum.reduceat(score, starts), sizes)
+    face, bone = face[leading], bone[leading]
+    result[face] = bone
+    rivals = np.bincount(face)[face] > 1
+    face, bone = face[rivals], bone[rivals]
+    result[face] = _nearest(face, bone, _distances(center[face], bones[bone]))
+    left = np.flatnonzero((result < 0) & (size > 0))
+    block = max(PAIRS_PER_BLOCK // number, 1)
+    for start in range(0, len(left), block):
+        some = left[start : start + block]
+        pairs = np.repeat(some, number), np.tile(np.arange(number), len(some))
+        result[pairs[0]] = _nearest(*pairs, _distances(center[pairs[0]], bones[pairs[1]]))
+    return result, left
+
+
+def _scores(
+    faces: NDArray[np.integer], corners: NDArray[np.integer], weights: VertexWeights, number: int
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+    """Return (k,) faces and (k,) bones with weight on their corners, by face, then bone, and (k,) summed weights."""
+    per_vertex = np.bincount(weights.vertex, minlength=int(corners.max(initial=-1)) + 1)
+    first = np.cumsum(per_vertex) - per_vertex
+    repeats = per_vertex[corners]
+    owner = np.repeat(np.arange(len(corners)), repeats)
+    entry = np.arange(len(owner)) - np.repeat(np.cumsum(repeats) - repeats, repeats) + first[corners][owner]
+    key = faces[owner].astype(np.int64) * number + weights.bone[entry]
+    pairs, place = np.unique(key, return_inverse=True)
+    score = sums_by_index(place, weights.normalized()[entry])
+    positive = score > 0.0
+    face, bone = np.divmod(pairs[positive].astype(np.intp), number)
+    return face, bone, score[positive]
+
+
+def _nearest(face: NDArray[np.integer], bone: NDArray[np.integer], away: NDArray[np.float64]) -> NDArray[np.integer]:
+    """Return for each of k rows the nearest bone of its face, the first of equally near ones. Rows are by face."""
+    starts, sizes = np.unique(face, return_index=True, return_counts=True)[1:]
+    least = np.repeat(np.minimum.reduceat(away, starts), sizes)
+    near = away <= least * (1.0 + NEAR_RTOL)
+    first = np.minimum.reduceat(np.where(near, np.arange(len(face)), len(face)), starts)
+    return np.repeat(bone[first], sizes)
+
+
+def _distances(points: NDArray[np.float64], segments: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (k,) distances of (k, 3) points, each from its segment, (k, 2, 3)."""
+    start, way = segments[:, 0], segments[:, 1] - segments[:, 0]
+    away = points - start
+    length = (way * way).sum(axis=1)
+    share = np.clip((away * way).sum(axis=1) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
+    return np.linalg.norm(away - share[:, None] * way, axis=1)

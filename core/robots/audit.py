@@ -20,7 +20,8 @@ from ..verdict import internal_error
 from ..verdict.finding import Finding, MeasureError, Severity, finding
 from ..verdict.method import Verdict
 from ..verdict.sentences import sentence, severity
-from .diagnosis import Diagnosis, Reference, diagnose, diagnose_density
+from .comparison import Effect
+from .diagnosis import DIFFERS, Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_NOT_UNIFORM,
@@ -77,7 +78,9 @@ class Entry:
 class LinkAudit:
     """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³, None if unknown.
 
-    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown.
+    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown; apart: the relative
+    difference from it. is_impossible: True if no body within the geometry has the stated inertial. colliders: what the
+    collision geometry beside the inertial does.
     """
 
     link: StatedLink
@@ -85,6 +88,9 @@ class LinkAudit:
     repaired: StatedInertial | None = None
     density: float | None = None
     geometry: StatedInertial | None = None
+    apart: float = inf
+    is_impossible: bool = False
+    colliders: Effect | None = None
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -124,18 +130,6 @@ class _Piece:
 Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 
 
-@dataclass(frozen=True, eq=False)
-class _Judgment:
-    """Comparison of an inertial with some geometry. apart: its relative difference from evenly filled geometry."""
-
-    entries: list[Entry]
-    impossible: bool
-    repaired: StatedInertial | None = None
-    density: float | None = None
-    apart: float = inf
-    geometry: StatedInertial | None = None
-
-
 @dataclass
 class Auditor:
     """An auditor of descriptions, which measures each mesh once, even if several links name it."""
@@ -165,14 +159,23 @@ class Auditor:
         pieces, unread = self._pieces(link.shapes)
         incomplete = bool(unread or entries)  # entries of the reader: about shapes, as there is an inertial
         entries += unread
-        found = _judge(link.inertial, place, pieces, incomplete)
+        found = _judge(link, link.inertial, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
-            other = _judge(link.inertial, place, turned, incomplete)
-            if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
+            other = _judge(link, link.inertial, turned, incomplete)
+            if (other.is_impossible, 2.0 * other.apart) < (found.is_impossible, found.apart):
                 found = other
                 entries.append(Entry(finding(AUDIT_UP_AXIS), place))
-        return LinkAudit(link, (*entries, *found.entries), found.repaired, found.density, found.geometry)
+                pieces = turned
+        entries += found.entries
+        drawn, collision = (_reference(pieces.get(role, ())) for role in ("visual", "collision"))
+        effect, stated = None, found.repaired or link.inertial
+        if collision is not None and not incomplete and (found.repaired is not None or not found.is_impossible):
+            effect = collision.effect(stated, None if drawn is None else drawn.volume)
+            if drawn is not None and collision.compare(stated) > max(DIFFERS, drawn.compare(stated)):
+                note = collision.describe_effect(stated, effect, "collision geometry")
+                entries.append(Entry(note, place, compares=True))
+        return replace(found, entries=tuple(entries), colliders=effect)
 
     def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Entry]]:
         """Return the measured shapes by role, and entries about shapes that cannot be measured."""
@@ -213,8 +216,9 @@ def _read_entries(link: StatedLink) -> list[Entry]:
     return entries
 
 
-def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: bool) -> _Judgment:
+def _judge(link: StatedLink, stated: StatedInertial, pieces: Pieces, incomplete: bool) -> LinkAudit:
     """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then none are compared."""
+    place = link.inertial_place
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()
@@ -223,7 +227,7 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
     hull = Hull(np.concatenate(points)) if points and not incomplete else None
     reasons = impossible(stated, hull)
     if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
-        return _Judgment([Entry(one, place, compares=True) for one in reasons], True)
+        return LinkAudit(link, tuple(Entry(one, place, compares=True) for one in reasons), is_impossible=True)
     wrong = [one for one in reasons if one.code != INERTIAL_TRIANGLE_SLIGHTLY]
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
     is_outside = any(one.code == INERTIAL_CENTER_OUTSIDE for one in wrong)
@@ -239,7 +243,8 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
     entries = [Entry(one, place, compares=True) for one in reasons if one not in wrong]
     entries += _entries(place, diagnoses, [one for one in wrong if one not in left])
     if not references:
-        return _Judgment([*entries, *(Entry(one, place, compares=True) for one in left)], bool(wrong), repaired)
+        entries += [Entry(one, place, compares=True) for one in left]
+        return LinkAudit(link, tuple(entries), repaired, is_impossible=bool(wrong))
     reference = references[0]
     geometry = reference.uniform(stated.mass)
     if left:
@@ -251,18 +256,17 @@ def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: boo
         entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
         entries += [Entry(one.finding, place, compares=True) for one in light_or_heavy]
     apart = min(one.compare(stated) for one in references)
-    return _Judgment(entries, bool(wrong), repaired, stated.mass / reference.volume, apart, geometry)
+    return LinkAudit(link, tuple(entries), repaired, stated.mass / reference.volume, geometry, apart, bool(wrong))
 
 
 def _entries(place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]) -> list[Entry]:
     """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all other ones."""
     entries = []
-    for index, one in enumerate(diagnoses):
-        is_change = one.repaired is not None or one.is_of_geometry
+    are_changes = [one.repaired is not None or one.is_of_geometry for one in diagnoses]
+    for index, (one, is_change) in enumerate(zip(diagnoses, are_changes)):
+        of_center = None if sum(are_changes) == 1 else index == 0
         reasons = [
-            reason
-            for reason in explained
-            if len(diagnoses) == 1 or (reason.code == INERTIAL_CENTER_OUTSIDE) == (index == 0)
+            reason for reason in explained if is_change and of_center in (None, reason.code == INERTIAL_CENTER_OUTSIDE)
         ]
         certainty = ("certain" if one.is_certain else "likely") if is_change else ""
         change = one.finding if is_change else None
@@ -282,7 +286,9 @@ def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:
 
 
 def _reference(pieces: Sequence[tuple[StatedShape, _Piece]]) -> Reference | None:
-    """Return all shapes of one role as evenly filled geometry; None if a shape bounds no certain body."""
+    """Return all shapes of one role as evenly filled geometry; None if there is none, or one bounds no certain body."""
+    if not pieces:
+        return None
     placed = []
     for stated, piece in pieces:
         if piece.moments is None:

@@ -12,13 +12,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import permutations, product
-from math import degrees, radians
+from math import degrees, hypot, radians
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import Finding, finding
+from .comparison import Effect, compare
 from .findings import (
     AUDIT_ANGLES,
     AUDIT_DENSITY,
@@ -76,6 +77,27 @@ class Reference:
         radius = np.sqrt(np.trace(self.inertia) / 2.0)
         return float(np.linalg.norm(stated.center - self.center) / radius)
 
+    def effect(self, stated: StatedInertial, drawn_volume: float | None) -> Effect:
+        """Return the mass properties of this geometry, filled evenly with the stated mass, beside the stated ones."""
+        second = stated.mass * (np.trace(self.inertia) / 2.0 * np.eye(3) - self.inertia)
+        volume_ratio = None if drawn_volume is None else self.volume / drawn_volume
+        return compare(stated.principal(), stated.mass, self.center - stated.center, second, volume_ratio)
+
+    def describe_effect(self, stated: StatedInertial, effect: Effect, part: str) -> Finding:
+        """Return the note about an effect of this geometry. part: its name."""
+        first, second, third = effect.moment_ratios
+        return finding(
+            AUDIT_NOT_UNIFORM,
+            part=part,
+            factor=float(np.trace(stated.inertia) / stated.mass / np.trace(self.inertia)),
+            volume=effect.volume_ratio,
+            first=first,
+            second=second,
+            third=third,
+            distance=hypot(*effect.center_shift),
+            turn=degrees(effect.axes_turn),
+        )
+
     def uniform(self, mass: float) -> StatedInertial:
         """Return the inertial of this geometry, filled evenly with a mass in kg."""
         return StatedInertial(mass, self.center, mass * self.inertia)
@@ -102,7 +124,7 @@ def diagnose(
 ) -> list[Diagnosis]:
     """Return the changes that correct an inertial, or a note about the place of the mass; empty if it agrees.
 
-    That is one change, or one of the center with one of the rest; each has the inertial corrected up to it.
+    That is one change, or one of the center with one of the rest or the note; each has the inertial corrected so far.
     references: candidates for the geometry, such as visual and collision shapes. otherwise: geometries with a corrected
     fault of the description, each with its finding. center_is_wrong: True if a change of the center alone is certain.
     """
@@ -118,16 +140,16 @@ def diagnose(
     best = _best_change(stated, references)
     if best is not None:
         return [best]
+    alone = []
     for first in _center_changes(stated, references):
         assert first.repaired is not None
         second = _best_change(first.repaired, references)
         if second is not None:
             return [first, second]
         if center_is_wrong:
-            return [replace(first, is_certain=False)]
-    factor = float(np.trace(stated.inertia) / stated.mass / np.trace(nearest.inertia))
-    distance = float(np.linalg.norm(stated.center - nearest.center))
-    return [Diagnosis(finding(AUDIT_NOT_UNIFORM, factor=factor, distance=distance))]
+            alone, stated = [replace(first, is_certain=False)], first.repaired
+            break
+    return [*alone, Diagnosis(nearest.describe_effect(stated, nearest.effect(stated, nearest.volume), "geometry"))]
 
 
 def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Diagnosis | None:

@@ -106,16 +106,17 @@ DESCRIPTION_UNKNOWN = error("description_unknown", "The file is no robot descrip
 INCLUDE_UNREADABLE = error("include_unreadable", "A file that it includes cannot be read: {name}. {cause}")
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
-    "description_number", "Line {line}: <{element}> has “{text}”, which is no usable number. Correct it."
+    "description_number",
+    "Line {line}: <{element}> has “{text}”, which the audit cannot use. Correct it; nothing is compared.",
 )
-MESH_ON_NETWORK = warning("mesh_on_network", "A mesh is on a network, and was not loaded: {name}. Download it.")
+MESH_ON_NETWORK = warning("mesh_on_network", "A file is on a network, and was not loaded: {name}. Download it.")
 MESH_MISSING = warning(
     "mesh_missing",
-    "A mesh is missing: {name}. If it is in another package, name the folder of the package with --package-path.",
+    "A file is missing: {name}. If it is in another package, name the folder of the package with --package-path.",
 )
 MESH_OUTSIDE = warning(
     "mesh_outside",
-    "A mesh is outside of the folders that may be read: {name}. Name its folder with --package-path, or allow all "
+    "A file is outside of the folders that may be read: {name}. Name its folder with --package-path, or allow all "
     "with --allow-outside.",
 )
 MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
@@ -147,7 +148,9 @@ AUDIT_UNIFORM_INSTEAD = warning(
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",
-    "Not an even filling of the geometry: {factor:.4g} times its inertia, the center {distance:length} from its.",
+    "Not an even filling of the {part:word}. Filled evenly, that has {volume:percent} of the drawn volume, and "
+    "{first:.4g}, {second:.4g} and {third:.4g} times the principal moments; its center is {distance:length} and its "
+    "axes are {turn:.3g}° off.",
 )
 AUDIT_UP_AXIS = warning(
     "audit_up_axis",

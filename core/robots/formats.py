@@ -85,6 +85,12 @@ _TABLE = (
         holds_meshes=True,
         binary_suffixes=(".glb",),
     ),
+    RobotFormat(
+        *("osim", "OpenSim", "OpenSim", "Export OpenSim", ".osim"),
+        "Export objects as bodies of a model for OpenSim, with their exact mass, center and inertia",
+        "Tensor along the axes of the object",
+        "osim",
+    ),
 )
 FORMATS = {entry.name: entry for entry in _TABLE}
 AUDITED = {entry.root: entry for entry in _TABLE if entry.reader}

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans and arrays of samples in files, by their suffix, and the positions of their samples."""
+"""Scans and arrays of samples in files, by their suffix; places of samples: a matrix, or files of uneven positions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,22 +16,27 @@ from .findings import (
     FILE_MISSING,
     FILE_NOT_REGULAR,
     FILE_TYPE,
-    HEADER_FIELD,
+    NAMED_FILE_MISSING,
+    POSITIONS_COUNT,
+    POSITIONS_NOT_ASCENDING,
     SCAN_OUT_OF_MEMORY,
     SCAN_OWN_UNIT,
     SCAN_PLACEMENT_OVERRIDDEN,
     SCAN_UNSTATED,
 )
-from .limits import DEFAULT_LIMITS, Limits
 from .nifti import read_nifti
 from .nrrd import read_nrrd
-from .numpy_files import read_named_raw, read_npy, read_npz
-from .scan import Scan
-from .suffixes import SUFFIXES, scan_suffix
+from .numpy_files import map_array, read_named_raw, read_npy, read_npz
+from .scan import Scan, wrong_field
+from .scan_files import DEFAULT_LIMITS, SUFFIXES, Limits, scan_suffix
 
 READERS: dict[str, Callable[[Path, Limits], Scan]] = dict(
     zip(SUFFIXES, (read_npy, read_npz, read_nrrd, read_nrrd, read_nifti, read_nifti, read_named_raw), strict=True)
 )
+AXES = "xyz"
+CONTENTS = {"x": "positions along x", "y": "positions along y", "z": "positions along z"}
+Positions = tuple[NDArray[np.float64] | None, NDArray[np.float64] | None, NDArray[np.float64] | None]
+EVEN: Positions = (None, None, None)
 
 
 def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
@@ -81,15 +86,10 @@ def read_scan(path: str | Path, limits: Limits = DEFAULT_LIMITS) -> Scan:
     limits.check(path, "samples", scan.samples.size)
     rows, scaling = scan.matrix[:3], (scan.slope, scan.intercept)
     if not np.isfinite(rows).all() or not abs(np.linalg.det(rows[:, :3])) > 0.0:
-        raise _field(path, "spacing or directions", "finite, and not in one plane", rows.ravel().tolist())
+        raise wrong_field(scan_suffix(path), "spacing or directions", "finite, and not in one plane", *rows.ravel())
     if not np.isfinite(scaling).all():
-        raise _field(path, "slope and intercept", "finite numbers", scaling)
+        raise wrong_field(scan_suffix(path), "slope and intercept", "finite numbers", *scaling)
     return scan
-
-
-def _field(path: Path, name: str, wanted: str, values: Sequence[float]) -> FileError:
-    text = " ".join(map("{:g}".format, values))
-    return FileError(HEADER_FIELD, format=scan_suffix(path), field=name, wanted=wanted, text=text)
 
 
 def sample_matrix(
@@ -139,3 +139,49 @@ def sample_matrix(
     elif scan.unit is None and unit_scale is None and spacing is None:
         findings.append(finding(SCAN_UNSTATED, part="unit", option="unit-scale"))
     return matrix, tuple(findings)
+
+
+def read_positions(path: str | Path, axis: str, count: int) -> NDArray[np.float64]:
+    """Return the (count,) ascending positions of samples along an axis from a .npy file. Raises FileError, OSError."""
+    path = Path(path)
+    whose = {"file": path.name, "axis": axis}
+    if not path.is_file():
+        raise FileError(NAMED_FILE_MISSING, file=path.name, content=CONTENTS[axis])
+    array = map_array(path)
+    if array.shape != (count,) or count < 2 or array.dtype.kind not in "iuf":
+        size = " x ".join(map(str, array.shape))
+        raise FileError(POSITIONS_COUNT, **whose, samples=count, array="{} {}".format(size, array.dtype).strip())
+    row = np.array(array, np.float64)
+    is_right = np.isfinite(row) & np.append(True, row[1:] > row[:-1])
+    if not is_right.all():
+        raise FileError(POSITIONS_NOT_ASCENDING, **whose, place=int(np.argmin(is_right)))
+    return row
+
+
+def read_all_positions(files: Mapping[str, str | Path], shape: Sequence[int]) -> Positions:
+    """Return the positions along each axis that has a file. Raises the errors of `read_positions`."""
+    x, y, z = (read_positions(files[axis], axis, count) if axis in files else None for axis, count in zip(AXES, shape))
+    return x, y, z
+
+
+def place_samples(matrix: NDArray, positions: Positions, unit: float) -> tuple[NDArray[np.float64], Positions]:
+    """Put samples at positions along their axes' own directions; return the new (4, 4) matrix and the positions.
+
+    `matrix` puts the regular sample (i, j, k) at matrix @ (i, j, k, 1). `positions` are (n,) coordinates along each of
+    the three axes, in place of its spacing and origin, or None; their `unit` is in units of the matrix. The returned
+    positions are relative to the first, so that they keep all digits: sample k stands at matrix @ (…, positions[k], 1).
+    """
+    matrix = matrix.copy()
+    if not any(row is not None for row in positions):
+        return matrix, positions
+    directions = matrix[:3, :3] / np.linalg.norm(matrix[:3, :3], axis=0)
+    origin = np.linalg.solve(directions, matrix[:3, 3])
+    relative = []
+    for axis, row in enumerate(positions):
+        if row is not None:
+            matrix[:3, axis] = directions[:, axis] * unit
+            origin[axis] = row[0] * unit
+        relative.append(None if row is None else row - row[0])
+    matrix[:3, 3] = directions @ origin
+    x, y, z = relative
+    return matrix, (x, y, z)

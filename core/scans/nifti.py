@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from ..numerics.rotations import rotation_matrix
 from ..verdict.finding import FileError
-from .findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, HEADER_FIELD, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
-from .limits import Limits
-from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples
+from .findings import DAMAGE_CUT_SHORT, FILE_UNRECOGNIZED, SCAN_IN_SEVERAL_FILES, SCAN_SAMPLE_TYPE
+from .scan import Scan, damaged, gzip_blocks, map_samples, shape_of, unpack_samples, wrong_field
+from .scan_files import Limits
 
 HEADER = 348  # bytes
 TYPES = {2: "u1", 4: "i2", 8: "i4", 16: "f4", 64: "f8", 256: "i1", 512: "u2", 768: "u4", 1024: "i8", 1280: "u8"}
@@ -40,17 +40,17 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
         raise FileError(SCAN_IN_SEVERAL_FILES, suffix=".nii")
     dim = struct.unpack_from(order + "8h", head, 40)
     if not 1 <= dim[0] <= 7:
-        raise _field("dim", "1 to 7 dimensions", dim[0])
+        raise wrong_field("NIfTI", "dim", "1 to 7 dimensions", dim[0])
     shape = shape_of(dim[1 : dim[0] + 1])
     code, bits = struct.unpack_from(order + "2h", head, 70)
     if code not in TYPES:
         raise FileError(SCAN_SAMPLE_TYPE, type="NIfTI {}".format(code))
     dtype = np.dtype(TYPES[code]).newbyteorder(order)
     if bits not in (0, 8 * dtype.itemsize):
-        raise _field("bitpix", "the size of its data type", bits)
+        raise wrong_field("NIfTI", "bitpix", "the size of its data type", bits)
     offset, slope, intercept = struct.unpack_from(order + "3f", head, 108)
     if not 348.0 <= offset < 1 << 40 or offset != int(offset):
-        raise _field("vox_offset", "a whole number behind the header", offset)
+        raise wrong_field("NIfTI", "vox_offset", "a whole number behind the header", offset)
     matrix, placed = _sample_matrix(head, order)
     if packed:
         samples = unpack_samples(path, 0, dtype, shape, int(offset), limits)
@@ -59,11 +59,6 @@ def read_nifti(path: Path, limits: Limits) -> Scan:
     if slope == 0.0:  # by the standard: not scaled
         slope, intercept = 1.0, 0.0
     return Scan(samples, matrix, UNITS.get(head[123] & 7), placed, slope, intercept)
-
-
-def _field(name: str, wanted: str, *values: float) -> FileError:
-    text = " ".join(map("{:g}".format, values))
-    return FileError(HEADER_FIELD, format="NIfTI", field=name, wanted=wanted, text=text)
 
 
 def _head(path: Path, packed: bool) -> bytes:
@@ -90,11 +85,11 @@ def _sample_matrix(head: bytes, order: str) -> tuple[NDArray[np.float64], bool]:
     spacing = np.abs(pixdim[1:4])
     if not all(0.0 < distance < math.inf for distance in spacing):
         if qform > 0 or any(pixdim[1:4]):
-            raise _field("pixdim", "three spacings that are not zero", *spacing.tolist())
+            raise wrong_field("NIfTI", "pixdim", "three spacings that are not zero", *spacing.tolist())
         return matrix, False
     if qform > 0:
         if not all(map(math.isfinite, (b, c, d, *offset))) or b * b + c * c + d * d > 1.0 + 1e-5:
-            raise _field("quatern", "a rotation", b, c, d, *offset)
+            raise wrong_field("NIfTI", "quatern", "a rotation", b, c, d, *offset)
         a = math.sqrt(max(0.0, 1.0 - (b * b + c * c + d * d)))
         turn = rotation_matrix((a, b, c, d))
         turn[:, 2] *= -1.0 if pixdim[0] < 0.0 else 1.0

@@ -24,8 +24,8 @@ from .findings import (
     SCAN_IN_SEVERAL_FILES,
     SCAN_SAMPLE_TYPE,
 )
-from .limits import Limits
 from .scan import Scan, damaged, map_samples, shape_of, unpack_samples
+from .scan_files import Limits
 
 HEADER_BLOCK = 1 << 16  # bytes of a header that are read at a time
 MAX_AXES = 16

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, finding
 from .findings import DAMAGE_INCOMPLETE, OTHERS_LEFT_OUT, RAW_WITHOUT_LAYOUT, SCAN_SAMPLE_TYPE, SCAN_SIZE
-from .limits import DEFAULT_LIMITS, Limits
 from .scan import Scan, check_length, damaged, map_samples, real_samples, shape_of
-from .suffixes import SAMPLE_TYPES
+from .scan_files import DEFAULT_LIMITS, SAMPLE_TYPES, Limits
 
 ENTRY = b"PK\1\2"  # first bytes of an entry in a zip archive's directory
 MAX_ARRAY_HEADER = 10_000  # bytes, like numpy.load

@@ -19,8 +19,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..verdict.finding import FileError, Finding, finding
-from .findings import DAMAGE_CUT_SHORT, DAMAGE_INCOMPLETE, DAMAGE_SIZE, FILE_DAMAGED, SCAN_SAMPLE_TYPE, SCAN_SIZE
-from .limits import Limits
+from .findings import (
+    DAMAGE_CUT_SHORT,
+    DAMAGE_INCOMPLETE,
+    DAMAGE_SIZE,
+    FILE_DAMAGED,
+    HEADER_FIELD,
+    SCAN_SAMPLE_TYPE,
+    SCAN_SIZE,
+)
+from .scan_files import Limits
 
 MAX_GZIP_RATIO = 1032  # Most bytes that one byte of a gzip file can unpack to.
 PACKED = 1 << 16  # Packed bytes read at a time; the rest after each small member is copied.
@@ -85,6 +93,11 @@ def real_samples(array: NDArray) -> NDArray:
 def damaged(path: Path, code: str, **values: Any) -> FileError:
     """Return the error for a damaged file, with the code of the fault."""
     return FileError(FILE_DAMAGED, file=path.name, cause=finding(code, **values).as_record())
+
+
+def wrong_field(format: str, name: str, wanted: str, *values: float) -> FileError:
+    """Return the error for numbers of a header's field."""
+    return FileError(HEADER_FIELD, format=format, field=name, wanted=wanted, text=" ".join(map("{:g}".format, values)))
 
 
 def check_length(path: Path, held: int, wanted: int) -> None:

@@ -6,27 +6,42 @@ The pose leaves as many choices as the body has rotations, and all of them are t
 axes, as noise may decide a sign. The residual is measured on the surfaces, in both directions, so that neither may be
 a part of the other; if a few points are farther apart than all points under a better rotation, the
 other points are skipped. A mirror image is recognized as such: a reflection fits, and no rotation does.
+
+Flat shapes are turned in their planes, with front on front; the rotations and mirror lines of one flat shape follow in
+the same way. Turned by θ about the centroid, a shape's Zernike moments A_nm get the factor exp(-imθ). So the overlap of
+two shapes is, as far as these moments see, a trigonometric polynomial of θ, Re Σ conj(B_nm) A_nm exp(-imθ). Its maxima
+are the rotations that may lay one onto the other; the outlines decide. With conj(A_nm) the mirror image is turned
+instead.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import count
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..inertia.canonical_frame import EquivalentFrames
-from ..inertia.frame_choice import complete_free_axes
 from ..inertia.principal_frames import equivalent_frames, undetermined_axes
-from ..inertia.third_moment_frames import HALF_TURN_SIGNS
+from ..inertia.third_moment_frames import HALF_TURN_SIGNS, complete_free_axes
+from ..moments.images import invert_through_point
 from ..moments.moments import Moments
-from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
+from ..numerics.arrays import distinct_arrays
+from .symmetries import MAX_AXIS_ORDER, Holds, Symmetry, highest_fold
+from .zernike import degrees
 
 EQUAL_RESIDUAL_RTOL = 1e-4  # relative to the size: residuals nearer than this are equal, and the smallest turn is taken
 MAX_FIT_RTOL = 1e-3  # relative to the size: below, a body lies on the other one
-FIRST_SAMPLES = 32  # points of each surface that are compared first
+FIRST_COMPARED = 32  # points of each surface that are compared first
 MIRROR_SHARE = 0.2  # a reflection that leaves less than this share of what rotations leave means a mirror image
+Residual = Callable[[NDArray, int | None], NDArray]
+ANGLES = 720  # at which overlaps are sampled
+MAX_CANDIDATES = 24  # rotations, the largest overlaps first, that are compared by outlines
+NEWTON_STEPS = 8
+ROUND_ANGLES = 1.0, 0.1, 0.01  # a shape that all these turns leave is round
+MIRROR = np.diag([1.0, -1.0, 1.0])  # in the line y = 0, seen from the front
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +59,6 @@ class RigidMatch:
     is_mirror_image: bool
 
 
-Residual = Callable[[NDArray, int | None], NDArray]
-
-
 def match(source: Moments, target: Moments, residual: Residual, size: float) -> RigidMatch:
     """Find the rotation that lays one body onto another, both about their centers.
 
@@ -55,13 +67,21 @@ def match(source: Moments, target: Moments, residual: Residual, size: float) -> 
     target's.
     """
     first = equivalent_frames(source).frames[0]
-    rotation, distances = best_rotation(_candidate_rotations(first, equivalent_frames(target)), residual, size)
-    largest, mirrored = float(distances.max()), False
-    if largest > MAX_FIT_RTOL * size:
-        reflected = best_rotation(
-            -_candidate_rotations(first, equivalent_frames(invert_through_point(target))), residual, size
-        )[1].max()
-        mirrored = bool(reflected < MIRROR_SHARE * largest)
+
+    def maps(mirrored: bool) -> NDArray[np.float64]:
+        frames = equivalent_frames(invert_through_point(target) if mirrored else target)
+        return _candidate_rotations(first, frames) * (-1.0 if mirrored else 1.0)
+
+    return _best_match(maps, residual, size)
+
+
+def _best_match(maps: Callable[[bool], NDArray], residual: Residual, size: float) -> RigidMatch:
+    """Return the best of the rotations that `maps` returns, and compare it with the reflections, for True."""
+    rotation, distances = _best_map(maps(False), residual, size)
+    largest = float(distances.max())
+    mirrored = largest > MAX_FIT_RTOL * size and bool(
+        _best_map(maps(True), residual, size)[1].max() < MIRROR_SHARE * largest
+    )
     return RigidMatch(rotation, largest, float(distances.mean()), mirrored)
 
 
@@ -72,9 +92,9 @@ def _candidate_rotations(first: NDArray, target: EquivalentFrames) -> NDArray[np
     return distinct_arrays(frames @ first.T, 1e-9)
 
 
-def best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
+def _best_map(candidates: NDArray, residual: Residual, size: float) -> tuple[NDArray, NDArray]:
     """Return that of (k, 3, 3) maps with the least residual, else the smallest turn, and its distances."""
-    least = np.array([residual(way, FIRST_SAMPLES).max() for way in candidates])
+    least = np.array([residual(way, FIRST_COMPARED).max() for way in candidates])
     worst, distances = np.full(len(candidates), np.inf), {}
     for i in np.argsort(least, kind="stable"):
         if least[i] > worst.min() + EQUAL_RESIDUAL_RTOL * size:
@@ -84,3 +104,94 @@ def best_rotation(candidates: NDArray, residual: Residual, size: float) -> tuple
     near = np.flatnonzero(worst <= worst.min() + EQUAL_RESIDUAL_RTOL * size)
     best = max(near, key=lambda i: np.trace(candidates[i]))
     return candidates[best], distances[best]
+
+
+def match_flat(
+    source: NDArray, target: NDArray, axes: tuple[NDArray, NDArray], residual: Residual, size: float
+) -> RigidMatch:
+    """Find the rotation that lays one flat shape onto another, about their centroids and front on front.
+
+    `source` and `target` are the `disc_zernike` of both to one order, in discs of one radius, `axes` those of their
+    planes: x, y and the normal as columns. `residual` is as for `match`; `size` is the target's.
+    """
+    start, end = axes
+
+    def maps(mirrored: bool) -> NDArray[np.float64]:
+        turns = turns_about_normal(_best_angles(source.conj() if mirrored else source, target))
+        return end @ turns @ (MIRROR if mirrored else np.eye(3)) @ start.T
+
+    return _best_match(maps, residual, size)
+
+
+def flat_symmetry(zernike: NDArray, order: int, points: NDArray, axes: NDArray, holds: Holds) -> Symmetry:
+    """Find the rotations about its centroid and the mirror lines of a flat shape: Cn or Cnv, C∞v if it is round.
+
+    Rotations are about the normal, mirror planes across the plane. `zernike` is the `disc_zernike` to `order`, `points`
+    are the (n, 2) outlines, both about the centroid. `axes` are the plane's x, y and normal as columns.
+    `holds` returns True if a map of these axes takes the shape to itself.
+    """
+    everything = np.array([np.eye(3), MIRROR])
+    if all(holds(turn) for turn in turns_about_normal(np.array(ROUND_ANGLES))):
+        return Symmetry(axes @ everything @ axes.T, axes[:, 2][None], order)
+    fold = highest_fold(turns_about_normal, holds)
+    operations = turns_about_normal(2.0 * np.pi / fold * np.arange(fold))
+    mirror = next(filter(holds, _mirrors(zernike, points)), None)
+    if mirror is not None:
+        operations = np.concatenate([operations, operations @ mirror])
+    return Symmetry(axes @ operations @ axes.T, np.empty((0, 3)), order)
+
+
+def holds_by_moments(zernike: NDArray, order: int, tolerance: float) -> Holds:
+    """Return a test that the image's moments differ from the shape's by at most `tolerance` of their norm."""
+    m = np.array([m for _, m in degrees(order)])
+    size = np.linalg.norm(zernike)
+
+    def holds(operation: NDArray) -> bool:
+        angle = np.arctan2(operation[1, 0], operation[0, 0])
+        image = zernike if np.linalg.det(operation[:2, :2]) > 0.0 else zernike.conj()
+        return bool(np.linalg.norm(image * np.exp(-1j * m * angle) - zernike) <= tolerance * size)
+
+    return holds
+
+
+def turns_about_normal(angles: NDArray) -> NDArray[np.float64]:
+    """Return (k, 3, 3) rotations about the third axis."""
+    turns = np.zeros((len(angles), 3, 3))
+    turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
+    turns[:, 1, 0] = np.sin(angles)
+    turns[:, 0, 1] = -turns[:, 1, 0]
+    turns[:, 2, 2] = 1.0
+    return turns
+
+
+def _mirrors(zernike: NDArray, points: NDArray) -> NDArray[np.float64]:
+    """Return (k, 3, 3) reflections that may take a shape to itself: by moments, and by its outermost corners."""
+    radius = np.hypot(*points.T)
+    outer = points[radius > (1.0 - 1e-4) * radius.max()]
+    corners = np.arctan2(*outer.T[::-1])
+    corners = corners[np.unique(np.round(corners, 5), return_index=True)[1][: 2 * MAX_AXIS_ORDER]]
+    angles = np.concatenate([_best_angles(zernike.conj(), zernike), corners[0] + corners])
+    return turns_about_normal(angles) @ MIRROR
+
+
+def _best_angles(source: NDArray, target: NDArray) -> NDArray[np.float64]:
+    """Return the (k,) angles of the largest overlap of the turned source with the target, the largest first."""
+    order = next(n for n in count() if len(degrees(n)) == len(source))
+    m = np.array([m for _, m in degrees(order)])
+    terms = target.conj() * source
+    weights = np.array([terms[m == k].sum() for k in range(order + 1)])
+
+    def derivative(angle: NDArray, times: int) -> NDArray:
+        powers = (-1j * np.arange(order + 1)) ** times
+        return (weights * powers * np.exp(-1j * np.multiply.outer(angle, np.arange(order + 1)))).real.sum(axis=1)
+
+    angles = 2.0 * np.pi / ANGLES * np.arange(ANGLES)
+    overlap = derivative(angles, 0)
+    peaks = np.flatnonzero((overlap >= np.roll(overlap, 1)) & (overlap >= np.roll(overlap, -1)))
+    peaks = peaks[np.argsort(-overlap[peaks], kind="stable")][:MAX_CANDIDATES]
+    angles = angles[peaks]
+    for _ in range(NEWTON_STEPS):
+        slope, bend = derivative(angles, 1), derivative(angles, 2)
+        step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, 1.0), 0.0)
+        angles = angles + np.clip(step, -np.pi / ANGLES, np.pi / ANGLES)
+    return np.asarray(angles, np.float64)

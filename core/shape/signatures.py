@@ -12,6 +12,11 @@
 
 Size is kept apart, as the radius of gyration. The compared numbers are smooth in the shape: noise of the points changes
 it little, and nothing switches.
+
+A flat shape has a front, and is seen from there: turned over it is its mirror image; a sheet has no front. Its
+`invariants` are c_pp, and the real parts of products of complex moments with p - q that add up to zero, c_a conj(c_b)
+and c_a c_b conj(c_c), of central moments over A s^n; `chirality` are the imaginary parts; `zernike` the |A_nm| in the
+disc about the centroid that just holds the shape.
 """
 
 from __future__ import annotations
@@ -24,12 +29,13 @@ from math import hypot, log, pi, sqrt, tanh
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import Measure, Moments, monomials
+from ..moments.complex_form import complex_moments
+from ..moments.exponents import monomial_count, monomials
+from ..moments.moments import Measure, Moments, U
 from ..moments.solid_harmonics import along_first, couple, harmonic_moments
 from ..numerics.arguments import check_type
 from ..numerics.arrays import PerBody
 from ..verdict.finding import FileError
-from . import flat_couplings
 from .findings import SIGNATURE_INCOMPLETE, SIGNATURE_UNRECOGNIZED
 from .zernike import (
     MAX_ORDER_BY_MOMENTS,
@@ -37,13 +43,14 @@ from .zernike import (
     degrees,
     descriptor_error,
     descriptors,
+    disc_zernike,
     radial_power,
     zernike_moments,
 )
 
-Key = tuple[int, int]  # (n, l) of a multiplet
+Key = tuple[int, int]  # (n, l) of a multiplet, or (p, q) of a complex moment of a flat shape, p ≥ q
 INVARIANT_ORDER = 6
-COUPLED_ORDER = 4  # largest order of the moments that are coupled in threes
+COUPLED_ORDER = 4  # largest order of the moments that are coupled in threes; of a flat shape, of two of the three
 CHIRAL_ORDER = 6
 FREQUENCIES = np.arange(1.0, 13.0)  # frequencies that orders to 20 resolve to a millionth
 MAX_SIMILAR_DIFFERENCE = 0.1  # beyond this nobody would call two shapes similar
@@ -141,7 +148,9 @@ class Likeness:
 def _lengths(dimension: int) -> tuple[int, int]:
     """Return the numbers of invariants and of chiralities of a signature. KeyError for an unknown dimension."""
     bodies = 2 + len(_pairs()) + len(_even_triples()), len(_chiral_triples())
-    return {2: flat_couplings.counts(), 3: bodies}[dimension]
+    couplings = len(_flat_pairs()) + len(_flat_triples())
+    flat = INVARIANT_ORDER // 2 - 1 + couplings, int(_is_chiral().sum())
+    return {2: flat, 3: bodies}[dimension]
 
 
 def signature(moments: Moments, radius: float, zernike: Multiplets | None = None) -> Signature:
@@ -299,3 +308,66 @@ def _can_couple(triple: tuple[Key, Key, Key]) -> bool:
     """Return whether three multiplets have a scalar: their degrees are the sides of a triangle."""
     a, b, c = sorted(l for _, l in triple)
     return c <= a + b
+
+
+@lru_cache
+def _turning(order: int) -> list[Key]:
+    """Return (p, q) of the complex moments of order 2 to `order` that a rotation changes; first moments are zero."""
+    return [(n - q, q) for n in range(2, order + 1) for q in range((n + 1) // 2)]
+
+
+@lru_cache
+def _flat_pairs() -> list[tuple[Key, Key]]:
+    return [pair for pair in combinations_with_replacement(_turning(INVARIANT_ORDER), 2) if _sum(pair, 1) == 0]
+
+
+@lru_cache
+def _flat_triples() -> list[tuple[Key, Key, Key]]:
+    """Return triples of moments: two, and a third with p - q equal to the sum of theirs."""
+    pairs = combinations_with_replacement(_turning(COUPLED_ORDER), 2)
+    return [(a, b, d) for a, b in pairs for d in _turning(INVARIANT_ORDER) if _sum((a, b, d), 2) == 0]
+
+
+def _sum(keys: tuple[Key, ...], plus: int) -> int:
+    """Return the sum of p - q over the first `plus` moments, minus the sum over all later moments."""
+    return sum((p - q) * (1 if i < plus else -1) for i, (p, q) in enumerate(keys))
+
+
+@lru_cache
+def _is_chiral() -> NDArray[np.bool_]:
+    """Return the mask of couplings that have an imaginary part: all but the squares of one moment."""
+    return np.array([a != b for a, b in _flat_pairs()] + [True] * len(_flat_triples()))
+
+
+def flat_signature(moments: Moments, radius: float) -> Signature:
+    """Return the signature of a flat shape, of dimension 2.
+
+    moments: of area, about the centroid, with z = 0, to order 6 at least; orders above 20 are not used. radius: of the
+    disc about the centroid that just holds the shape. The invariants are Flusser's (Pattern Recognition 33, 2000), the
+    Zernike descriptors those of Khotanzad and Hong (PAMI 12, 1990).
+    """
+    order = min(moments.order, MAX_ORDER_BY_MOMENTS)
+    moments = moments.truncate(order)
+    size = sqrt((moments[2, 0, 0] + moments[0, 2, 0]) / moments.total)
+    low = moments.truncate(INVARIANT_ORDER)
+    degree = monomials(INVARIANT_ORDER).sum(axis=1)
+    scaled = Moments(low.raw / size**degree / moments.total, low.about, low.measure)
+    c = {key: entry.value for key, entry in complex_moments(scaled).items()}
+    couplings: NDArray[np.complex128] = np.array(
+        [c[a] * c[b].conjugate() for a, b in _flat_pairs()]
+        + [c[a] * c[b] * c[d].conjugate() for a, b, d in _flat_triples()]
+    )
+    scalars = [c[p, p].real for p in range(2, INVARIANT_ORDER // 2 + 1)]
+    zernike = np.abs(disc_zernike(moments, radius))
+    rounded = np.random.default_rng(0).uniform(-8.0 * U, 8.0 * U, monomial_count(order))
+    moved = Moments(moments.raw * (1.0 + rounded), moments.about, moments.measure)
+    error = float(np.abs(np.abs(disc_zernike(moved, radius)) - zernike).max())
+    return Signature(
+        size,
+        np.concatenate([scalars, couplings.real]),
+        zernike,
+        np.empty(0),
+        couplings.imag[_is_chiral()],
+        error,
+        dimension=2,
+    )

@@ -22,9 +22,10 @@ from numpy.typing import NDArray
 from ..inertia.axial_harmonics import MAX_TILT, AxialHarmonics, axis_last, turn_by_harmonics
 from ..inertia.canonical_frame import NOISE_LEVEL
 from ..inertia.principal_frames import equivalent_frames
+from ..moments.images import invert_through_point
 from ..moments.moments import Moments
-from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
+from ..numerics.arrays import distinct_arrays
 
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
 EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations is the operation nearest to it
@@ -39,6 +40,7 @@ FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candida
 UNDECIDED = {"Oh": "O", "Ih": "I", "D6h": "C6h, D6", "C6v": "C6", "D5h": "C5h", "D5d": "S10", "D4d": "S8"}
 
 Distance = Callable[[NDArray], NDArray]
+Holds = Callable[[NDArray], bool]  # True if a (3, 3) map about the center takes the body, or flat shape, to itself
 
 
 class Skin(Protocol):
@@ -155,11 +157,7 @@ def symmetry(
 def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Distance, tolerance: float) -> Symmetry:
     """Return the symmetries that the geometry has: images of (n, 3) points are within the tolerance of the surface."""
     points = points - center
-    some = points[:: 1 + len(points) // FIRST_SAMPLES]
-
-    def holds(operation: NDArray) -> bool:
-        return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
-
+    holds = holds_by_outline(points, lambda images: distance(images + center), tolerance)
     if len(candidate.revolution_axes) == 3:
         turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
         ball = all(holds(turn) for turn in turns)
@@ -175,6 +173,28 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
         operations = _around_axis(points, axis, holds)
     confirmed = np.array([operation for operation in operations if holds(operation)])
     return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
+
+
+def holds_by_outline(points: NDArray, distance: Distance, tolerance: float) -> Holds:
+    """Return a test that images of (n, 3) points, about the centroid, are within the tolerance of a surface."""
+    some = points[:: 1 + len(points) // FIRST_SAMPLES]
+
+    def holds(operation: NDArray) -> bool:
+        return all((distance(part @ operation.T) <= tolerance).all() for part in (some, points))
+
+    return holds
+
+
+def highest_fold(turns: Callable[[NDArray], NDArray], holds: Holds) -> int:
+    """Return the highest order of an axis with turns, (k, 3, 3) by (k,) angles, that take a body to itself.
+
+    The tolerance may let a turn by about the right angle pass, but not turns by several times that.
+    """
+    return next(
+        n
+        for n in range(MAX_AXIS_ORDER, 0, -1)
+        if all(holds(turn) for turn in turns(2.0 * np.pi / n * np.arange(1, n // 2 + 1)))
+    )
 
 
 def decide(candidates: Sequence[Symmetry], center: NDArray, skin: Skin, tolerance: float) -> list[Symmetry]:
@@ -255,17 +275,12 @@ def _motion_between(points: NDArray, nearest: NDArray) -> tuple[NDArray, NDArray
     return motion[:3] / reach, motion[3:]
 
 
-def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
+def _around_axis(points: NDArray, axis: NDArray, holds: Holds) -> NDArray[np.float64]:
     """Return candidates for a body with the moments of a body of revolution, but with corners: a prism of many sides.
 
     Its mirrors and half turns take one of the points farthest from the axis to another one.
     """
-    # The tolerance may let a turn by about the right angle pass, but not turns by several times that.
-    fold = next(
-        n
-        for n in range(MAX_AXIS_ORDER, 0, -1)
-        if all(holds(_axis_rotation(axis, 2.0 * np.pi * k / n)) for k in range(1, n // 2 + 1))
-    )
+    fold = highest_fold(lambda angles: np.array([_axis_rotation(axis, angle) for angle in angles]), holds)
     turns = [_axis_rotation(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
     across = np.eye(3) - 2.0 * np.outer(axis, axis)
     seeds = [np.eye(3)] + [

@@ -14,6 +14,10 @@ J_k(x) = ∫_0^1 t² S_k(tx) dt the stable recursion
 
     J_k = (S_k - A_k) / (n+3),    A_{k+1} = ((2n+3) S_k - n A_k) / (n+3),    A_0 = 0.
 
+Of a plane shape in the unit disc (Zernike 1934; Teague 1980 for shapes) they are A_nm = sqrt((n+1)/π) ∫ R_nm(r)
+exp(-imφ) dA, orthonormal: the sum of all |A_nm|², m = -n..n, is at most the shape's area. Turned by θ a shape has
+A_nm exp(-imθ), and its mirror image in y = 0 has conj(A_nm).
+
 Every frequency within the ball's resolution follows too, for ∫ R_nl j_l(qr) r² dr = (-1)^k sqrt(2n+3) j_{n+1}(q)/q.
 """
 
@@ -28,7 +32,9 @@ from math import ceil, factorial, pi, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from ..moments.moments import U
+from ..moments.complex_form import complex_moments
+from ..moments.exponents import monomials
+from ..moments.moments import Moments, U
 from ..moments.solid_harmonics import Multiplets, along_first, harmonic_moments, with_negative_orders
 from ..numerics.quadrature import triangle_rule
 
@@ -62,7 +68,7 @@ def descriptors(moments: Multiplets) -> NDArray[np.float64]:
 
 
 def degrees(order: int) -> list[tuple[int, int]]:
-    """Return (n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first."""
+    """Return (n, l) for 0 ≤ l ≤ n ≤ order with n-l even, n first; of a disc, (n, m)."""
     return [(n, l) for n in range(order + 1) for l in range(n % 2, n + 1, 2)]
 
 
@@ -200,3 +206,33 @@ def _radial(n: int, l: int) -> tuple[Fraction, ...]:
         row.append(factor)
         factor *= (i - k) * (k + beta + 1 + i) / ((beta + 1 + i) * (i + 1))
     return tuple(row)
+
+
+def disc_zernike(moments: Moments, radius: float) -> NDArray[np.complex128]:
+    """Return (k,) A_nm, ordered as `degrees`, of a shape by area moments about the disc's center, with z = 0."""
+    degree = monomials(moments.order).sum(axis=1)
+    scaled = Moments(moments.raw / radius ** (degree + 2.0), moments.about, moments.measure)
+    c = {key: entry.value for key, entry in complex_moments(scaled).items()}
+    return np.array(
+        [
+            sqrt((n + 1) / pi)
+            * sum(factor * c[(s + m) // 2, (s - m) // 2].conjugate() for s, factor in _disc_radial(n, m))
+            for n, m in degrees(moments.order)
+        ]
+    )
+
+
+@lru_cache
+def _disc_radial(n: int, m: int) -> list[tuple[int, float]]:
+    """Return (s, the coefficient of r^s) of R_nm."""
+    return [
+        (
+            n - 2 * k,
+            float(
+                (-1) ** k
+                * factorial(n - k)
+                // (factorial(k) * factorial((n + m) // 2 - k) * factorial((n - m) // 2 - k))
+            ),
+        )
+        for k in range((n - m) // 2 + 1)
+    ]

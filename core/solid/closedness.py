@@ -11,9 +11,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.edges import closed_side_faces
+from ..mesh.edges import closed_side_faces, faces_across_sides
 from ..mesh.planarity import Planarity, PlanarityAccumulator
-from ..mesh.side_pairs import faces_across_sides
 from ..mesh.surface import Surface
 from ..moments.moments import Moments
 from ..numerics.arguments import check_type

@@ -14,8 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.boxes import overlapping_box_pairs
-from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, sort_components
+from ..mesh.bvh import Bvh, SortedComponents, intersecting_pairs, overlapping_box_pairs, sort_components
 from ..numerics.arrays import cross_rows, lengths, segment_ranges
 
 NO_PAIRS = np.empty((0, 2), np.intp)

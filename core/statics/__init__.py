@@ -9,6 +9,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     area_gradient="gradient",
     balance="balancing",
     find_support="support",
-    resting_poses="resting",
+    resting_poses="support",
     volume_gradient="gradient",
 )

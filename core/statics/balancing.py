@@ -23,10 +23,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..inertia.findings import NO_CERTAIN_VOLUME
+from ..mesh.edges import uncancelled_sides
 from ..mesh.surface import Surface, normals
 from ..moments.moments import Moments, U
 from ..numerics.arguments import check_type, float_array, index_array
-from ..numerics.arrays import first_occurrence, sums_by_index
+from ..numerics.arrays import sums_by_index
 from ..polyhedron.integration import polyhedron_moments
 from ..verdict.finding import MeasureError
 from ..wall.walls import first_positive_root
@@ -264,8 +265,8 @@ class _Fans:
             [sums_by_index(self.owner, points[self.vertex, k] * self.share, number) for k in range(3)], axis=1
         )
         whole = np.bincount(faces)[faces] == 1
-        boundary, owners = _face_boundaries(triangles[~whole], faces[~whole])
-        fan = np.concatenate([triangles[whole], np.concatenate([boundary, self.count + owners[:, None]], axis=1)])
+        owners, start, stop = uncancelled_sides(triangles[~whole], faces[~whole])
+        fan = np.concatenate([triangles[whole], np.stack([start, stop, self.count + owners], axis=1)])
         owners = np.concatenate([faces[whole], owners])
         self.points = np.concatenate([points, middles])
         facing = np.stack([sums_by_index(faces, column, number) for column in vectors.T], axis=1)[owners]
@@ -289,12 +290,3 @@ class _Fans:
         for column, shared in zip(vertex_gradient.T, middle.T):
             column += sums_by_index(self.vertex, shared[self.owner] * self.share, self.count)
         return vertex_gradient.reshape(-1, 3, 3)
-
-
-def _face_boundaries(triangles: NDArray, faces: NDArray) -> tuple[NDArray[np.integer], NDArray[np.integer]]:
-    """Return (k, 2) sides of triangles without an opposite side in the same face, and (k,) the face of each."""
-    start, stop = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
-    owner = np.repeat(faces, 3).astype(np.int64)
-    first = first_occurrence(np.minimum(start, stop), np.maximum(start, stop), owner)
-    on_boundary = np.bincount(first)[first] == 1
-    return np.stack([start[on_boundary], stop[on_boundary]], axis=1), owner[on_boundary]

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh of a file as arrays, the same for every format."""
+"""A mesh of a file as arrays, the same for every format; the bounding box of finite coordinates in blocks."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -12,8 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
+from ..mesh.welding import first_at_equal_position
+from ..verdict.finding import FileError, finding
+from .findings import AT_ROW, NON_FINITE_COORDINATES
 
 CORNERS_PER_BLOCK = 1 << 18
+
+Box = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,32 +105,28 @@ def without_repeats(corners: NDArray[np.int64], sides: NDArray[np.int64]) -> tup
 def merge_equal(points: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.intp]]:
     """Return the different points of (n, 3), in the order of their first places, and the (n,) index of each point."""
     points = points + np.float32(0.0)  # -0.0 equals 0.0
-    words = np.ascontiguousarray(points).view(np.uint32)
-    keys = np.zeros(len(points), np.uint64)
-    for axis in range(3):
-        keys = (keys ^ words[:, axis]) * np.uint64(0x9E3779B97F4A7C15)
-        keys ^= keys >> np.uint64(32)
-    # With the indices in place of their last bits, keys are sorted without a table of indices, in half the time.
-    bits = np.uint64(len(points).bit_length())
-    keys = (keys >> bits << bits) | np.arange(len(points), dtype=np.uint64)
-    keys.sort()
-    order = (keys & ((np.uint64(1) << bits) - np.uint64(1))).astype(np.intp)
-    is_first, index = _number_groups(order, np.diff(keys >> bits) != 0)
-    if not np.array_equal(points[is_first][index], points):  # different points with the same key
-        order = np.lexsort(words.T)
-        is_first, index = _number_groups(order, (words[order[1:]] != words[order[:-1]]).any(axis=1))
-    return points[is_first], index
+    first = first_at_equal_position(points)
+    is_first = first == np.arange(len(points))
+    return points[is_first], (np.cumsum(is_first) - 1)[first]
 
 
-def _number_groups(order: NDArray[np.intp], is_next: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-    """Return the first member of each group, and (n,) numbers of the groups. is_next: (n - 1,) where one begins."""
-    is_first, index = np.zeros(len(order), bool), np.zeros(len(order), np.intp)
-    if len(order):
-        starts = np.append(0, np.flatnonzero(is_next) + 1)
-        firsts = np.minimum.reduceat(order, starts)
-        is_first[firsts] = True
-        index[order] = np.repeat((np.cumsum(is_first) - 1)[firsts], np.diff(starts, append=len(order)))
-    return is_first, index
+def box_of_blocks(blocks: Iterable[NDArray[np.floating]], element: str) -> Box:
+    """Return the least and the largest coordinates of (n, 3) or (n, 3, 3) blocks, zeros if there are none."""
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    rows = bad = first = 0
+    for block in blocks:
+        least, largest = Surface(block.reshape(-1, 3)).box if len(block) else (low, high)
+        if np.isfinite([least, largest]).all() or not len(block):
+            low, high = np.minimum(low, least), np.maximum(high, largest)
+        else:
+            wrong = ~np.isfinite(block.reshape(len(block), -1))
+            first = first if bad else rows + int(np.argmax(wrong.any(axis=1)))
+            bad += int(np.count_nonzero(wrong))
+        rows += len(block)
+    if bad:
+        place = finding(AT_ROW, element=element, row=first).as_record()
+        raise FileError(NON_FINITE_COORDINATES, count=bad, place=place)
+    return (low, high) if rows else (np.zeros(3), np.zeros(3))
 
 
 def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:

@@ -14,7 +14,7 @@ from typing import BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .decimals import parse_decimals
+from .text_fields import parse_decimals
 
 BYTES_PER_BLOCK = 1 << 22  # of a text a quarter
 FEW_ROWS = 64  # Rows of equal lengths: after so many, a run of them is looked for.
@@ -63,13 +63,15 @@ class RowReader:
             starts, lengths = self._scan(properties, min(left, FEW_ROWS))
             if (lengths == lengths[0]).all():
                 row = self._row_type(properties, lengths[0])
-                table = self._table(row, left)
+                unit = self._buffer.itemsize
+                self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
+                table = np.frombuffer(self._buffer, row, min(left, len(self._buffer) * unit // row.itemsize))
                 same = np.ones(len(table), bool)
                 for number, length in enumerate(lengths[0]):
                     same &= table["n{}".format(number)] == length
                 count = len(table) if same.all() else int(np.argmin(same))
                 yield np.arange(done, done + count), [table[name][:count] for name in _names(properties)]
-                end = count * row.itemsize // self._buffer.itemsize
+                end = count * row.itemsize // unit
             else:
                 starts, lengths = self._scan(properties, min(left, SINGLE_ROWS))
                 count, end = len(lengths), starts[-1]
@@ -108,7 +110,9 @@ class RowReader:
                 if base + window > len(self._buffer):
                     raise RowsError
                 window *= 4
-        self._fill(starts[-1])
+        self._read_ahead(starts[-1])
+        if len(self._buffer) < starts[-1]:
+            raise RowsError
         return np.array(starts), np.array(lengths, np.intp).reshape(len(starts) - 1, len(lists))
 
     def _numbers_at(self, kind: str, start: int, count: int) -> list[int]:
@@ -144,26 +148,12 @@ class RowReader:
                 fields.append((name, self._type(one.type)))
         return np.dtype(fields)
 
-    def _table(self, row: np.dtype, left: int) -> NDArray:
-        """Read the next part of the file, and return the whole rows in the buffer, at most `left`."""
-        unit = self._buffer.itemsize
-        self._read_ahead(min(left * row.itemsize, BYTES_PER_BLOCK) // unit)
-        count = min(left, len(self._buffer) * unit // row.itemsize)
-        return np.frombuffer(self._buffer, row, count)
-
     def _size(self, kind: str) -> int:
         """Return the size of a number in items of the buffer: bytes of a binary file, numbers of a text."""
         return int(kind[1:]) if self._order else 1
 
     def _type(self, kind: str) -> np.dtype:
         return np.dtype(self._order + kind) if self._order else NUMBERS
-
-    def _fill(self, count: int) -> None:
-        """Fill the buffer to `count` bytes or numbers. Raises RowsError if the file has fewer."""
-        if len(self._buffer) < count:
-            self._read_ahead(count)
-            if len(self._buffer) < count:
-                raise RowsError
 
     def _read_ahead(self, count: int) -> None:
         """Fill the buffer to `count` bytes or numbers, or with the rest of the file."""

@@ -18,11 +18,9 @@ from numpy.typing import NDArray
 
 from ..mesh.surface import Surface
 from ..verdict.finding import FileError
-from .boxes import Box, box_of_blocks
-from .decimals import parse_decimals
-from .file_mesh import FileMesh, Polygons, merge_equal, name_of_file
+from .file_mesh import Box, FileMesh, Polygons, box_of_blocks, merge_equal, name_of_file
 from .findings import STL_CUT_SHORT
-from .misread import (
+from .text_fields import (
     MARK,
     MAX_FLOAT32,
     SHORT,
@@ -31,6 +29,7 @@ from .misread import (
     Fault,
     find_number_fault,
     map_file,
+    parse_decimals,
     refuse_line,
     shorten,
 )

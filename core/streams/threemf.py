@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scans.findings import DAMAGE_INCOMPLETE
-from ..scans.limits import DEFAULT_LIMITS, Limits
 from ..scans.scan import damaged
+from ..scans.scan_files import DEFAULT_LIMITS, Limits
 from ..verdict.finding import FileError, system_reason
 from ..verdict.number_text import SPACES, parse_number, parse_numbers, parse_whole
 from .findings import DAMAGE_INDEX, FILE_TOO_LARGE, FILE_UNREADABLE, LINE_MISREAD, THREEMF_EXTENSION
@@ -120,11 +120,18 @@ class _Package:
         return placed, UNITS[model.unit]
 
     def _root(self) -> str:
+        """Return the part with the model: the target of the first relationship to one, else the usual place."""
+        targets: list[str] = []
+
+        def start(name: str, values: dict[str, str]) -> None:
+            if name == _PACKAGE + " Relationship" and values["Type"].endswith("/3dmodel"):
+                targets.append(values["Target"])
+
         if "/_rels/.rels" in self._names:
-            for target, kind in _relationships(self.pieces("/_rels/.rels")):
-                if kind.endswith("/3dmodel"):
-                    return posixpath.join("/", target)
-        return "/3D/3dmodel.model"
+            parser = _parser()
+            parser.StartElementHandler = start
+            _feed(parser, self.pieces("/_rels/.rels"))
+        return posixpath.join("/", *targets[:1]) if targets else "/3D/3dmodel.model"
 
     def _placed(
         self,
@@ -168,20 +175,6 @@ def _parser() -> expat.XMLParserType:
     parser.buffer_text = True
     parser.StartDoctypeDeclHandler = refuse
     return parser
-
-
-def _relationships(pieces: Iterator[bytes]) -> list[tuple[str, str]]:
-    """Return target and type of each relationship."""
-    found: list[tuple[str, str]] = []
-    parser = _parser()
-
-    def start(name: str, values: dict[str, str]) -> None:
-        if name == _PACKAGE + " Relationship":
-            found.append((values["Target"], values["Type"]))
-
-    parser.StartElementHandler = start
-    _feed(parser, pieces)
-    return found
 
 
 def _feed(parser: expat.XMLParserType, pieces: Iterator[bytes]) -> None:

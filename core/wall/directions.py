@@ -24,7 +24,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh.edges import find_edges
+from ..mesh.surface import Surface
+from ..mesh.welding import first_at_equal_position
 from ..moments.moments import U
+from ..solid.boundary_loops import vertex_pairs
+from ..verdict.finding import MeasureError
+from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD
 
 TRIANGLES_PER_BLOCK = 4096  # triangles at a time
 SAME_PLANE_RTOL = 1e-4  # Relative to the largest eigenvalue of Σ θ n n'; φ²/4 for planes φ apart. Less is one plane.
@@ -55,6 +60,25 @@ class OffsetDirections:
 def blocks(triangles: NDArray) -> Iterator[NDArray]:
     """Yield blocks of triangles, small enough that their scratch arrays stay in the cache."""
     return (triangles[start : start + TRIANGLES_PER_BLOCK] for start in range(0, len(triangles), TRIANGLES_PER_BLOCK))
+
+
+def weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
+    """Return points and triangles with one vertex for each place, and refuse edges that a wall cannot have."""
+    triangles, _ = surface.all_triangles()
+    first = first_at_equal_position(surface.points)
+    triangles = first[triangles.astype(np.intp)]
+    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+    if not len(triangles):
+        raise MeasureError(NO_FACE_AREA)
+    used, number = np.unique(triangles, return_inverse=True)
+    triangles = number.reshape(-1, 3)
+    edges = find_edges(triangles)
+    misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
+    for code, wrong in ((WALL_NON_MANIFOLD, edges.count > 2), (WALL_INCONSISTENT_FACES, misoriented)):
+        if wrong.any():
+            pairs = used[vertex_pairs(triangles, edges.first[wrong])]
+            raise MeasureError(code, elements=pairs, count=len(pairs))
+    return surface.points[used].astype(np.float64), triangles
 
 
 def offset_directions(

@@ -23,17 +23,15 @@ from numpy.typing import NDArray
 from ..mesh.bvh import sort_components
 from ..mesh.edges import find_edges
 from ..mesh.surface import Surface
-from ..mesh.welding import first_at_equal_position
 from ..moments.moments import PAIRWISE_SUM_ROUNDINGS, Measure, Moments, U, monomial_count, monomial_index, monomials
 from ..numerics.arguments import check_type
 from ..numerics.graph import connected_components
 from ..numerics.vectors import cross
-from ..solid.boundary_loops import vertex_pairs
 from ..solid.nesting import classify_pairs, self_overlaps, surfaces_intersect
 from ..verdict.finding import MeasureError
 from ..verdict.tolerances import check_size
-from .directions import UNEVEN_RTOL, blocks, offset_directions
-from .findings import NO_FACE_AREA, WALL_INCONSISTENT_FACES, WALL_NON_MANIFOLD, WALL_PRECISION_LOST
+from .directions import UNEVEN_RTOL, blocks, offset_directions, weld_equal
+from .findings import WALL_PRECISION_LOST
 
 ORDER = 3
 COEFFICIENT_COUNT = ORDER + 3  # coefficients in s: degrees 0 to 5
@@ -186,7 +184,7 @@ def offset_solid(surface: Surface) -> OffsetSolid:
     (0.488, 0.5)
     """
     check_type("surface", surface, Surface)
-    points, triangles = _weld_equal(surface)
+    points, triangles = weld_equal(surface)
     stored = float(np.linalg.norm(surface.coordinate_error))
     low, high = points.min(axis=0), points.max(axis=0)
     check_size(*(high - low).tolist())
@@ -241,25 +239,6 @@ def offset_solid(surface: Surface) -> OffsetSolid:
         max_ratio=height.max(initial=1.0),
         degenerate_triangles=int(np.count_nonzero(~solid)),
     )
-
-
-def _weld_equal(surface: Surface) -> tuple[NDArray[np.float64], NDArray[np.integer]]:
-    """Return points and triangles with one vertex for each place, and refuse edges that a wall cannot have."""
-    triangles, _ = surface.all_triangles()
-    first = first_at_equal_position(surface.points)
-    triangles = first[triangles.astype(np.intp)]
-    triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
-    if not len(triangles):
-        raise MeasureError(NO_FACE_AREA)
-    used, number = np.unique(triangles, return_inverse=True)
-    triangles = number.reshape(-1, 3)
-    edges = find_edges(triangles)
-    misoriented = (edges.count == 2) & (edges.signed_use_count(np.zeros(len(triangles), bool)) != 0.0)
-    for code, wrong in ((WALL_NON_MANIFOLD, edges.count > 2), (WALL_INCONSISTENT_FACES, misoriented)):
-        if wrong.any():
-            pairs = used[vertex_pairs(triangles, edges.first[wrong])]
-            raise MeasureError(code, elements=pairs, count=len(pairs))
-    return surface.points[used].astype(np.float64), triangles
 
 
 class _Prisms:

@@ -21,7 +21,7 @@ from .. import selection
 
 if TYPE_CHECKING:
     from ...blender.session.stored.reference import ReferenceChoice
-    from ...core.inertia.reference import ReferredInertia
+    from ...core.inertia.plain_body import ReferredInertia
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):

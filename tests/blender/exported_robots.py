@@ -4,6 +4,7 @@
 
 import base64
 from dataclasses import dataclass
+from xml.etree import ElementTree
 
 import numpy as np
 from body_moments.command import audit
@@ -11,9 +12,10 @@ from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.read.descriptions import read_description
 from body_moments.core.robots.read.meshes import read_mesh
 from body_moments.core.robots.read.paths import Roots
+from body_moments.core.robots.stated import rotation_of_angles
 from body_moments.core.robots.write import gltf
 
-SUFFIXES = {"urdf": ".urdf", "sdf": ".sdf", "mjcf": ".xml", "usd": ".usda", "gltf": ".gltf"}
+SUFFIXES = {"urdf": ".urdf", "sdf": ".sdf", "mjcf": ".xml", "usd": ".usda", "gltf": ".gltf", "osim": ".osim"}
 TYPES = {5121: "<u1", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 KHR = "KHR_physics_rigid_bodies"
 
@@ -56,6 +58,10 @@ def exported_links(path):
     data = path.read_bytes()
     if path.suffix in (".gltf", ".glb"):
         return _gltf_links(data)
+    if path.suffix == ".osim":
+        return {
+            body.get("name"): _osim_link(body, Roots.for_file(path)) for body in ElementTree.parse(path).iter("Body")
+        }
     assert audit.answer(audit.parse(["audit", str(path)]))[1] == 0
     roots = Roots.for_file(path)
     links = [link for link in read_description(path, roots).links if link.inertial is not None]
@@ -74,6 +80,19 @@ def _corners(stated, roots):
     surface, _ = read_mesh(roots.find(stated.shape.file))
     pose = stated.shape.pose
     return surface.points[surface.all_triangles()[0]] @ pose.rotation.T + pose.position
+
+
+def _osim_link(body, roots):
+    xx, yy, zz, xy, xz, yz = map(float, body.findtext("inertia").split())
+    corners = [np.zeros((0, 3, 3))]
+    for frame in body.iter("PhysicalOffsetFrame"):
+        position, (a, b, c) = (np.array(frame.findtext(name).split(), float) for name in ("translation", "orientation"))
+        turn = rotation_of_angles(-a, -b, -c).T
+        surface, _ = read_mesh(roots.find(frame.findtext("attached_geometry/Mesh/mesh_file")))
+        corners.append(surface.points[surface.all_triangles()[0]] @ turn.T + position)
+    center = np.array(body.findtext("mass_center").split(), float)
+    tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return ExportedLink(float(body.findtext("mass")), center, tensor, np.concatenate(corners))
 
 
 def _gltf_links(data):

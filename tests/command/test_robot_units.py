@@ -73,17 +73,6 @@ def test_bones_are_links_in_meters(tmp_path, name, unit):
     assert max(link.sides.max() for link in links.values()) < (high - low).max() * unit
 
 
-@pytest.mark.parametrize("unit", UNITS)
-def test_child_links_hang_at_their_places_in_meters(tmp_path, unit):
-    bpy.context.scene.unit_settings.scale_length = unit
-    upper, lower = add_box("Upper", (0, 0, 0), SIDES), add_box("Lower", (50, 30, 20), SIDES)
-    lower.parent = upper
-    found = text("measure", "--format", "urdf", "--output", tmp_path / "arm.urdf")
-    joint = found[found.index('<joint name="Lower_joint"') :]
-    place = joint[joint.index('xyz="') + 5 :].split('"')[0]
-    assert close(np.array(place.split(), float), np.array([50, 30, 20]) * unit, 1e-6)
-
-
 @pytest.mark.parametrize("option", [("--material", "Aluminum"), ("--kind", "shell", "--thickness", "0.001")])
 def test_collections_follow_the_density_options(tmp_path, option):
     path = box_stl(tmp_path)

@@ -103,21 +103,12 @@ def test_urdf_has_the_record_numbers_along_link_axes(unit):
 
 
 @pytest.mark.parametrize("unit", UNITS)
-def test_the_other_formats_hold_the_same_bodies(unit):
+def test_the_other_formats_hold_the_same_bodies(tmp_path, unit):
     arm(unit)
     records = {entry["name"]: entry for entry in document("--frame", "object")["objects"]}
-    sdf = ElementTree.fromstring(text("measure", "--format", "sdf"))
-    for link in sdf.iter("link"):
-        record, inertial = records[link.get("name")], link.find("inertial")
-        *center, x, y, z, w = numbers(inertial.findtext("pose"))
-        turn = rotation_matrix([w, x, y, z])
-        check(record, float(inertial.findtext("mass")), center, turn @ entries(inertial.find("inertia")) @ turn.T)
-    mjcf = ElementTree.fromstring(text("measure", "--format", "mjcf"))
-    for body in mjcf.iter("body"):
-        inertial = body.find("inertial")
-        turn = rotation_matrix(numbers(inertial.get("quat")))
-        tensor = (turn * numbers(inertial.get("diaginertia"))) @ turn.T
-        check(records[body.get("name")], float(inertial.get("mass")), numbers(inertial.get("pos")), tensor)
+    for name in ("sdf", "mjcf", "osim"):
+        for label, link in exported(tmp_path, name).items():
+            check(records[label.replace("_", " ")], link.mass, link.center, link.inertia)
     usd = text("measure", "--format", "usd")
     for name, record in records.items():
         prim = usd[usd.index('"{}"'.format(name.replace(" ", "_"))) :]
@@ -154,7 +145,7 @@ def test_unmeasured_parent_passes_link_to_its_own_parent():
 
 def test_inertials_alone_name_no_mesh(tmp_path):
     arm()
-    for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
+    for name in ("urdf", "sdf", "mjcf", "usd", "gltf", "osim"):
         found = text("measure", "--format", name, "--inertial-only")
         assert "mesh" not in found and "joint" not in found.lower() and "Fore" in found
     text("measure", "--format", "urdf", "--inertial-only", "--output", str(tmp_path / "robot.urdf"))
@@ -264,25 +255,15 @@ def test_the_mesh_that_is_measured_is_never_replaced(tmp_path):
     text("measure", "--format", "urdf", "--output", tmp_path / "robot.urdf")
     path = tmp_path / "meshes" / "robot" / "part.stl"
     before = path.read_bytes()
-    words = (
-        "measure",
-        "--format",
-        "urdf",
-        "--unit-scale",
-        "0.001",
-        "--output",
-        tmp_path / "robot.urdf",
-        "--force",
-        path,
-    )
-    line = Run(parsed(*words))
+    words = ("measure", "--format", "urdf", "--unit-scale", "0.001", "--output", tmp_path / "robot.urdf", "--force")
+    line = Run(parsed(*words, path))
     line.measure()
     assert line.errors == 1 and path.read_bytes() == before
 
 
 def test_an_older_robot_of_ours_is_replaced_and_another_is_not(tmp_path):
     arm()
-    for name in ("urdf", "sdf", "mjcf", "usd", "gltf"):
+    for name in ("urdf", "sdf", "mjcf", "usd", "gltf", "osim"):
         path = tmp_path / ("robot." + name)
         for _ in range(2):
             text("measure", "--format", name, "--output", str(path))

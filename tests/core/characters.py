@@ -5,7 +5,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from body_moments.core.rig.dominance import VertexWeights
+from body_moments.core.rig.cuts import VertexWeights
 
 SIDES = {  # the sides of a cell, counter-clockwise from outside
     (-1, 0, 0): [(0, 0, 0), (0, 0, 1), (0, 1, 1), (0, 1, 0)],

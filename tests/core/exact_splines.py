@@ -13,7 +13,7 @@ from fractions import Fraction
 import numpy as np
 from body_moments.core.numerics.bspline import SplineSpace
 from body_moments.core.nurbs.blender_knots import blender_space
-from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.splines import Patch
 
 HALF = np.sqrt(0.5)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.splines import Patch
 
 
 class IgesFile:

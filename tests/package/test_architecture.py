@@ -14,7 +14,7 @@ WINGS = ("core", "blender", "command", "operators", "panels")
 ORDER = {
     "core": (
         ("lazy",),
-        ("numerics", "verdict", "files"),
+        ("numerics", "verdict", "whole_file"),
         ("moments",),
         ("mesh", "inertia", "papers"),
         ("polyhedron", "shape", "scans"),

@@ -4,8 +4,10 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -45,9 +47,10 @@ QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2,
 TRIANGLES = np.vstack([QUADS[:, [0, 1, 2]], QUADS[:, [0, 2, 3]]])
 
 
-def run(command: list, **options) -> subprocess.CompletedProcess:
+def run(command: list, variables: Mapping[str, str] | None = None, **options) -> subprocess.CompletedProcess:
     """Run a command that sees neither the project nor the packages of this Python."""
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    environment |= variables or {}
     return subprocess.run(command, capture_output=True, encoding="utf-8", env=environment, **options)
 
 
@@ -103,17 +106,36 @@ def test_the_command_tells_what_needs_blender(scripts, tmp_path):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the action's shell is bash")
-def test_the_action_and_the_hook_fail_for_an_impossible_robot(scripts, tmp_path):
-    """Their command lines, as they stand in the files, in the environment that both install."""
-    (tmp_path / "cube.urdf").write_text(URDF, encoding="utf-8")
-    action, hook = ((ROOT / name).read_text(encoding="utf-8") for name in ("action.yml", ".pre-commit-hooks.yaml"))
-    inputs = {"PATHS": ".", "FAIL_ON": "error", "OPTIONS": "", "PATH": "{}:/usr/bin:/bin".format(scripts)}
-    step = action.rpartition("run: ")[2]
-    done = subprocess.run(["bash", "-e", "-c", step], env=inputs, cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 1 and "::error file=cube.urdf" in done.stdout, done.stdout + done.stderr
-    done = subprocess.run(["bash", "-c", step], env={**inputs, "FAIL_ON": "never"}, cwd=tmp_path, capture_output=True)
-    assert done.returncode == 0
-    (entry,) = [line.partition("entry: ")[2] for line in hook.splitlines() if "entry: " in line]
-    command, *options = entry.split()
-    done = run([scripts / command, *options, "cube.urdf"], cwd=tmp_path)
-    assert done.returncode == 1 and "cube.urdf" in done.stdout
+def test_action_fails_for_an_impossible_robot(scripts, tmp_path):
+    """Its commands as a runner starts them: in the workspace, with its variables and the defaults of the inputs."""
+    action = (ROOT / "action.yml").read_text(encoding="utf-8")
+    inputs = dict(re.findall(r"^  ([\w-]+):\n    description: .*\n    default: (.*)$", action, re.MULTILINE))
+    variables = re.findall(r"^ +(\w+): \$\{\{ inputs\.([\w-]+) \}\}$", action, re.MULTILINE)
+    environment = {name: inputs.pop(source).strip('"') for name, source in variables}
+    assert environment["PATHS"] == "." and not inputs
+    workspace, step = tmp_path / "workspace", tmp_path / "step.sh"
+    for name, path in (("ACTION_PATH", ROOT), ("WORKSPACE", workspace), ("OUTPUT", tmp_path / "output")):
+        environment["GITHUB_" + name] = str(path)
+    environment["PATH"] = "{}:/usr/bin:/bin".format(scripts)
+    workspace.mkdir()
+    (workspace / "cube.urdf").write_text(URDF, encoding="utf-8")
+    results = []
+    for command in re.findall(r"^ +run: (.*)$", action, re.MULTILINE):
+        for level in ("error", "never"):
+            step.write_text(command, encoding="utf-8")
+            bash = ["bash", "--noprofile", "--norc", "-eo", "pipefail", step]
+            results.append(run(bash, {**environment, "FAIL_ON": level}, cwd=workspace))
+    assert [done.returncode for done in results] == [0, 0, 1, 0], [done.stderr for done in results]
+    assert "::error file=cube.urdf,line=3,col=5," in results[2].stdout
+
+
+def test_pre_commit_refuses_an_impossible_robot(scripts, tmp_path):
+    """pre-commit itself installs the hook from this repository, and runs it on files that are added."""
+    run([scripts / "python", "-m", "pip", "install", "pre-commit"], check=True)
+    run(["git", "init", "-q", tmp_path], check=True)
+    for text, code in ((URDF, 1), (URDF.replace("1000", "5333.333").replace("9000", "5333.333"), 0)):
+        (tmp_path / "cube.urdf").write_text(text, encoding="utf-8")
+        run(["git", "add", "cube.urdf"], cwd=tmp_path, check=True)
+        hook = [scripts / "pre-commit", "try-repo", ROOT, "body-moments-audit"]
+        done = run(hook, {"PRE_COMMIT_HOME": str(tmp_path / "hooks")}, cwd=tmp_path)
+        assert done.returncode == code and ("cube.urdf:3:5: error" in done.stdout) == bool(code), done.stdout

@@ -59,39 +59,6 @@ def test_urdf_gives_its_consumer_each_link(many):
         assert near(told.inertia.to_matrix(), true.inertia)
 
 
-def test_urdf_is_one_tree_with_links_in_place(chain):
-    both = Robot("pair", (*chain.links, Link("apart", chain.links[0].inertial, chain.links[1].pose)), chain.joints)
-    found = URDF.from_xml_string(urdf.write(both).encode())
-    assert found.get_root() == "base_link" and len(found.joints) == len(found.links) - 1
-    by_child = {joint.child: joint for joint in found.joints}
-
-    def place(name):
-        if name == found.get_root():
-            return Pose()
-        origin = by_child[name].origin
-        return place(by_child[name].parent) @ Pose(np.array(origin.xyz), turned(*origin.rpy))
-
-    for link in both.links:
-        pose = place(link.name)
-        assert near(pose.position, link.pose.position, 1e-13, 10.0) and near(pose.rotation, link.pose.rotation, 1e-13)
-
-
-def test_urdf_joints_move_as_the_robot_does(chain):
-    by_child = {joint.child: joint for joint in URDF.from_xml_string(urdf.write(chain).encode()).joints}
-    for joint in chain.joints:
-        told = by_child[joint.child]
-        if not joint.free:
-            assert told.type == "fixed"
-            continue
-        axis = joint.free[-1]
-        kinds = {"translate": "prismatic", "rotate": "revolute" if axis.is_limited else "continuous"}
-        assert told.type == kinds[axis.kind] and near(told.axis, axis.axis)
-        if axis.is_limited:
-            assert (told.limit.lower, told.limit.upper) == (axis.lower, axis.upper)
-        massless = [by_child["{}_axis_{}".format(joint.child, n + 1)] for n in range(len(joint.free) - 1)]
-        assert [near(j.axis, free.axis) for j, free in zip(massless, joint.free)] == [True] * len(massless)
-
-
 @pytest.mark.parametrize("pitch", [0.3, math.pi / 2, -math.pi / 2, math.pi / 2 - 1e-9, 1.57079632])
 def test_angles_give_the_rotation_back_at_the_poles_too(pitch):
     for roll, yaw in ((0.0, 0.0), (2.0, -1.0), (-3.0, 3.0)):

@@ -7,10 +7,13 @@ The truth is the product of exponentials: each joint turns and moves all that it
 
 import json
 from dataclasses import replace
+from pathlib import Path
 from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
+import opensim
+import pinocchio
 import pytest
 from body_moments.core.numerics.rotations import rotation_matrix
 from body_moments.core.robots.links import Candidate, Connection, assemble_robot
@@ -25,6 +28,7 @@ from tests.robots import sdf_schema
 from tests.robots.links import free_axes, inertial, rotation, shaped
 
 KINDS = ("ball", "box", "sheared")
+ENTRIES = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
 
 
 def rotation_about(axis, angle):
@@ -52,6 +56,8 @@ def assembly(seed, size=1.0):
             sides = (name, above) if rng.integers(2) else (above, name)
             place = Pose(size * rng.normal(size=3), rotation(rng))
             free = free_axes(rng, int(rng.integers(1, 6)))
+            if index % 4 == 3:  # a piston, which its other side sees turn first
+                free = FreeAxis("translate", np.eye(3)[2], -0.25, 0.5), FreeAxis("rotate", np.eye(3)[2])
             connections.append(Connection("joint {}".format(index), *sides, place, free))
     robot, findings = assemble_robot("random", candidates, connections)
     assert not findings and len(robot.joints) == len(candidates) - 1
@@ -76,6 +82,18 @@ def moved(robot, values):
             total = total @ step
         maps[link.name] = total
     return maps
+
+
+def random_values(robot, rng):
+    return {joint.name: rng.uniform(-0.25, 0.25, len(joint.free)) for joint in robot.joints}
+
+
+def assert_equal_bodies(mass, center, entries, parts):
+    """Mass, center and xx, yy, zz, xy, xz, yz of the whole are those of its parts."""
+    truth = combine_inertials(parts)
+    assert abs(mass / truth.mass - 1.0) < 1e-9
+    assert np.abs(center - truth.center).max() < 1e-9 * np.sqrt(np.trace(truth.inertia) / truth.mass)
+    assert np.abs(entries - truth.inertia[ENTRIES]).max() < 1e-9 * np.abs(truth.inertia).max()
 
 
 def load(robot, form):
@@ -118,17 +136,14 @@ def test_100_random_assemblies_load_in_mujoco_and_agree(form):
     for seed in range(100):
         robot = assembly(seed, (1.0, 0.01, 10.0)[seed % 3])
         model, data, place = load(robot, form)
-        truth = combine_inertials([link.inertial.place(place @ link.pose) for link in robot.links])
         masses = model.body_mass[1:]
         center = masses @ data.xipos[1:] / masses.sum()
         total = np.zeros((3, 3))
         for mass, moments, axes, point in zip(masses, model.body_inertia[1:], data.ximat[1:], data.xipos[1:]):
             turn, arm = axes.reshape(3, 3), point - center
             total += (turn * moments) @ turn.T + mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        size = np.sqrt(np.trace(truth.inertia) / truth.mass)
-        assert abs(masses.sum() - truth.mass) <= 1e-9 * truth.mass
-        assert np.abs(center - truth.center).max() <= 1e-9 * size
-        assert np.abs(total - truth.inertia).max() <= 1e-9 * np.abs(truth.inertia).max()
+        parts = [link.inertial.place(place @ link.pose) for link in robot.links]
+        assert_equal_bodies(masses.sum(), center, total[ENTRIES], parts)
 
 
 @pytest.mark.parametrize("form", ["mjcf", "urdf"])
@@ -137,7 +152,7 @@ def test_marked_points_move_as_the_joints_turn(form):
         robot = assembly(seed, (1.0, 0.001)[seed % 2])
         rng = np.random.default_rng(seed)
         model, data, place = load(robot, form)
-        values = {joint.name: rng.uniform(-0.25, 0.25, len(joint.free)) for joint in robot.joints}
+        values = random_values(robot, rng)
         marks = {}
         for link in robot.links:
             point = link.pose.position + rng.normal(size=3)
@@ -154,12 +169,90 @@ def test_marked_points_move_as_the_joints_turn(form):
             assert np.abs(found - (place.rotation @ true + place.position)).max() < 1e-12
 
 
+def test_pinocchio_loads_100_random_assemblies_and_agrees():
+    """URDF: freedom, limits, mass, center and inertia, and marked points as the joints turn."""
+    for seed in range(100):
+        robot = assembly(seed, (1.0, 0.01, 10.0)[seed % 3])
+        (root,) = robot.roots
+        place = Pose() if root.is_fixed else root.pose.inverse()
+        model = pinocchio.buildModelFromXML(robot_text(robot, "urdf")[0])
+        data, rng, q = model.createData(), np.random.default_rng(seed), pinocchio.neutral(model)
+        assert model.nv == sum(len(joint.free) for joint in robot.joints)
+        values = random_values(robot, rng)
+        for joint in robot.joints:
+            for count, (free, value) in enumerate(zip(joint.free, values[joint.name]), start=1):
+                last = count == len(joint.free)
+                one = model.joints[model.getJointId(joint.name if last else "{}_axis_{}".format(joint.name, count))]
+                q[one.idx_q : one.idx_q + one.nq] = value if one.nq == 1 else (np.cos(value), np.sin(value))
+                if free.is_limited:
+                    ends = model.lowerPositionLimit[one.idx_q], model.upperPositionLimit[one.idx_q]
+                    assert ends == (free.lower, free.upper)
+        pinocchio.framesForwardKinematics(model, data, q)
+        maps = moved(robot, values)
+        parts = []
+        for link in robot.links:
+            frame = data.oMf[model.getFrameId(link.name)]
+            total = place.matrix @ maps[link.name] @ link.pose.matrix
+            joint = robot.joint_of(link.name)
+            own = Pose() if joint is None else Pose(joint.pose.position)  # A link's origin is at its joint.
+            size = max(1.0, np.abs(total[:3, 3]).max())
+            assert np.abs(frame.homogeneous - total @ own.matrix).max() < 1e-12 * size
+            parts.append(link.inertial.place(Pose(total[:3, 3], total[:3, :3])))
+        whole = sum((at.act(part) for at, part in zip(data.oMi, model.inertias)), pinocchio.Inertia.Zero())
+        assert_equal_bodies(whole.mass, whole.lever, whole.inertia[ENTRIES], parts)
+
+
+def test_opensim_loads_40_random_assemblies_and_agrees():
+    """Freedom, ranges, mass, center and inertia, and where bodies are as the coordinates change."""
+    opensim.Logger.setLevelString("off")
+    for seed in range(40):
+        robot = assembly(seed, (1.0, 0.1, 10.0)[seed % 3])
+        Path("robot.osim").write_text(robot_text(robot, "osim")[0], encoding="utf-8")
+        model, rng = opensim.Model("robot.osim"), np.random.default_rng(seed)
+        state = model.initSystem()
+        values = random_values(robot, rng)
+        for joint in robot.joints:
+            name = usd.identifier(joint.name)
+            found = model.getJointSet().get(name)
+            coordinates = [found.get_coordinates(index) for index in range(found.numCoordinates())]
+            assert len(coordinates) == len(joint.free)
+            if joint.is_ball:
+                values[joint.name][:] = 0.0  # The order of its axes is OpenSim's own.
+                continue
+            # A joint that turns before it moves is stated from its other side.
+            is_turned = [free.kind for free in joint.free] == ["rotate", "translate"]
+            pairs = list(zip(joint.free, values[joint.name]))[:: -1 if is_turned else 1]
+            for (free, value), coordinate in zip(
+                sorted(pairs, key=lambda pair: pair[0].kind), coordinates, strict=True
+            ):
+                coordinate.setValue(state, float(value))
+                if free.is_limited:
+                    assert (coordinate.getRangeMin(), coordinate.getRangeMax()) == (free.lower, free.upper)
+        model.realizePosition(state)
+        maps, parts = moved(robot, values), []
+        for link in robot.links:
+            found = model.getBodySet().get(usd.identifier(link.name)).getTransformInGround(state)
+            turn = np.array([[found.R().asMat33().get(i, j) for j in range(3)] for i in range(3)])
+            true = maps[link.name] @ link.pose.matrix
+            assert np.abs(vector(found.p()) - true[:3, 3]).max() < 1e-11 * max(1.0, np.abs(true[:3, 3]).max())
+            assert np.abs(turn - true[:3, :3]).max() < 1e-11
+            parts.append(link.inertial.place(Pose(true[:3, 3], true[:3, :3])))
+        whole = model.getMatterSubsystem().calcSystemCentralInertiaInGround(state)
+        entries = [*vector(whole.getMoments()), *vector(whole.getProducts())]
+        assert_equal_bodies(model.getTotalMass(state), vector(model.calcMassCenterPosition(state)), entries, parts)
+
+
+def vector(values):
+    return np.array([values.get(index) for index in range(3)])
+
+
 def test_sdf_joint_frames_stand_where_they_are_meant():
     robot = assembly(7)
     root = ElementTree.fromstring(sdf.write(robot))
     sdf_schema.validate(root)
-    for element in root.iter("joint"):
-        joint = next(joint for joint in robot.joints if joint.name == element.get("name"))
+    elements = {element.get("name"): element for element in root.iter("joint")}
+    for joint in robot.joints:
+        element = elements[joint.name]
         if not joint.pose.position.any():  # of a parent alone
             assert element.find("pose") is None
             continue

@@ -30,7 +30,9 @@ class Writer:
 
     def geom(self):
         kind = self.rng.choice(["box", "ellipsoid", *["capsule", "cylinder", "sphere"] * self.is_even])
-        return '<geom type="{}" size="{}" {}/>'.format(kind, self.text(self.rng.uniform(0.1, 0.5, 3)), self.place())
+        has_ends = self.is_even and kind != "sphere" and self.rng.random() < 0.5
+        place = 'fromto="{}"'.format(self.text(self.rng.normal(size=6))) if has_ends else self.place()
+        return '<geom type="{}" size="{}" {}/>'.format(kind, self.text(self.rng.uniform(0.1, 0.5, 3)), place)
 
     def scale(self):
         own = self.rng.uniform(0.5, 2, 1 if self.is_even else 3)

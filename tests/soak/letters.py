@@ -40,7 +40,7 @@ def outline(character: str, font_name: str, resolution: int):
 
 def signed(points, edges):
     from body_moments.core.flat import region_moments
-    from body_moments.core.shape.flat_signatures import flat_signature
+    from body_moments.core.shape.signatures import flat_signature
 
     moments = region_moments(points, edges, 20)
     return flat_signature(moments, float(np.hypot(*(points - moments.about[:2]).T).max()))

@@ -327,6 +327,7 @@ IN_BROWSER = {
         f"{{path}}.is_file() or 'usd_export' not in dir(bpy.ops.wm) and {REFUSED}",
     ),
     "export_scene.body_moments_gltf": ("glb", MEASURED, "{path}.is_file()"),
+    "export_scene.body_moments_osim": ("osim", MEASURED, "{path}.is_file()"),
     "object.body_moments_export_bill": ("csv", ASSEMBLY, "{path}.is_file()"),
     "object.body_moments_save_numbers": ("json", MEASURED, "{path}.is_file()"),
     "object.body_moments_fourier": ("npz", "", "{path}.is_file()"),

@@ -113,7 +113,8 @@ active = add("monkey", (0, 0, 0.8))
 SCAN = """
 import numpy as np
 x, y, z = np.meshgrid(*(np.linspace(-1, 1, 32),) * 3, indexing="ij")
-np.save({file!r}, np.where((x**2 + y**2 + z**2 < 0.8) & ((x - 0.3)**2 + y**2 + z**2 > 0.1), 0.9, 0.0).astype(np.float32))
+hollow = (x**2 + y**2 + z**2 < 0.8) & ((x - 0.3)**2 + y**2 + z**2 > 0.1)
+np.save({file!r}, np.where(hollow, 0.9, 0.0).astype(np.float32))
 spacing = {{"use_spacing": True, "spacing": (0.004, 0.004, 0.004)}}
 bpy.ops.object.body_moments_import_scan("EXEC_DEFAULT", True, filepath={file!r}, **spacing)
 """

@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....core.bodies.reading import Reading, to_si
-from ....core.measurement.body import Body
 from ....core.measurement.builder import find_extent, measure_total
 from ....core.measurement.findings import ZERO_QUANTITY
-from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.measurement.measurement import DENSITY_FROM_MASS, Body, Measurement
 from ....core.measurement.settings import fingerprint
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count

@@ -104,19 +104,15 @@ def polynomial_mass_result(
 
 def _solid_pieces(reading: Reading, body: MeshBody, in_world: bool, unit: float) -> Iterator[_Piece]:
     """Yield the repaired surfaces around the body."""
-    if body.method.verdict == Verdict.UNION:
-        if reading.instance_count > 1 and not in_world:
-            raise ReadError(UNION_LACKS, data="object coordinates")
-        solid, matrices = body.solids[0]
-        place = to_si(reading.parts[0].matrices, unit)
-        yield _Piece(
-            solid.repaired_surface, matrices, matrices if in_world else _to_local(place) @ matrices, solid.volume.about
-        )
-        return
+    is_united = body.method.verdict == Verdict.UNION
+    if is_united and reading.instance_count > 1 and not in_world:
+        raise ReadError(UNION_LACKS, data="object coordinates")
     for solid, matrices in body.solids:
-        yield _Piece(
-            solid.repaired_surface, matrices, matrices if in_world else local_coordinates(matrices), solid.volume.about
-        )
+        fields = matrices
+        if not in_world:  # a union is in the world
+            place = to_si(reading.parts[0].matrices, unit)
+            fields = _to_local(place) @ matrices if is_united else local_coordinates(matrices)
+        yield _Piece(solid.repaired_surface, matrices, fields, solid.volume.about)
 
 
 def _to_local(matrices: NDArray) -> NDArray[np.float64]:

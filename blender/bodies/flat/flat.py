@@ -20,19 +20,18 @@ from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OP
 from ....core.bodies.mesh_body import extend_input_error
 from ....core.bodies.reading import Reading
 from ....core.flat.findings import SECTION_NOT_FLAT
-from ....core.flat.polygon import find_defects, orient_loops
-from ....core.flat.regions import plane_positions, region_moments
+from ....core.flat.polygon import find_defects, orient_loops, plane_positions, region_moments
 from ....core.flat.section import fit_plane, measure_section, project, projection_rounding, region
 from ....core.flat.section_properties import Plane, Section
 from ....core.inertia.findings import MOMENTS_OVERFLOW, NO_CERTAIN_VOLUME
-from ....core.measurement.body import Body
 from ....core.measurement.findings import NO_VOLUME
-from ....core.moments.exponents import monomials
-from ....core.moments.moments import Measure, Moments, monomial_count
+from ....core.measurement.measurement import Body
+from ....core.moments.exponents import monomial_count, monomials
+from ....core.moments.moments import Measure, Moments
 from ....core.numerics.float32 import shortest_decimal
-from ....core.nurbs.curve import Curve
 from ....core.nurbs.curve_moments import length_moments, plane_moments
 from ....core.nurbs.flat_face import planar_region
+from ....core.nurbs.splines import Curve
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict

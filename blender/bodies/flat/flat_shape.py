@@ -20,12 +20,16 @@ from ....core.measurement.settings import fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Moments
-from ....core.shape.disc_zernike import MAX_DISC_ORDER, disc_zernike
-from ....core.shape.flat_pose import flat_symmetry, holds_by_moments, holds_by_outline, match_flat
-from ....core.shape.flat_signatures import flat_signature
-from ....core.shape.registration import Residual, RigidMatch
-from ....core.shape.signatures import Signature
-from ....core.shape.symmetries import Symmetry
+from ....core.shape.registration import (
+    Residual,
+    RigidMatch,
+    flat_symmetry,
+    holds_by_moments,
+    match_flat,
+)
+from ....core.shape.signatures import Signature, flat_signature
+from ....core.shape.symmetries import Symmetry, holds_by_outline
+from ....core.shape.zernike import MAX_ORDER_BY_MOMENTS, disc_zernike
 from ....core.verdict.finding import MeasureError, ReadError
 from ...read.fingerprint import matrix_hash, settings_hash
 from ..shape.shape import Shape, surface_shape_of
@@ -82,11 +86,11 @@ class FlatShape:
         """Return the Zernike moments to POSE_ORDER in a disc of this radius about the centroid, by `disc_zernike`."""
         return disc_zernike(self.moments.truncate(POSE_ORDER), radius)
 
-    def signature(self, order: int = MAX_DISC_ORDER) -> Signature:
+    def signature(self, order: int = MAX_ORDER_BY_MOMENTS) -> Signature:
         """Return the shape's signature, with Zernike descriptors to an order."""
         # Scaled to about unit size, because high powers of a length soon exceed the range of numbers.
         scale = 2.0 ** np.frexp(self.radius)[1]
-        moments = self.moments.truncate(min(order, MAX_DISC_ORDER))
+        moments = self.moments.truncate(min(order, MAX_ORDER_BY_MOMENTS))
         degree = monomials(moments.order).sum(axis=1)
         scaled = Moments(moments.raw / scale ** (degree + 2.0), np.zeros(3), moments.measure)
         found = flat_signature(scaled, self.radius / scale)
@@ -145,7 +149,7 @@ def flat_shape_of(obj: bpy.types.Object, depsgraph: bpy.types.Depsgraph, unit: f
     region = flat_region(obj, depsgraph, selected=False, resolution=OUTLINE_RESOLUTION, exact=False, unit=unit)
     mark = fingerprint(region.points.tobytes(), matrix_hash(obj), settings_hash(obj, depsgraph.scene))
     try:
-        shape = FlatShape(region, region.moments(MAX_DISC_ORDER), mark)
+        shape = FlatShape(region, region.moments(MAX_ORDER_BY_MOMENTS), mark)
     except MeasureError as error:
         error.about(obj.name)
         raise

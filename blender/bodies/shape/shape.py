@@ -29,9 +29,8 @@ from ....core.inertia.axial_harmonics import AxialHarmonics, axial_harmonics, ax
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
 from ....core.inertia.third_moment_frames import EQUAL_AXES
-from ....core.measurement.body import Body
 from ....core.measurement.findings import WALL_UNSUPPORTED
-from ....core.measurement.measurement import Measurement
+from ....core.measurement.measurement import Body, Measurement
 from ....core.mesh.surface import Surface, join_surfaces
 from ....core.mesh.surface_stack import TriangleStack
 from ....core.moments.affine_maps import are_similarities

@@ -27,13 +27,12 @@ from ....core.bodies.mesh_body import MeshBody
 from ....core.bodies.reading import Reading, float64_matrix
 from ....core.inertia.mass_properties import affine_image
 from ....core.inertia.plain_body import PlainBody
-from ....core.measurement.body import Body
-from ....core.measurement.measurement import Measurement
+from ....core.measurement.measurement import Body, Measurement
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_singular
 from ....core.numerics.float32 import shortest_decimal
 from ....core.numerics.rotations import rotation_matrix
-from ....core.nurbs.patch import Patch
+from ....core.nurbs.splines import Patch
 from ....core.nurbs.tracked_solid import TrackedSolid
 from ....core.polyhedron.integration import volume_and_center
 from ....core.verdict import internal_error

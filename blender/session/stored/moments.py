@@ -17,11 +17,11 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
-from ....core.flat.regions import plane_positions
+from ....core.flat.polygon import plane_positions
 from ....core.flat.section import foot
 from ....core.flat.section_properties import Plane
 from ....core.inertia.findings import MOMENTS_OVERFLOW
-from ....core.inertia.reference import Reference
+from ....core.inertia.plain_body import Reference
 from ....core.measurement.plain_text import visible
 from ....core.moments.complex_form import Invariant, flusser_invariants, hu_invariants, normalize
 from ....core.moments.moments import Measure, Moments, monomial_count, monomials

@@ -17,8 +17,7 @@ from bpy.types import Collection, Object, PropertyGroup, Scene
 from mathutils import Matrix
 
 from .... import core
-from ....core.inertia.plain_body import PlainBody, rotation_axes
-from ....core.inertia.reference import Reference, ReferredInertia
+from ....core.inertia.plain_body import PlainBody, Reference, ReferredInertia, rotation_axes
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, MeasureError, QueryError
 from ...read.findings import REFERENCE_OBJECT_MISSING

@@ -17,11 +17,11 @@ from typing import Generic, TypeVar
 import bpy
 from bpy.types import Context, Object, PropertyGroup, Scene
 
+from ....core.bodies.grid import ThresholdGrid, ThresholdGridBody, threshold_grid_body
 from ....core.bodies.reading import Reading
-from ....core.bodies.threshold import ThresholdGrid, ThresholdGridBody, threshold_grid_body
 from ....core.bodies.wall import WallBody, Walls
 from ....core.density.grid_options import GridOptions
-from ....core.measurement.body import Body
+from ....core.measurement.measurement import Body
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import MeasureError
 from ...bodies.measure_object import Measured

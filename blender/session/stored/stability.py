@@ -19,8 +19,7 @@ from ....core.inertia.plain_body import frame_about
 from ....core.mesh.hulls import ConvexHull
 from ....core.numerics.rotations import rotation_matrix
 from ....core.statics.findings import NO_STABLE_POSE
-from ....core.statics.resting import RestingPoses, resting_poses
-from ....core.statics.support import CONTACT_RTOL, Support, find_support
+from ....core.statics.support import CONTACT_RTOL, RestingPoses, Support, find_support, resting_poses
 from ....core.verdict.finding import EditRefusedError, Finding, MeasureError
 from ....core.verdict.method import Verdict
 from ...bodies.measure_object import measure_body

@@ -42,7 +42,8 @@ def compose_usd(path: Path, roots: Roots) -> bytes:
                 prim.SetInstanceable(False)
         return stage.Flatten().ExportToString().encode()
     except RuntimeError as error:  # pxr.Tf.ErrorException is one.
-        raise FileError(FILE_UNREADABLE, error=" ".join(str(error).split())[-200:]) from error
+        place, _, reason = str(error).strip().partition("\n")[0].rpartition(" : ")  # where in pxr's source, and why
+        raise FileError(FILE_UNREADABLE, error=(reason or place).strip(" '")) from error
 
 
 def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
@@ -55,13 +56,15 @@ def _check_layers(sdf: Any, path: Path, roots: Roots) -> None:
         layer.Reload()  # The process may hold it as it was.
         for name in layer.GetCompositionAssetDependencies():
             target = layer.ComputeAbsolutePath(name)
-            if target in seen:
+            if not name or target in seen:  # A reference within the layer has no name.
                 continue
             seen.add(target)
             try:
                 roots.find(target.partition("[")[0])  # Packages have their files in brackets.
             except FileError as error:
-                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record()) from error
+                before, is_text, _ = Path(layer.realPath).read_bytes().partition(name.encode())
+                place = {"source": layer.realPath, "line": before.count(b"\n") + 1 if is_text else 1}
+                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place) from error
             waiting.append(sdf.Layer.FindOrOpen(target))
 
 

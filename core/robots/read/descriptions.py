@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 import codecs
+import os
 import re
 import stat
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
 from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
@@ -19,13 +19,12 @@ from ..findings import (
     DESCRIPTION_UNKNOWN,
     INCLUDE_TWICE,
     INCLUDE_UNREADABLE,
-    MESH_ON_NETWORK,
 )
 from ..formats import AUDITED
 from ..stated import Description, Place
 from .composed import compose_usd, expand_xacro
 from .paths import Roots
-from .xml import Node, parse
+from .xml import Node, check_size, parse
 
 _WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
@@ -50,7 +49,7 @@ def read_description(path: Path, roots: Roots | None = None) -> Description:
         if path.suffix.lower() == ".xacro":
             parse(data)  # It refuses entities.
             data, is_composed = expand_xacro(path, roots), True
-        description = _xml(data, roots)
+        description = _xml(data, roots, path)
     if is_composed:  # The file itself does not hold the inertials.
         nowhere = {"span": None, "place": Place(), "inertial_place": Place()}
         description = replace(description, links=tuple(replace(link, **nowhere) for link in description.links))
@@ -80,13 +79,13 @@ def _check_bytes(count: int) -> None:
         raise FileError(FILE_TOO_LARGE, limit=MAX_DESCRIPTION, content="bytes")
 
 
-def _xml(data: bytes, roots: Roots) -> Description:
+def _xml(data: bytes, roots: Roots, path: Path) -> Description:
     data = _narrow(data)
     root = parse(data)
     if root.tag not in AUDITED:
         raise FileError(DESCRIPTION_UNKNOWN, tag=root.tag)
     if root.tag in ("mujoco", "sdf"):
-        _include(root, roots)
+        _include(root, roots, Path(os.path.realpath(path)))
     return AUDITED[root.tag].reader_module.read(root, data)
 
 
@@ -101,49 +100,41 @@ def _narrow(data: bytes) -> bytes:
         raise FileError(DESCRIPTION_INVALID, format="XML", line=1, error=str(error)) from error
 
 
-def _include(root: Node, roots: Roots) -> None:
+def _include(root: Node, roots: Roots, own: Path) -> None:
     """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the model's own file."""
     is_mjcf = root.tag == "mujoco"
-    total = 0
-    waiting: list[tuple[Node, Roots, tuple[Path, ...]]] = [(root, roots, ())]
-    included: set[Path] = set()
+    waiting: list[tuple[Node, int, Roots, tuple[Path, ...]]] = [(root, 1, roots, (own,))]
+    included = [own]
+    total, count = 0, 0
     while waiting:
-        node, here, above = waiting.pop()
-        children = []
-        for child in node.children:
+        node, depth, *origin = waiting.pop()
+        count += 1
+        check_size(depth, count)
+        children, pending = [], [(child, *origin) for child in reversed(node.children)]
+        while pending:
+            child, here, above = pending.pop()
             if child.tag != "include":
                 children.append(child)
-                waiting.append((child, here, above))
+                waiting.append((child, depth + 1, here, above))
                 continue
             uri = child.find("uri")
             name = child.get("file") if is_mjcf else uri.text.strip() if uri is not None else ""
-            if not is_mjcf and name.startswith(("http:", "https:")):
-                raise FileError(MESH_ON_NETWORK, name=name)
+            place = {"line": child.place.line, "column": child.place.column, "source": child.place.file}
             try:
                 path = here.find(name) if is_mjcf else _model_file(name, here)
                 data = _bytes(path)
-            except FileError as error:
-                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **_at(child)) from error
-            total += len(data)
-            _check_bytes(total)
-            # MuJoCo refuses a second time; models of SDF may repeat, but not include themselves.
-            if path in (included if is_mjcf else above) or len(included) > MAX_INCLUDES:
-                raise FileError(INCLUDE_TWICE, name=name, **_at(child))
-            included.add(path)
-            try:
+                total += len(data)
+                _check_bytes(total)
                 found = parse(_narrow(data), str(path))
             except FileError as error:
-                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **_at(child)) from error
+                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **place) from error
+            # MuJoCo refuses a second time; models of SDF may repeat, but not include themselves.
+            if path in (included if is_mjcf else above) or len(included) > MAX_INCLUDES:
+                raise FileError(INCLUDE_TWICE, name=name, **place)
+            included.append(path)
             there = here if is_mjcf else here.at(path.parent)
-            children += found.children
-            waiting += [(below, there, (*above, path)) for below in found.children]
+            pending += [(below, there, (*above, path)) for below in reversed(found.children)]
         node.children = children
-        if any(child.tag == "include" for child in children):  # The included file includes more.
-            waiting.append((node, here, above))
-
-
-def _at(node: Node) -> dict[str, Any]:
-    return {"line": node.place.line, "column": node.place.column}
 
 
 def _model_file(name: str, roots: Roots) -> Path:

@@ -30,7 +30,7 @@ from ..stated import (
     StatedShape,
     rotation_about,
 )
-from .xml import NOWHERE, Node, attempt, number, numbers
+from .xml import FLAT_KINDS, NOWHERE, Node, attempt, number, numbers
 
 SQUARE_ATOL = 1e-9  # of the entries of a rotation between axes, which are 0 or 1
 LEAST_LENGTH = 1e-14  # of a direction; shorter ones are rounding errors, also for MuJoCo
@@ -114,10 +114,10 @@ def read(root: Node, data: bytes) -> Description:
 def _parts(body: Node, frame: _Frame, model: _Model, refused: list[Finding]) -> Iterator[tuple[Node, _Frame]]:
     """Yield the children of a body and of its frames, with their frames. refused: findings about wrong frames."""
     for child in body.children:
-        if child.tag != "frame":
+        if child.tag not in ("frame", "replicate"):
             yield child, frame
             continue
-        inner = attempt(refused, child, frame.enter, model)
+        inner = frame if child.tag == "replicate" else attempt(refused, child, frame.enter, model)
         if inner is not None:
             yield from _parts(child, inner, model, refused)
 
@@ -258,9 +258,11 @@ def _own_shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
         file, text = model.meshes.get(attributes.get("mesh", ""), ("", ""))
         scale = tuple(numbers(text, 3, (1.0, 1.0, 1.0)).tolist())
         return StatedShape(Shape("mesh", scale, Pose(position, rotation), file), role, angles)
-    if kind not in SIZES:
+    if kind in FLAT_KINDS:
         return None
-    has_ends = "fromto" in attributes and kind in ("capsule", "cylinder")
+    if kind not in SIZES:
+        raise ValueError(kind)
+    has_ends = "fromto" in attributes and kind != "sphere"
     if len(size) < (1 if has_ends else SIZES[kind]):
         raise ValueError(attributes.get("size", ""))
     if has_ends:
@@ -270,7 +272,8 @@ def _own_shape(geom: Node, current: str, model: _Model) -> StatedShape | None:
         along = _direction(along, attributes["fromto"])
         rotation, _, _ = _rotation({"zaxis": " ".join(map(repr, along.tolist()))}, model)
         pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
-        return StatedShape(Shape(kind, (size[0], length), pose), role)
+        sizes = {"box": (2.0 * size[0], 2.0 * size[0], length), "ellipsoid": (size[0], size[0], length / 2.0)}
+        return StatedShape(Shape(kind, sizes.get(kind, (size[0], length)), pose), role)
     halves = {"box": 0, "capsule": 1, "cylinder": 1}.get(kind, 3)  # index of the first half of a length
     values = tuple(2.0 * value if place >= halves else value for place, value in enumerate(size[: SIZES[kind]]))
     return StatedShape(Shape(kind, values, Pose(position, rotation)), role, angles)

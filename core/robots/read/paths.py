@@ -78,6 +78,8 @@ class Roots:
             for folder in (self.base, *self.folders):
                 if folder is not None:
                     yield folder / rest
+            # Of a description that was copied elsewhere: below its package.
+            yield from (folder / rest.lstrip("./") for folder in self.folders)
 
 
 def _package_name(folder: Path) -> str:

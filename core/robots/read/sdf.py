@@ -53,6 +53,8 @@ def _inertial(node: Node) -> StatedInertial:
 def _pose(node: Node) -> tuple[Pose, Angles | None, tuple[float, ...] | None]:
     element = node.find("pose")
     text = "" if element is None else element.text
+    if element is not None and element.get("relative_to"):  # a frame, which is not resolved
+        raise ValueError(element.get("relative_to"))
     if element is not None and element.get("rotation_format") == "quat_xyzw":
         x, y, z, qx, qy, qz, qw = numbers(text, 7, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)).tolist()
         if not any((qx, qy, qz, qw)):

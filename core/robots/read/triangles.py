@@ -24,8 +24,9 @@ class Gathered:
         self._points.append(points @ matrix[:3, :3].T + matrix[:3, 3])
 
     def arrays(self) -> Arrays:
-        """Return all points and triangles. ValueError if no part was added."""
-        return np.concatenate(self._points), np.concatenate(self._triangles)
+        """Return all points and triangles."""
+        none = np.zeros((0, 3))
+        return np.concatenate([none, *self._points]), np.concatenate([none.astype(np.int64), *self._triangles])
 
 
 def fan(sizes: NDArray[np.int64], corners: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -30,6 +30,7 @@ _TOKEN = re.compile(
 )
 _FIELD = re.compile(r"[^\s()\[\],]+")
 _REFERENCE = re.compile(r"\breferences\s*=\s*\[?\s*<([^>]*)>")
+OTHER_SOLIDS = ("Cone", "Capsule_1", "Cylinder_1", "NurbsPatch", "PointInstancer", "TetMesh")
 _SPECIFIERS = {"def", "over", "class"}
 
 
@@ -326,6 +327,8 @@ def _shape(prim: Prim, matrix: NDArray, unit: float) -> StatedShape | None:
     if prim.kind == "Mesh":
         return _mesh(prim, matrix, unit, role)
     kinds = {"Cube": "box", "Sphere": "sphere", "Capsule": "capsule", "Cylinder": "cylinder"}
+    if prim.kind in OTHER_SOLIDS:
+        raise ValueError(prim.kind)
     if prim.kind not in kinds:
         return None
     scales = np.linalg.norm(matrix[:3, :3], axis=0) * unit

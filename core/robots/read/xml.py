@@ -26,6 +26,7 @@ from ..stated import Angles, Place, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
+FLAT_KINDS = ("empty", "plane", "heightmap", "hfield", "image")  # shapes of no volume, and terrain
 NOWHERE = -1  # The position of elements from another file.
 Value = TypeVar("Value")
 Placed = tuple[Shape, Angles | None]
@@ -167,9 +168,10 @@ def _placed(node: Node, read: Callable[[Node], Placed | None], role: str) -> Sta
 def read_shape(
     node: Node, pose: Pose, kinds: Sequence[str], get: Callable[[Node, str], str], length: float | None = None
 ) -> Shape | None:
-    """Return the first shape of an element's `geometry` that is a mesh or one of some kinds, None if there is none.
+    """Return the first shape of an element's `geometry` that bounds a volume, None if there is none.
 
-    get: returns the text of an element's property. length: default of a radius or length; without one, ValueError.
+    kinds: known ones besides meshes; ValueError if it is another, or lacks a size. get: returns the text of an
+    element's property. length: default of a radius or length, if there is one.
     """
     geometry = node.find("geometry")
     for element in geometry.children if geometry else ():
@@ -177,8 +179,10 @@ def read_shape(
         if kind == "mesh":
             scale = numbers(get(element, "scale"), 3, (1.0, 1.0, 1.0))
             return Shape(kind, tuple(scale.tolist()), pose, get(element, "filename") or get(element, "uri"))
-        if kind not in kinds:
+        if kind in FLAT_KINDS:
             continue
+        if kind not in kinds:
+            raise ValueError(kind)
         if kind in ("box", "ellipsoid"):
             sides = numbers(get(element, "size" if kind == "box" else "radii"), 3, (1.0, 1.0, 1.0))
             return Shape(kind, tuple(sides.tolist()), pose)

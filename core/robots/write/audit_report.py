@@ -43,6 +43,7 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
             "name": one.link.name,
             **_inertial(one.link.inertial),
             "density": one.density,
+            "colliders": None if one.colliders is None else one.colliders.as_record(),
             "line": one.link.place.line,
             "findings": [_entry(entry, one, file) for entry in one.entries],
             "repaired": repairs.get(id(one.link)),
@@ -62,7 +63,7 @@ def with_status(document: dict[str, Any]) -> dict[str, Any]:
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
     """Return the counts of "links", and of findings that are not known, by severity: "notes" and so on."""
-    found = [found for link in document["links"] for found in link["findings"]]
+    found = [*document["errors"], *(found for link in document["links"] for found in link["findings"])]
     levels = [one["severity"] for one in found if not one.get("known")]
     return {"links": len(document["links"]), **{str(level) + "s": levels.count(level) for level in Severity}}
 
@@ -70,7 +71,11 @@ def count_findings(document: dict[str, Any]) -> dict[str, int]:
 def failed_document(file: str, reason: Finding) -> dict[str, Any]:
     """Return the document of a file that could not be read."""
     head = {"schema": SCHEMA, "file": file, "status": "error", "format": None, "robot": None, "repaired": None}
-    place = {"file": file, "line": reason.values.get("line", 1), "column": reason.values.get("column", 1)}
+    place = {
+        "file": reason.values.get("source") or file,
+        "line": reason.values.get("line", 1),
+        "column": reason.values.get("column", 1),
+    }
     return plain({**head, "links": [], "errors": [{**_finding(reason), **place}]})
 
 
@@ -203,9 +208,9 @@ def to_table(documents: Sequence[dict[str, Any]]) -> str:
     for one in documents:
         counts = count_findings(one)
         repairs = sum(link["repaired"] is not None for link in one["links"])
-        numbers = [counts["errors"] + len(one["errors"]), *(counts[key] for key in ("warnings", "notes", "links"))]
-        totals = [total + number for total, number in zip(totals, [*numbers, repairs])]
-        rows.append((*map(str, numbers), str(repairs), one["status"], visible(str(one["file"]))))
+        numbers = [*(counts[key] for key in ("errors", "warnings", "notes", "links")), repairs]
+        totals = [total + number for total, number in zip(totals, numbers)]
+        rows.append((*map(str, numbers), one["status"], visible(str(one["file"]))))
     rows.append((*map(str, totals), "", counted(len(documents), "file")))
     widths = [max(map(len, column)) for column in zip(*rows)]
     lines = ["  ".join(map(str.rjust, row[:5], widths)) + "  {}  {}".format(row[5].ljust(8), row[6]) for row in rows]

@@ -20,6 +20,7 @@ NAMES = {
     "MJCF": {"damping": "damping", "friction": "frictionloss", "stiffness": "stiffness", "effort": "", "mimic": ""},
     "USD": _DRIVE,
     "glTF": _DRIVE,
+    "OpenSim": {},
 }
 
 

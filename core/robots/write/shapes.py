@@ -8,10 +8,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from math import sqrt
 
+import numpy as np
+
 from ...mesh.surface import Surface
 from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_ELLIPSOID_AS_BOX, ROBOT_LINKS_BARE
-from ..model import Link, Robot, Shape
+from ..model import Link, Pose, Robot, Shape
 from ..primitives import equal_inertia_shape
 from .text import number, numbers
 
@@ -23,6 +25,15 @@ def box_of_ellipsoid(shape: Shape) -> Shape:
     if shape.kind != "ellipsoid":
         return shape
     return Shape("box", tuple(BOX_OF_ELLIPSOID * axis for axis in shape.size), shape.pose)
+
+
+def capsule_pieces(shape: Shape) -> list[Shape]:
+    """Return a cylinder and two spheres for a capsule; other shapes as they are."""
+    if shape.kind != "capsule":
+        return [shape]
+    radius, length = shape.size
+    ends = [shape.pose @ Pose(np.array([0.0, 0.0, side * length / 2.0])) for side in (-1.0, 1.0)]
+    return [Shape("cylinder", shape.size, shape.pose), *(Shape("sphere", (radius,), end) for end in ends)]
 
 
 def ellipsoids_as_boxes(robot: Robot) -> list[Finding]:

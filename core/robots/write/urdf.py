@@ -21,7 +21,7 @@ from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
 from .joints import lost_values, with_axis_frames
 from .mjcf import raised_inertials, smallest_inertials
-from .shapes import box_of_ellipsoid, ellipsoids_as_boxes, shape_values
+from .shapes import box_of_ellipsoid, capsule_pieces, ellipsoids_as_boxes, shape_values
 from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_name
 
 FLATNESS = 1e-7  # Thickness relative to length, of float32 vertices in a plane.
@@ -137,7 +137,7 @@ def _add_shapes(parent: Element, shapes: Sequence[Shape]) -> None:
             for shape in shapes
             if (shape.seen if tag == "visual" else shape.collides and not _is_flat(shape.surface))
         ]
-        for piece in (piece for shape in shown for piece in _pieces(shape)):
+        for piece in (box_of_ellipsoid(piece) for shape in shown for piece in capsule_pieces(shape)):
             element = SubElement(parent, tag)
             _add_origin(element, piece.pose)
             geometry = SubElement(element, "geometry")
@@ -152,15 +152,6 @@ def _is_flat(surface: Surface | None) -> bool:
     points = surface.points[np.unique(surface.all_triangles()[0])]
     spread = np.linalg.svd(np.cov((points - points[0]).T), compute_uv=False)
     return bool(spread[2] <= FLATNESS**2 * spread[0])
-
-
-def _pieces(shape: Shape) -> list[Shape]:
-    """Return the URDF shapes of a shape: a cylinder and two spheres for a capsule, a box for an ellipsoid."""
-    if shape.kind != "capsule":
-        return [box_of_ellipsoid(shape)]
-    radius, length = shape.size
-    ends = [shape.pose @ Pose(np.array([0.0, 0.0, side * length / 2.0])) for side in (-1.0, 1.0)]
-    return [Shape("cylinder", shape.size, shape.pose), *(Shape("sphere", (radius,), end) for end in ends)]
 
 
 def _add_joint(root: Element, name: str, parent: str, child: str, pose: Pose, joint: Joint | None) -> Element:

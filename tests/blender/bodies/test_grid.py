@@ -11,7 +11,7 @@ from body_moments.blender.read.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
-from body_moments.core.bodies.density_grid import Samples, density_body
+from body_moments.core.bodies.grid import Samples, density_body
 from body_moments.core.verdict.finding import MeasureError, ReadError, finding
 
 from tests.blender.findings import refused, said

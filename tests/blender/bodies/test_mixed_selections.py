@@ -120,7 +120,7 @@ def assert_equal(found, expected):
 
 
 def assert_total_is(total, expected):
-    for name in ("count", "volume", "area", "missing", "stale", "doubtful", "findings"):
+    for name in ("count", "volume", "area", "missing", "stale", "findings"):
         assert getattr(total, name) == getattr(expected, name), name
     for name in ("mass", "center", "inertia"):
         assert getattr(total.numbers, name) == getattr(expected.numbers, name), name

@@ -13,7 +13,7 @@ from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.measurement.record import record
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.nurbs.blender_knots import blender_space, display_parameters, display_table
-from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.splines import Patch
 from body_moments.core.verdict.method import Source
 
 from tests.blender.findings import refused, said

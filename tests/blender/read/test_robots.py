@@ -176,6 +176,7 @@ def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path, monkeypa
     write(package / "package.xml", "<package><name> arm </name></package>")
     assert Roots.for_file(file).find("package://arm/meshes/a.stl") == mesh.resolve()
     assert Roots.for_file(file, [tmp_path]).find("package://arm_description/meshes/a.stl") == mesh.resolve()
+    assert Roots.for_file(tmp_path / "out" / "arm.urdf", [package]).find("../meshes/a.stl") == mesh.resolve()
     assert Roots.for_file(file, anywhere=True).find(str(secret)) == secret.resolve()
 
 
@@ -201,6 +202,7 @@ def test_included_models_of_sdf_are_read_from_their_folders(tmp_path):
     assert (upper.place.line, upper.place.column) == (2, 2) and upper.place.file.endswith("arm.sdf")
     for text in (
         model.format("<include><uri>model://arm</uri></include>"),
+        '<sdf version="1.9">\n<include><uri>model://arm</uri></include></sdf>',
         "<sdf",
         '<!DOCTYPE a []><sdf version="1"/>',
     ):

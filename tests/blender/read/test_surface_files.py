@@ -10,7 +10,7 @@ from body_moments.blender.scene.imports import import_bodies
 from body_moments.core.cad.surface_file import read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.nurbs.blender_knots import display_parameters
-from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.splines import Patch
 
 from tests.blender.objects import measured
 from tests.close import close

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from body_moments.core.cad.surface_file import SUFFIXES, read_surfaces
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs.bezier_form import bezier_patches
-from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.blender_knots import bezier_patches
 from body_moments.core.nurbs.solid import measure_patches
+from body_moments.core.nurbs.splines import Patch
 from body_moments.core.verdict.finding import FileError, finding
 from body_moments.tests.close import close
 from body_moments.tests.core.exact_splines import sphere, torus

@@ -20,6 +20,9 @@ from tests.core import bodies
 
 L_SHAPE = bodies.joined(bodies.box((0, 0, 0), (3, 1, 1)), bodies.box((0, 1, 0), (1, 3, 1)))
 
+LEGS = [bodies.box((x, y, 0), (x + 0.1, y + 0.1, 0.5)) for x in (0.0, 0.4) for y in (0.0, 0.4)]
+CHAIR = bodies.joined(*LEGS, bodies.box((0, 0, 0.5), (0.5, 0.5, 0.55)), bodies.box((0, 0, 0.55), (0.05, 0.5, 1)))
+
 
 def hull_shape(points):
     hull = convex_hull(points)
@@ -38,8 +41,8 @@ def placed(part, scale=1.0, offset=0.0):
     return surface, MassProperties.from_moments(volume, 700.0), volume.total
 
 
-def effect_of(shapes, body, volume):
-    return effect(body, [replace(s, mass=m) for s, m in zip(shapes, uniform_masses(700.0, shapes))], volume)
+def effect_of(shapes, body, volume, density=700.0):
+    return effect(body, [replace(s, mass=m) for s, m in zip(shapes, uniform_masses(density, shapes))], volume)
 
 
 def motion(before, after):
@@ -78,8 +81,22 @@ def test_no_corner_moves_beyond_the_smaller_tolerance():
     shapes = [hull_shape(L_SHAPE[0])]
     moved = correct_vertices(body, shapes, surface, 0.05, 0.2)
     assert motion(shapes, moved) <= 0.05 + 1e-9
-    before, after = (effect_of(these, body, volume) for these in (shapes, moved))
-    assert 1.0 < after.volume_ratio < before.volume_ratio - 0.1
+    before, after = (
+        effect_of(these, body, volume, body.mass / sum(uniform_masses(1.0, these))) for these in (shapes, moved)
+    )
+    assert after.inertia_change < 0.9 * before.inertia_change
+
+
+@pytest.mark.parametrize("part", [L_SHAPE, CHAIR])
+def test_single_hull_of_concave_body_takes_another_density(part):
+    surface, body, volume = placed(part)
+    size = np.ptp(part[0])
+    moved = correct_vertices(body, [hull_shape(part[0])], surface, 0.2 * size, 0.2 * size)
+    density = body.mass / sum(uniform_masses(1.0, moved))
+    result = effect_of(moved, body, volume, density)
+    assert density < 0.9 * 700.0
+    assert np.linalg.norm(result.center_shift) < 1e-6 * size and result.inertia_change < 1e-6
+    assert motion([hull_shape(part[0])], moved) <= 0.2 * size
 
 
 def test_primitives_stay_and_hulls_take_their_part():

@@ -11,13 +11,13 @@ import pytest
 from body_moments.core.flat.polygon import (
     OutlineDefects,
     area_moments,
-    boundary_edges,
     directed_edges,
     find_defects,
     orient_loops,
     outline_areas,
     winding_numbers,
 )
+from body_moments.core.mesh.edges import uncancelled_sides
 from body_moments.core.polyhedron.n_dimensions import facet_moments, multi_indices
 
 from tests.close import close
@@ -132,12 +132,6 @@ def test_a_hole_with_most_of_its_sides_on_the_outline_is_a_hole(first, angle):
         assert close(sorted(outline_areas(points, orient_loops(points, loops[:1]))), [16.0], 1e-14)
 
 
-def test_boundary_of_triangles_omits_degenerate_triangles():
-    flat = np.array([[3, 3, 4], [0, 1, 2], [2, 1, 0], [4, 5, 4]])
-    assert boundary_edges(flat, 6).shape == (0, 2) and boundary_edges(flat[:0], 6).shape == (0, 2)
-    assert sorted(map(tuple, boundary_edges(flat[[0, 2, 3]], 6).tolist())) == [(0, 2), (1, 0), (2, 1)]
-
-
 PENTAGRAM = [(math.cos(4 * math.pi * k / 5), math.sin(4 * math.pi * k / 5)) for k in range(5)]
 
 
@@ -223,12 +217,20 @@ def test_winding_number_is_whole_inside_and_half_on_an_edge():
     assert winding_numbers(points, directed_edges(loops), at) == pytest.approx([1, 0, 0, 0.5, 0.5], abs=1e-12)
 
 
-def test_boundary_of_triangles_holds_unshared_edges():
-    quads = np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
-    found = {tuple(edge) for edge in boundary_edges(quads, 6).tolist()}
-    assert found == {(0, 1), (1, 2), (2, 5), (5, 4), (4, 3), (3, 0)}
-    twice = boundary_edges(np.array([[0, 1, 2], [0, 1, 2]]), 3)
-    assert sorted(map(tuple, twice.tolist())) == [(0, 1), (0, 1), (1, 2), (1, 2), (2, 0), (2, 0)]
+@pytest.mark.parametrize(
+    ("triangles", "sides"),
+    [
+        ([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]], [(0, 1), (1, 2), (2, 5), (3, 0), (4, 3), (5, 4)]),
+        ([[0, 1, 2], [0, 1, 2]], [(0, 1), (0, 1), (1, 2), (1, 2), (2, 0), (2, 0)]),
+        ([[3, 3, 4], [0, 1, 2], [2, 1, 0], [4, 5, 4]], []),
+        ([], []),
+        ([[3, 3, 4], [2, 1, 0], [4, 5, 4]], [(0, 2), (1, 0), (2, 1)]),
+    ],
+)
+def test_boundary_of_triangles_holds_uncancelled_sides(triangles, sides):
+    triangles = np.array(triangles, int).reshape(-1, 3)
+    _, start, stop = uncancelled_sides(triangles, np.zeros(len(triangles), int))
+    assert sorted(zip(start.tolist(), stop.tolist())) == sides
 
 
 def lattice_polygon(rng, size):

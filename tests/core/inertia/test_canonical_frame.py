@@ -14,8 +14,8 @@ from body_moments.core.inertia.principal_frames import (
     zhang_chen_frame,
 )
 from body_moments.core.mesh.surface import Surface
+from body_moments.core.moments.images import invert_through_point
 from body_moments.core.moments.moments import Moments, monomial_index, monomials
-from body_moments.core.moments.symmetric_tensors import invert_through_point
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.solid.measure import measure_solid
 

@@ -4,13 +4,12 @@
 
 import numpy as np
 import pytest
-from body_moments.core.inertia.canonical_stack import choose_about_axis, choose_half_turns
 from body_moments.core.inertia.mass_properties import MassProperties
 from body_moments.core.inertia.principal_frames import OwnMoments, principal_frame
+from body_moments.core.inertia.shared_search import choose_about_axis, choose_half_turns
 from body_moments.core.inertia.third_moment_frames import third_moment_frames
-from body_moments.core.moments.images import sum_of_images
+from body_moments.core.moments.images import invert_through_point, sum_of_images
 from body_moments.core.moments.moments import Measure, stack_moments
-from body_moments.core.moments.symmetric_tensors import invert_through_point
 
 from tests.close import close
 from tests.core import bodies, shapes

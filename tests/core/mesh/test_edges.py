@@ -11,12 +11,18 @@ from body_moments.core.mesh.edges import (
     group_components,
 )
 from body_moments.core.mesh.surface import Surface
-from body_moments.core.mesh.welding import first_at_equal_position, first_at_near_position, same_vertices_groups
+from body_moments.core.mesh.welding import (
+    first_at_equal_position,
+    first_at_near_position,
+    same_vertices_groups,
+    vertex_tolerance,
+)
 from body_moments.core.numerics.arrays import first_occurrence
 from body_moments.core.numerics.graph import connected_components
 from body_moments.core.solid.measure import measure_solid
 from hypothesis import given
 
+from tests.close import close
 from tests.core.bodies import CORNERS, SIDES, box, joined, mesh, moebius, ring, soup, sphere, welded
 from tests.core.strategies import holds, seeds
 
@@ -228,3 +234,14 @@ def test_faces_on_the_same_vertices_share_a_group():
     )
     faces = np.array([0, 0, 1, 1, 2, 3, 4])
     np.testing.assert_array_equal(same_vertices_groups(triangles, faces), [0, 0, 0, 0, 2, 2, 4])
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_vertices_move_a_thousandth_of_a_triangle_at_most(dtype):
+    """Each triangle is as large as its longest side: 5, 13.3 and 0.5."""
+    points = np.array([[0, 0, 0], [3, 0, 0], [0, 4, 0], [0, 5, 12], [0, 4, 0.5], [0.25, 4, 0.25], [9, 9, 9]], dtype)
+    triangles = np.array([[0, 1, 2], [0, 3, 1], [2, 5, 4]])
+    found = vertex_tolerance(points, triangles, np.array([6, 3, 0, 4, 2, 1]), 0.01)
+    sides = [np.sqrt(178.0), 5.0, 0.5, 0.5, 5.0]
+    assert close(found, [0.01, *np.minimum(0.01, 1e-3 * np.array(sides))], 1e-7)
+    assert close(vertex_tolerance(points, triangles, np.array([3, 1]), 1.0), [1e-3 * 178.0**0.5, 5e-3], 1e-7)

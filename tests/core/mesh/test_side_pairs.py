@@ -6,7 +6,7 @@ from collections import defaultdict
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.side_pairs import faces_across_sides
+from body_moments.core.mesh.edges import faces_across_sides
 
 from tests.core import bodies
 

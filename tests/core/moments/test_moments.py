@@ -128,7 +128,7 @@ def test_an_affine_map_is_exact_within_its_bound(name, order):
     assert_within_bound(image, mapped_exactly(exact, matrix, image.about, order))
     if order == ORDER:  # Not vacuous: what a few roundings of the positions and of the largest moment amount to.
         assert image.rounding_error.max() <= 1e-14 * (np.abs(matrix).max() + 1.0) * max(np.abs(image.raw).max(), 1e-40)
-    many = sum_of_images(floats(exact), np.array([matrix, matrix]), image.about)
+    many = sum_of_images(floats(exact), np.array([matrix, matrix])).about_point(image.about)
     assert (np.abs(many.raw - 2.0 * image.raw) <= many.rounding_error + 2.0 * image.rounding_error).all()
 
 

@@ -11,8 +11,8 @@ from body_moments.core.numerics.bspline import SplineSpace, clamped_space
 from body_moments.core.numerics.quadrature import gauss_legendre
 from body_moments.core.nurbs.bezier import cells_of
 from body_moments.core.nurbs.blender_knots import blender_space
-from body_moments.core.nurbs.patch import Patch
 from body_moments.core.nurbs.patch_moments import flux_sums
+from body_moments.core.nurbs.splines import Patch
 
 from tests.core.exact_splines import span_polynomials
 

@@ -7,9 +7,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from body_moments.core.numerics.bspline import SplineSpace, clamped_space
-from body_moments.core.nurbs.bezier_form import bezier_patches
-from body_moments.core.nurbs.blender_knots import blender_space
-from body_moments.core.nurbs.patch import Patch
+from body_moments.core.nurbs.blender_knots import bezier_patches, blender_space
+from body_moments.core.nurbs.splines import Patch
 
 WHOLE = (None, None)
 SPACES = [

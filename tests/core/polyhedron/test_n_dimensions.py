@@ -11,11 +11,13 @@ import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.polyhedron import polyhedron_moments
 from body_moments.core.polyhedron.n_dimensions import (
+    closes,
     enclosed_moments,
     facet_moments,
+    facets_of,
     multi_indices,
+    outer_facets,
 )
-from body_moments.core.polyhedron.simplices import closes, facets_of, outer_facets
 
 from tests.close import close
 from tests.core import bodies, rational

@@ -11,8 +11,7 @@ from body_moments.core.mesh import Surface
 from body_moments.core.moments.exponents import monomials
 from body_moments.core.moments.moments import sum_moments
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.rig.cuts import bone_pieces, bones_of_caps
-from body_moments.core.rig.dominance import dominant_bones
+from body_moments.core.rig.cuts import bone_pieces, bones_of_caps, dominant_bones
 
 from tests.close import close
 from tests.core import characters as made

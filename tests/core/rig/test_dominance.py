@@ -6,8 +6,7 @@ from collections import defaultdict
 from fractions import Fraction
 
 import numpy as np
-from body_moments.core.rig.cuts import bones_of_caps
-from body_moments.core.rig.dominance import VertexWeights, dominant_bones
+from body_moments.core.rig.cuts import VertexWeights, bones_of_caps, dominant_bones
 from hypothesis import given, strategies
 
 from tests.close import close

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, Shape, combine_inertials
+from body_moments.core.robots.model import FreeAxis, Inertial, Joint, Link, Pose, Robot, combine_inertials
 from body_moments.core.robots.stated import StatedInertial, rotation_of_angles
 
 from tests.close import close
@@ -183,11 +183,3 @@ def test_cyclic_or_split_links_are_refused(joints, text):
         Robot("r", links, tuple(Joint(str(k), *pair) for k, pair in enumerate(joints)))
     with pytest.raises(ValueError, match="twice"):
         Robot("r", (*links, Link("a")))
-
-
-def test_omitted_pose_is_a_unit_at_the_origin():
-    shape, link = Shape("box"), Link("a")
-    assert shape.size == (1.0, 1.0, 1.0) and shape.file == "" and not shape.sheet
-    assert (link.scale == 1.0).all() and link.shapes == () and link.inertial is None
-    for one in (shape.pose, link.pose):
-        assert not one.position.any() and (one.rotation == np.eye(3)).all()

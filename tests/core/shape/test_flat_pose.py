@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.numerics.quadrature import triangle_rule
-from body_moments.core.shape.disc_zernike import disc_degrees, disc_zernike
-from body_moments.core.shape.flat_pose import _best_angles, flat_symmetry, holds_by_outline, match_flat
+from body_moments.core.shape.registration import _best_angles, flat_symmetry, match_flat
+from body_moments.core.shape.symmetries import holds_by_outline
+from body_moments.core.shape.zernike import degrees, disc_zernike
 
 from tests.core.bodies import rotation
 
@@ -32,7 +33,7 @@ def test_zernike_moments_of_a_triangle_match_quadrature(radius):
     r, phi = np.hypot(x, y), np.arctan2(y, x)
     truth = [
         np.sqrt((n + 1) / np.pi) * double * (weights * radial(n, m, r) * np.exp(-1j * m * phi)).sum()
-        for n, m in disc_degrees(order)
+        for n, m in degrees(order)
     ]
     assert np.abs(disc_zernike(moments, radius) - truth).max() < 1e-13
 
@@ -41,7 +42,7 @@ def test_zernike_moments_of_a_triangle_match_quadrature(radius):
 @pytest.mark.parametrize("turn", [0.0, 1e-4, 0.5, 3.0, -2.0, np.pi / 720.0])
 def test_turn_between_two_shapes_maximizes_their_overlap(seed, turn):
     rng = np.random.default_rng(seed)
-    m = np.array([m for _, m in disc_degrees(9)])
+    m = np.array([m for _, m in degrees(9)])
     source = rng.normal(size=len(m)) + 1j * rng.normal(size=len(m)) * (m > 0)
     target = source * np.exp(-1j * m * turn)
     found = _best_angles(source, target)

@@ -13,14 +13,21 @@ from body_moments.core.measurement.record import plain
 from body_moments.core.moments.moments import stack_moments
 from body_moments.core.numerics.quadrature import triangle_rule
 from body_moments.core.polyhedron import polyhedron_moments
-from body_moments.core.shape.flat_signatures import flat_signature
 from body_moments.core.shape.library import (
     SAME_SHAPE_DISTANCE,
     UNDECIDED_HANDEDNESS,
     classify,
     read_library,
 )
-from body_moments.core.shape.signatures import FREQUENCIES, MIN_CHIRALITY, Signature, signature, signatures, similarity
+from body_moments.core.shape.signatures import (
+    FREQUENCIES,
+    MIN_CHIRALITY,
+    Signature,
+    flat_signature,
+    signature,
+    signatures,
+    similarity,
+)
 from body_moments.core.verdict.finding import Finding
 
 from tests.close import close

@@ -8,15 +8,22 @@ import numpy as np
 import pytest
 from body_moments.core.flat import directed_edges, region_moments
 from body_moments.core.moments.moments import Moments
-from body_moments.core.shape.disc_zernike import disc_zernike
-from body_moments.core.shape.flat_pose import (
+from body_moments.core.shape.registration import (
     MIRROR,
     flat_symmetry,
     holds_by_moments,
-    holds_by_outline,
     turns_about_normal,
 )
-from body_moments.core.shape.symmetries import UNDECIDED, Symmetry, _around_axis, confirm, decide, symmetry
+from body_moments.core.shape.symmetries import (
+    UNDECIDED,
+    Symmetry,
+    _around_axis,
+    confirm,
+    decide,
+    holds_by_outline,
+    symmetry,
+)
+from body_moments.core.shape.zernike import disc_zernike
 
 from tests.core import bodies, shapes
 from tests.core.recursion import moments

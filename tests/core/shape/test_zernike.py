@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from body_moments.core.moments.moments import monomials
 from body_moments.core.moments.solid_harmonics import couple, harmonic_moments
-from body_moments.core.shape.disc_zernike import MAX_DISC_ORDER, _radial, disc_degrees
 from body_moments.core.shape.zernike import (
+    MAX_ORDER_BY_MOMENTS,
+    _disc_radial,
     degrees,
     descriptor_error,
     descriptors,
@@ -156,8 +157,8 @@ def test_the_power_of_a_box_is_the_mean_of_its_products_of_sincs():
 
 
 def test_radial_polynomials_are_orthogonal_on_the_disc():
-    for m in range(MAX_DISC_ORDER + 1):
-        radial = {n: _radial(n, m) for n, other in disc_degrees(MAX_DISC_ORDER) if other == m}
+    for m in range(MAX_ORDER_BY_MOMENTS + 1):
+        radial = {n: _disc_radial(n, m) for n, other in degrees(MAX_ORDER_BY_MOMENTS) if other == m}
         for n, terms in radial.items():
             assert sum(factor for _, factor in terms) == 1.0
             for k, others in radial.items():

@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.solid.instance_overlaps import compare_places
+from body_moments.core.bodies.instances import compare_places
 from body_moments.core.solid.measure import measure_solid
 
 from tests.core.bodies import box, inverted, joined, rotation, surface, welded, without

@@ -4,8 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.core.mesh.boxes import overlapping_box_pairs
-from body_moments.core.mesh.bvh import Bvh, sort_components
+from body_moments.core.mesh.bvh import Bvh, overlapping_box_pairs, sort_components
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.solid.measure import measure_solid
 from body_moments.core.solid.nesting import (

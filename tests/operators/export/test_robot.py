@@ -143,7 +143,7 @@ def test_gltf_bodies_include_fixed_children(tmp_path, unit, reported):
 
 
 @pytest.mark.parametrize(
-    "name, end", [("urdf", "urdf"), ("sdf", "sdf"), ("mjcf", "xml"), ("usd", "usda"), ("gltf", "glb")]
+    "name, end", [("urdf", "urdf"), ("sdf", "sdf"), ("mjcf", "xml"), ("usd", "usda"), ("gltf", "glb"), ("osim", "osim")]
 )
 def test_a_collection_remembers_its_exporter_and_runs_it_again(tmp_path, name, end):
     """In another session: path and options are in the file."""

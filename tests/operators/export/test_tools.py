@@ -28,7 +28,7 @@ def measured(obj):
     return measure_object(obj, bpy.context.evaluated_depsgraph_get())
 
 
-@pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf", "usd", "gltf"])
+@pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf", "usd", "gltf", "osim"])
 def test_an_inertial_is_copied_along_the_objects_own_axes(name, capfd):
     body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5))
     assert bpy.ops.object.body_moments_copy(what=name) == {"FINISHED"}

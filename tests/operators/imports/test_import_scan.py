@@ -9,7 +9,7 @@ from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read import vdb
 from body_moments.blender.read.volume import volume_reading
 from body_moments.blender.settings.options import MeasureOptions
-from body_moments.core.bodies.array_file import ArrayOptions, measure_array
+from body_moments.core.bodies.files import ArrayOptions, measure_array
 from body_moments.core.density import grid_moments
 from body_moments.core.measurement.settings import Settings
 

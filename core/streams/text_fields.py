@@ -1,17 +1,86 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Decimal numbers of a text as an array, several times as fast as by `numpy.fromstring`."""
+"""Fields of text files: decimal numbers as arrays; refusals, with line and text, of fields that would be misread.
+
+Most lines match a regular expression that allows only short numbers; all others are checked word by word.
+"""
 
 from __future__ import annotations
+
+import mmap
+import re
+from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..verdict.finding import FileError
+from ..verdict.number_text import parse_number, parse_whole
+from .findings import LINE_MISREAD
+
+MAX_FLOAT32 = 3.4028235677973366e38  # larger numbers are infinite in float32
+MAX_TEXT = 60  # letters of a line that are shown
+BLOCK = 1 << 18  # bytes
+MARK = b"\xef\xbb\xbf"  # byte order mark
+# Decimal numbers that are so short that they are below 1e38 without being computed; the same, or NaN.
+SHORT = rb"[+-]?(?:[0-9]{1,8}+(?:\.[0-9]*+)?+|\.[0-9]++)(?:[eE](?:-[0-9]++|\+?0?[0-2]?[0-9]))?+"
+SHORT_OR_NAN = rb"(?:" + SHORT + rb"|[+-]?[nN][aA][nN])"
+SHORT_WHOLE = rb"[+-]?[0-9]{1,18}+"
+_NOT_FINITE = re.compile(rb"[+-]?(?:nan|inf|infinity|nan\([\w]*\)|1\.#\w+)", re.IGNORECASE)  # forms that C prints
 MAX_POWER = 22  # up to this float64 holds a power of ten
 MAX_DIGITS = 18  # that int64 always holds
 _POWERS = 10.0 ** np.arange(MAX_POWER + 1)
 _SPACE, _NINE, _DOT = b" 9."
 _BLANKS = bytes(letter if _SPACE < letter <= _NINE else _SPACE for letter in range(256))
+
+# Words for the field that a line should have.
+NUMBER, WHOLE, VERTEX = "a finite decimal number", "a whole number", "the number of an existing vertex"
+COUNT = "a line with more or fewer numbers"
+Data = mmap.mmap | bytes
+Fault = tuple[str, str]  # the text of a line, and the word for the text that should stand there
+
+
+def map_file(path: str | Path) -> mmap.mmap:
+    """Return the mapped bytes of a file, which must not be empty."""
+    with open(path, "rb") as file:
+        return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
+
+
+def find_number_fault(word: bytes, places_point: bool) -> Fault | None:
+    """Return the fault of a word that is no number, or None. places_point: it must be finite in float32, too."""
+    try:
+        value = parse_number(word.decode("utf-8", "replace"))
+    except ValueError:
+        is_number = not places_point and _NOT_FINITE.fullmatch(word) is not None
+    else:
+        is_number = not places_point or abs(value) < MAX_FLOAT32
+    return None if is_number else (shorten(word), NUMBER)
+
+
+def find_whole_fault(word: bytes) -> Fault | None:
+    """Return the fault of a word that is no whole number, or None."""
+    try:
+        parse_whole(word.decode("utf-8", "replace"))
+    except ValueError:
+        return shorten(word), WHOLE
+    return None
+
+
+def count_fault(words: list[bytes]) -> Fault:
+    """Return the fault of a line with too few or too many fields."""
+    return shorten(b" ".join(words)), COUNT
+
+
+def shorten(text: bytes) -> str:
+    """Return the beginning of a text for a message."""
+    return text[: 4 * MAX_TEXT].decode("utf-8", "replace")[:MAX_TEXT]
+
+
+def refuse_line(data: Data, at: int, fault: Fault) -> NoReturn:
+    """Raise the FileError about the line that contains the offset `at`."""
+    line = 1 + sum(data[start : min(start + BLOCK, at)].count(b"\n") for start in range(0, at, BLOCK))
+    raise FileError(LINE_MISREAD, line=line, text=fault[0], expected=fault[1])
 
 
 def parse_decimals(text: bytes) -> tuple[NDArray[np.float64], NDArray[np.intp], int]:

@@ -1,27 +1,32 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""IGES files in fixed ASCII form as numbers: the global section, the directory, the parameters of entities.
+"""Entities of IGES files in fixed ASCII form: their parameters as numbers, and curves as B-spline curves.
 
 Initial Graphics Exchange Specification 5.3, sections 2.2.1 to 2.2.4. Pointers and counts of a file are not trusted, but
-compared with its length.
+compared with its length. Lines (110), arcs (100), B-splines (126) and chains of them (102) bound faces, in space or in
+the parameters of a surface, whose third coordinate is zero.
 """
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..numerics.bspline import SplineSpace, clamped_space
+from ..nurbs.blender_knots import bezier_curves
+from ..nurbs.splines import Curve
 from ..scans.findings import FILE_UNRECOGNIZED
 from ..verdict.finding import FileError
 from .findings import IGES_DAMAGED, IGES_NOT_ASCII, IGES_UNIT
 
 FORMAT = "IGES (fixed ASCII form)"
-LINE = 80  # columns
+COLUMNS = 80  # columns
 SECTION = 72  # Column of the letter that names a line's section.
 PARAMETERS = 64  # columns that parameters may take
 UNITS = {
@@ -34,6 +39,10 @@ UNIT_NAMES = {
 }
 UNIT_BY_NAME = 3
 MANY_DIGITS = 8  # Numbers with fewer significant digits are taken as exact.
+ARC, CHAIN, LINE, SPLINE = 100, 102, 110, 126
+MAX_DEPTH = 50  # nesting of subfigures, transformations and curves
+MAX_PIECES = 10_000  # pieces of the boundary of a surface
+MAX_ARC = 2.0 * math.pi / 3.0  # radians; a quadratic piece of a circle keeps its weights away from zero
 _DECIMALS = re.compile(r"([0-9]*)\.([0-9]*)(?:[EDed]([+-]?[0-9]+))?")
 _NUMBERS = re.compile(r"[0-9+\-.eEdD \n]*")
 _STRING = re.compile(r"\s*(\d{1,9})H")
@@ -77,7 +86,7 @@ class IgesText:
             self._delimiter, self._end, fields = _global_fields(text)
             self.unit = _unit(fields)
         except ValueError:
-            raise FileError(IGES_DAMAGED, section="global section", text=text[:LINE]) from None
+            raise FileError(IGES_DAMAGED, section="global section", text=text[:COLUMNS]) from None
         self.entries = _directory(sections["D"])
 
     def fields(self, entry: Entry) -> list[str]:
@@ -96,7 +105,7 @@ class IgesText:
 def _lines(text: str) -> list[str]:
     """Return the lines of a text: split at line breaks, else after every 80 columns; blank lines are left out."""
     # Not splitlines: of Latin-1 it also cuts at \x85, which is half of an “Å” in UTF-8.
-    cut = [text[start : start + LINE] for start in range(0, len(text), LINE)]
+    cut = [text[start : start + COLUMNS] for start in range(0, len(text), COLUMNS)]
     lines = re.split(r"\r\n|\r|\n", text) if re.match(r"[^\r\n]{0,80}[\r\n]", text) else cut
     return [line for line in lines if line.strip("\0 \x1a")]
 
@@ -143,7 +152,7 @@ def _directory(lines: list[str]) -> dict[int, Entry]:
             )
         except (ValueError, IndexError):
             text = "".join(lines[number - 1 : number + 1])
-            raise FileError(IGES_DAMAGED, section="directory", text=text[: 2 * LINE]) from None
+            raise FileError(IGES_DAMAGED, section="directory", text=text[: 2 * COLUMNS]) from None
     return entries
 
 
@@ -209,3 +218,80 @@ def numbers(fields: list[str]) -> NDArray[np.float64]:
     if not np.isfinite(values).all():
         raise ValueError("not finite")
     return values
+
+
+class CurveReader:
+    """A reader of the curves of a file. matrix_of: returns the (4, 4) matrix of an entity."""
+
+    def __init__(self, text: IgesText, matrix_of: Callable[[Entry], NDArray[np.float64]]) -> None:
+        self._text, self._matrix_of = text, matrix_of
+        self._entries: Mapping[int, Entry] = text.entries
+
+    def read(
+        self, pointer: int, matrix: NDArray | None, depth: int = 0, left: Iterator[int] | None = None
+    ) -> list[Curve] | None:
+        """Return a curve as Bézier splines end to end; None if a part is of another kind, too deep, or has weights ≤ 0.
+
+        matrix: (4, 4), of the entities around the curve; None in the parameters of a surface, where nothing is moved.
+        depth, left: chains around it, and an item for each further piece that is allowed. ValueError if it is damaged.
+        """
+        left = iter(range(MAX_PIECES)) if left is None else left
+        entry = self._entries.get(pointer)
+        if entry is None or depth >= MAX_DEPTH or next(left, None) is None or matrix is None and entry.matrix:
+            return None
+        matrix = None if matrix is None else matrix @ self._matrix_of(entry)
+        fields = self._text.fields(entry)
+        if entry.type == CHAIN:
+            (count,) = integers(fields, 1)
+            pieces = []
+            for member in integers(fields[1:], count):
+                part = self.read(member, matrix, depth + 1, left)
+                if part is None:
+                    return None
+                pieces += part
+            return pieces
+        made = _MAKERS[entry.type](fields) if entry.type in _MAKERS else None
+        return made if made is None or matrix is None else [curve.transform(matrix) for curve in made]
+
+
+def _line(fields: list[str]) -> list[Curve]:
+    return [Curve(clamped_space(2), numbers(fields[:6]).reshape(2, 3))]
+
+
+def _arc(fields: list[str]) -> list[Curve]:
+    """Return an arc, counter-clockwise, or a full circle if its ends coincide, as quadratic pieces with weights."""
+    z, *plane = numbers(fields[:7]).tolist()
+    center, begin, end = np.array(plane).reshape(3, 2)
+    arms = begin - center, end - center
+    radius, angles = math.hypot(*arms[0]), [math.atan2(y, x) for x, y in arms]
+    if not radius > 0.0:
+        raise ValueError("an arc without radius")
+    turn = (angles[1] - angles[0]) % (2.0 * math.pi)
+    turn = 2.0 * math.pi if np.array_equal(begin, end) or not turn else turn
+    steps = math.ceil(turn / MAX_ARC)
+    half, curves = turn / steps / 2.0, []
+    for step in range(steps):
+        middle = angles[0] + (2 * step + 1) * half
+        ring = [(middle - half, 1.0), (middle, 1.0 / math.cos(half)), (middle + half, 1.0)]
+        points = [(*(center + radius * far * np.array([math.cos(at), math.sin(at)])), z) for at, far in ring]
+        curves.append(Curve(clamped_space(3), np.array(points), np.array([1.0, math.cos(half), 1.0])))
+    return curves
+
+
+def _spline(fields: list[str]) -> list[Curve] | None:
+    """Return the used part of a B-spline curve; None if a weight is not positive."""
+    last, degree = integers(fields, 2)
+    count, knot_count = last + 1, last + degree + 2
+    if degree < 1 or count <= degree:
+        raise ValueError("too few control points")
+    values = numbers(fields[6 : 6 + knot_count + 4 * count + 2])
+    if len(values) < knot_count + 4 * count + 2:
+        raise ValueError("too few numbers")
+    knots, weights, points, part = np.split(values, np.cumsum([knot_count, count, 3 * count]))
+    if (weights <= 0.0).any():
+        return None
+    curve = Curve(SplineSpace(tuple(knots.tolist()), degree + 1, count), points.reshape(count, 3), weights)
+    return bezier_curves(curve, (float(part[0]), float(part[1])))
+
+
+_MAKERS: dict[int, Callable[[list[str]], list[Curve] | None]] = {ARC: _arc, LINE: _line, SPLINE: _spline}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Limits on the demands of a scan's file.
+"""Files of scans: limits on their demands, their suffixes, and the names of the sample types.
 
 A small file can ask for terabytes: by a sparse file, by compression, by its header.
 """
@@ -14,6 +14,12 @@ from pathlib import Path
 from ..verdict.finding import FileError, QueryError
 from ..verdict.number_text import parse_number
 from .findings import FILE_EXCEEDS_LIMIT, LIMITS_UNRECOGNIZED
+
+SUFFIXES = (".npy", ".npz", ".nrrd", ".nhdr", ".nii", ".nii.gz", ".raw")  # No suffix ends with another one.
+SAMPLE_TYPES = (
+    *("uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64"),
+    *("float32", "float64"),
+)
 
 
 @dataclass(frozen=True)
@@ -61,3 +67,9 @@ DEFAULT_LIMITS = Limits()
 def scan_limits() -> Limits:
     """Return the limits that the environment variable sets, or raise QueryError if it is invalid."""
     return Limits.parse(os.environ.get("BODY_MOMENTS_LIMITS", ""))
+
+
+def scan_suffix(path: str | Path) -> str:
+    """Return the suffix of a scan's file in lower case, one of `SUFFIXES`; "" if it is no scan's."""
+    name = str(path).lower()
+    return next((end for end in SUFFIXES if name.endswith(end)), "")

@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bodies in files without any object: meshes, read as a whole or in blocks; scans and arrays of densities."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..density.findings import POSITIONS_ONLY_AS_DENSITY
+from ..density.grid_options import GridOptions
+from ..measurement.findings import NO_VOLUME
+from ..measurement.measurement import Body, Measurement
+from ..measurement.settings import Settings
+from ..moments.exponents import KNOWN_ORDER
+from ..moments.moments import Moments
+from ..scans import Scan, read_scan, sample_matrix
+from ..scans.findings import SCAN_UNSTATED
+from ..scans.formats import place_samples, read_all_positions
+from ..scans.scan_files import DEFAULT_LIMITS, Limits
+from ..solid.findings import INVERTED_COMPONENTS
+from ..streams.file_mesh import FileMesh, box_of_blocks
+from ..streams.measure import MeshFile, StreamIntegrals, measure_stream, open_mesh_file
+from ..verdict.finding import Finding, ReadError, finding
+from ..verdict.findings import SELF_INTERSECTION
+from ..verdict.health import MeshHealth
+from ..verdict.method import Method, Verdict
+from .findings import (
+    DENSITY_FROM_SAMPLES,
+    GIVEN_DENSITY_IGNORED,
+    GRID_AS_SHELL,
+    GRID_DENSITY,
+    GRID_TOO_LARGE,
+    MESH_STREAMED,
+    NO_GEOMETRY,
+    SAMPLES_POSITIONED,
+    STREAMED_OPEN,
+)
+from .grid import MAX_SAMPLES, TRILINEAR, Samples, ThresholdGrid, density_body, threshold_grid_body
+from .mesh_body import MeshBody, sum_of_instances
+from .reading import Part, Reading, about_file, bare_reading, measure_reading
+from .wall import WallBody, find_walls
+
+COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "components"
+
+
+def read_mesh(mesh: FileMesh, upright: NDArray[np.float64]) -> Reading:
+    """Return the reading of a file's mesh in a place, (4, 4): a rotation.
+
+    FileError if a coordinate is too large, ReadError if there are no faces.
+    """
+    if not len(mesh.sides):
+        raise ReadError(NO_GEOMETRY)
+    with np.errstate(over="ignore"):
+        points = mesh.points.astype(np.float32)
+    box_of_blocks([points], "vertex")
+    part = Part(replace(mesh, points=points).surface(), upright[None])
+    return Reading(mesh.name, "MESH", upright, upright[:3, :3], np.zeros(3), [part])
+
+
+def body_of_mesh(reading: Reading, settings: Settings) -> MeshBody | WallBody:
+    """Return the solid or sheet that the faces bound, with walls as set, or raise MeasureError."""
+    is_shell = settings.kind == "shell"
+    body = sum_of_instances(reading, settings.unit, is_shell, settings.threads)
+    if is_shell and settings.wall != "thin":
+        return find_walls(reading, body, settings.wall).body(settings.thickness)
+    return body
+
+
+class StreamHealth(MeshHealth):
+    """Health of a streamed mesh: closed or not, and nothing else, because no edge was kept."""
+
+    def as_record(self) -> dict:
+        """Return plain values for JSON, None for all uncounted faults."""
+        return {"closed": self.closed, "welded": False, **dict.fromkeys(COUNTED), SELF_INTERSECTION: "not_checked"}
+
+
+@dataclass(frozen=True, eq=False)
+class StreamBody(Body):
+    """The solid or the sheet of the faces in a file; unit: meters per unit of the file."""
+
+    any_order: ClassVar[bool] = True
+
+    mesh: MeshFile = field(kw_only=True)
+    unit: float = field(kw_only=True)
+    threads: int = field(kw_only=True)
+
+    def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
+        """Return the moments to an order; an order above the stored moments' reads the file again."""
+        if order <= self.volume.order and (not area or order <= self.area.order):
+            return self.volume.truncate(order), self.area.truncate(order) if area else None
+        found = measure_stream(self.mesh, order, order if area else 0, self.threads)
+        volume, areas = _in_meters(found, self.unit)
+        return volume, areas if area else None
+
+
+def measure_mesh_file(
+    path: str,
+    name: str,
+    settings: Settings,
+    findings: tuple[Finding, ...] = (),
+    progress: Callable[[int], None] | None = None,
+) -> Measurement:
+    """Return the mass properties of an .stl or .ply file as one body; `progress` gets the number of faces just read."""
+    kind, unit = settings.kind, settings.unit
+    order = max(settings.order or KNOWN_ORDER, KNOWN_ORDER)
+    area_order = order if kind == "shell" or settings.surface else 0
+    with about_file(name):
+        mesh = open_mesh_file(path)
+        found = measure_stream(mesh, order, area_order, settings.threads, progress)
+        volume, area = _in_meters(found, unit)
+        notes, verdict = [*findings, finding(MESH_STREAMED, count=found.face_count)], Verdict.EXACT
+        if not found.closed:
+            verdict = Verdict.OPEN
+            notes += [finding(STREAMED_OPEN)] if kind == "solid" else []
+        elif found.volume.total < 0.0:
+            verdict = Verdict.REORIENTED
+            notes += [finding(INVERTED_COMPONENTS, count=1, total=1)] if kind == "solid" else []
+        body = StreamBody(
+            volume,
+            area,
+            StreamHealth(closed=found.closed),
+            Method(verdict),
+            tuple(notes),
+            face_count=found.face_count,  # axes of many faces come from third order, without reading them again
+            mesh=mesh,
+            unit=unit,
+            threads=settings.threads,
+        )
+        if kind == "solid" and not volume.total > volume.rounding_error[0]:
+            raise ReadError(NO_VOLUME)
+        reading = bare_reading(name, "MESH")
+        return measure_reading(reading, body, replace(settings, unit=1.0))
+
+
+def _in_meters(found: StreamIntegrals, unit: float) -> tuple[Moments, Moments]:
+    """Return the moments of volume and area, in SI units; a negative volume is reversed, as if faces were outward."""
+    matrix = np.diag([unit, unit, unit, 1.0])
+    volume = found.volume * -1.0 if found.volume.total < 0.0 else found.volume
+    return volume.transform(matrix), found.area.transform(matrix)
+
+
+@dataclass(frozen=True)
+class ArrayOptions:
+    """Options of a measured array file.
+
+    spacing, origin: (x, y, z) in place of the file's own; unit_scale: meters per unit if the file has none;
+    density_scale: kg/m³ that a sample of 1 stands for; threshold: smallest value inside the body, None for all; limits:
+    of the file's size; positions: paths of files with the samples' positions, by axis, in units of unit_scale.
+    """
+
+    spacing: Sequence[float] | None = None
+    origin: Sequence[float] | None = None
+    spline_order: int = 1
+    density_scale: float = 1.0
+    threshold: float | None = None
+    unit_scale: float | None = None
+    limits: Limits = DEFAULT_LIMITS
+    positions: Mapping[str, str] = field(default_factory=dict)
+
+
+def measure_array(
+    path: str,
+    name: str,
+    array: ArrayOptions,
+    settings: Settings,
+    progress: Callable[[int], None] = lambda samples: None,
+) -> Measurement:
+    """Return the mass properties of the samples in a file; `progress` gets the number of samples just read."""
+    if settings.kind == "shell":
+        raise ReadError(GRID_AS_SHELL, subject=name)
+    with about_file(name):
+        scan = read_scan(path, array.limits)
+        matrix, findings = sample_matrix(scan, array.spacing, array.origin, array.unit_scale)
+        positions = read_all_positions(array.positions, scan.samples.shape)
+        matrix, positions = place_samples(matrix, positions, array.unit_scale or 1.0)
+        if array.positions:
+            unspaced = finding(SCAN_UNSTATED, part="spacing", option="spacing")  # unknown, if two axes have positions
+            findings = [one for one in findings if len(array.positions) < 3 or one != unspaced]
+            findings.append(finding(SAMPLES_POSITIONED, axes=sorted(array.positions)))
+        findings = (*scan.findings, *findings)
+        if array.threshold is None:
+            grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
+            shape = scan.samples.shape
+            findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
+            if settings.density is not None:
+                findings += (finding(GIVEN_DENSITY_IGNORED),)
+            samples = Samples(scan.samples, shape, matrix, grid, None, scan.slope, scan.intercept, positions)
+            made = density_body(samples, findings, progress, settings.order or KNOWN_ORDER)
+            made = replace(made, density_from=finding(DENSITY_FROM_SAMPLES))
+        else:
+            made = _threshold_body(name, scan, matrix, array, settings, findings, progress)
+        reading = bare_reading(name, "ARRAY")
+        density = None if made.mass is not None else settings.density
+        return measure_reading(reading, made, replace(settings, density=density))
+
+
+def _threshold_body(
+    name: str,
+    scan: Scan,
+    matrix: NDArray[np.float64],
+    array: ArrayOptions,
+    settings: Settings,
+    findings: tuple[Finding, ...],
+    progress: Callable[[int], None],
+) -> Body:
+    """Return the body at or above a threshold, filled with the given density, else with the samples as densities."""
+    if array.positions:
+        raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
+    filled = settings.density is None
+    spline_order = max(array.spline_order, TRILINEAR)
+    grid = GridOptions(
+        threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
+    )
+    if spline_order > TRILINEAR and scan.samples.size > MAX_SAMPLES:
+        raise ReadError(GRID_TOO_LARGE, grid=name, samples=list(scan.samples.shape))
+    slowest = np.argsort([-abs(stride) for stride in scan.samples.strides], kind="stable")  # read in the file's order
+    turned = np.eye(4)
+    turned[:3, :3] = np.eye(3)[:, slowest]
+
+    def values(block: NDArray) -> NDArray[np.float64]:
+        progress(block.size)
+        return block * scan.slope + scan.intercept
+
+    samples = scan.samples.transpose(slowest)
+    body = threshold_grid_body(
+        ThresholdGrid(name, samples, matrix @ turned, None, values), grid, order=settings.order or KNOWN_ORDER
+    )
+    source = finding(DENSITY_FROM_SAMPLES) if filled else None
+    return replace(body, findings=(*findings, *body.findings), density_from=source)

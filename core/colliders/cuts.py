@@ -1,0 +1,198 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed sets of planar faces, cut along planes without a triangulation.
+
+In each face, the chords between the places where its edges cross the plane close the cycle again, and all chords
+together bound the new face in the plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.surface import Surface, normals
+from ..numerics.graph import connected_components
+
+ON_PLANE_RTOL = 1e-9  # relative to the size: points nearer to a plane are on it
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Closed planar faces: each edge (start, end) of points belongs to a face, counter-clockwise from outside.
+
+    face, start, end: (e,). normals: (f, 3) of faces.
+    """
+
+    points: NDArray[np.float64]
+    face: NDArray[np.intp]
+    start: NDArray[np.intp]
+    end: NDArray[np.intp]
+    normals: NDArray[np.float64]
+
+    def volume(self) -> float:
+        """Return the signed volume: the sum of the cones of each face's fan."""
+        origin = self.points[self.start[0]]
+        a, b, c = (self.points[ids] - origin for ids in (self.first()[self.face], self.start, self.end))
+        return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
+
+    def first(self) -> NDArray[np.intp]:
+        """Return (f,) a point of each face."""
+        first = np.zeros(len(self.normals), np.intp)
+        first[self.face[::-1]] = self.start[::-1]
+        return first
+
+    def take(self, chosen: NDArray[np.bool_]) -> Piece:
+        """Return the piece of some of the edges, with only the points and faces that they use."""
+        ids, ends = np.unique(np.stack([self.start[chosen], self.end[chosen]]), return_inverse=True)
+        faces, face = np.unique(self.face[chosen], return_inverse=True)
+        start, end = ends.reshape(2, -1)
+        return Piece(self.points[ids], face, start, end, self.normals[faces])
+
+    def edges(self) -> NDArray[np.intp]:
+        """Return the (k, 2) different edges without a direction."""
+        return np.unique(np.sort(np.stack([self.start, self.end], axis=1), axis=1), axis=0)
+
+
+def piece_from_surface(surface: Surface) -> Piece:
+    triangles = surface.all_triangles()[0].astype(np.intp)
+    points = np.asarray(surface.points, np.float64)
+    triangles = _join_open_edges(points, triangles)
+    normal = normals(points, triangles)
+    real = np.linalg.norm(normal, axis=1) > 0.0
+    triangles, normal = triangles[real], normal[real]
+    face = np.arange(len(triangles)).repeat(3)
+    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    return Piece(points, face, start, end, normal / np.linalg.norm(normal, axis=1)[:, None])
+
+
+def _join_open_edges(points: NDArray[np.float64], triangles: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return triangles whose open edges share points that coincide: lids of curves and texts have points of their own.
+
+    Other points stay apart, so that parts that only touch do not become one.
+    """
+    start, end = triangles.ravel(), triangles[:, [1, 2, 0]].ravel()
+    is_open = ~np.isin(start * len(points) + end, end * len(points) + start)
+    ends = np.unique(np.concatenate([start[is_open], end[is_open]]))
+    if not len(ends):
+        return triangles
+    _, first, which = np.unique(points[ends] + 0.0, axis=0, return_index=True, return_inverse=True)
+    number = np.arange(len(points))
+    number[ends] = ends[first[which.ravel()]]
+    return number[triangles]
+
+
+def cut(piece: Piece, plane: NDArray[np.float64]) -> Iterator[Piece]:
+    """Yield the connected parts on both sides of a plane, (4,) its normal and offset."""
+    normal = plane[:3]
+    height = piece.points @ normal - plane[3]
+    height[np.abs(height) <= ON_PLANE_RTOL * np.ptp(piece.points, axis=0).max()] = 0.0
+    low, high = np.minimum(piece.start, piece.end), np.maximum(piece.start, piece.end)
+    crosses = np.flatnonzero(height[low] * height[high] < 0.0)
+    keys, which = np.unique(low[crosses] * len(height) + high[crosses], return_inverse=True)
+    low, high = np.divmod(keys, len(height))
+    share = (height[low] / (height[low] - height[high]))[:, None]
+    points = np.concatenate([piece.points, (1.0 - share) * piece.points[low] + share * piece.points[high]])
+    crossing = np.full(len(piece.start), -1)
+    crossing[crosses] = len(height) + which
+    for sign in (1.0, -1.0):
+        half = _half(replace(piece, points=points), sign * height, crossing, sign * normal)
+        if half is not None:
+            yield from connected_parts(half)
+
+
+def _half(piece: Piece, height: NDArray, crossing: NDArray, normal: NDArray) -> Piece | None:
+    """Return the part of a piece above a plane, closed in the plane; crossing: the point on each edge, or -1."""
+    from_above, to_above = height[piece.start] > 0.0, height[piece.end] > 0.0
+    crosses = crossing >= 0
+    from_below, to_below = height[piece.start] < 0.0, height[piece.end] < 0.0
+    kept = (from_above | to_above) & ~from_below & ~to_below | crosses
+    if not kept.any():
+        return None
+    start = np.where(crosses & from_below, crossing, piece.start)
+    end = np.where(crosses & to_below, crossing, piece.end)
+    leaves, enters = kept & from_above & ~to_above, kept & to_above & ~from_above
+    where = np.concatenate([end[leaves], start[enters]])
+    face = np.concatenate([piece.face[leaves], piece.face[enters]])
+    step = np.ones(len(where), np.intp)
+    step[int(np.count_nonzero(leaves)) :] = -1
+    along = np.einsum("ij,ij->i", piece.points[where], np.cross(piece.normals[face], normal))
+    order = np.lexsort((along, face))
+    where, face, count = where[order], face[order], np.cumsum(step[order])
+    chords = np.flatnonzero((count[:-1] != 0) & (where[:-1] != where[1:]))
+    chords = chords.repeat(np.abs(count[chords]))
+    forward = count[chords] > 0
+    begin = np.where(forward, where[chords], where[chords + 1])
+    stop = np.where(forward, where[chords + 1], where[chords])
+    lid = np.full(len(chords), len(piece.normals))
+    whole = Piece(
+        piece.points,
+        np.concatenate([piece.face[kept], face[chords], lid]),
+        np.concatenate([start[kept], begin, stop]),
+        np.concatenate([end[kept], stop, begin]),
+        np.concatenate([piece.normals, -normal[None]]),
+    )
+    return whole.take(np.ones(len(whole.start), bool))
+
+
+def connected_parts(piece: Piece) -> Iterator[Piece]:
+    """Yield the connected parts of a piece; a cavity, and a hole of a face, belong to the part around them."""
+    label, number = connected_components(len(piece.points), piece.start, piece.end)
+    if number == 1:
+        yield piece
+        return
+    first, second = _joined_by_faces(piece, label)
+    group, _ = connected_components(number, first, second)
+    label = group[label]
+    parts = [piece.take(label[piece.start] == one) for one in np.unique(label[piece.start])]
+    volumes = [part.volume() for part in parts]
+    boxes = [(part.points.min(axis=0), part.points.max(axis=0)) for part in parts]
+    owner = list(range(len(parts)))
+    for i in np.flatnonzero(np.array(volumes) < 0.0).tolist():
+        around = [
+            j for j in owner
+            if volumes[j] > 0.0 and (boxes[j][0] <= boxes[i][0]).all() and (boxes[j][1] >= boxes[i][1]).all()
+        ]  # fmt: skip
+        owner[i] = min(around, key=volumes.__getitem__, default=i)
+    for i in sorted({*owner}):
+        members = [part for part, whose in zip(parts, owner) if whose == i]
+        yield members[0] if len(members) == 1 else _join(members)
+
+
+def _join(parts: Sequence[Piece]) -> Piece:
+    points = np.cumsum([0, *(len(part.points) for part in parts)])
+    faces = np.cumsum([0, *(len(part.normals) for part in parts)])
+    return Piece(
+        np.concatenate([part.points for part in parts]),
+        np.concatenate([part.face + shift for part, shift in zip(parts, faces)]),
+        np.concatenate([part.start + shift for part, shift in zip(parts, points)]),
+        np.concatenate([part.end + shift for part, shift in zip(parts, points)]),
+        np.concatenate([part.normals for part in parts]),
+    )
+
+
+def _joined_by_faces(piece: Piece, label: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return pairs of labels: of the holes in faces, and of the cycles around these."""
+    pairs = []
+    of_edge = label[piece.start]
+    low, high = np.full(len(piece.normals), len(label)), np.zeros(len(piece.normals), np.intp)
+    np.minimum.at(low, piece.face, of_edge)
+    np.maximum.at(high, piece.face, of_edge)
+    for face in np.flatnonzero(low < high).tolist():
+        edges = np.flatnonzero(piece.face == face)
+        a, b = piece.points[piece.start[edges]], piece.points[piece.end[edges]]
+        middle = a.mean(axis=0)
+        twice = np.einsum("ij,j->i", np.cross(a - middle, b - middle), piece.normals[face])
+        cycles, which = np.unique(of_edge[edges], return_inverse=True)
+        area = np.bincount(which, twice)
+        box = np.array([[a[which == i].min(axis=0), a[which == i].max(axis=0)] for i in range(len(cycles))])
+        for hole in np.flatnonzero(area <= 0.0).tolist():
+            around = (area > 0.0) & (box[:, 0] <= box[hole, 0]).all(axis=1) & (box[:, 1] >= box[hole, 1]).all(axis=1)
+            if around.any():
+                outer = np.flatnonzero(around)[area[around].argmin()]
+                pairs.append((cycles[hole], cycles[outer]))
+    first, second = np.array(pairs, np.intp).reshape(-1, 2).T
+    return first, second

@@ -1,7 +1,0 @@
-# SPDX-FileCopyrightText: 2026 Body Moments contributors
-# SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that are written whole or not at all."""
-
-from ..lazy import lazy_names
-
-__getattr__, __dir__, __all__ = lazy_names(__name__)
