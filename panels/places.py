@@ -37,6 +37,14 @@ PLACES = {  # by the beginning of the panels' identifiers
 }
 
 
+class AmongProperties:
+    """Base of panels among the properties of something else than the object, named by `bl_context`."""
+
+    bl_label = "Body Moments"
+    bl_space_type, bl_region_type = "PROPERTIES", "WINDOW"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
 def in_both_places(
     contents: type,
     name: str = "",

@@ -123,8 +123,7 @@ class OBJECT_OT_body_moments_find_symmetry(ModalSteps, selection.OnSelection, Op
             count = len(symmetries)
             done = reports.phrase("Searched {count} object", "Searched {count} objects", count=count)
             return selection.summarize(self, count, len(self._objects), done, self._failures, symmetries)
-        reports.report(self, *reports.first(symmetries))
-        return {"FINISHED"}
+        return reports.report(self, *reports.first(symmetries))
 
 
 def describe(symmetry: "Symmetry") -> list[str]:

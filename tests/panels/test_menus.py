@@ -14,15 +14,15 @@ pytestmark = pytest.mark.usefixtures("scene")
 
 
 def test_entries_are_in_the_menus_as_long_as_the_add_on_is():
+    from body_moments.blender.registration import register_modules, unregister_modules
     from body_moments.panels import menus
 
-    assert all(draw in getattr(bpy.types, name).draw._draw_funcs for name, draw in menus.ADDED)
-    menus.unregister()
+    assert all(draw in menu.draw._draw_funcs for menu, draw in menus.MENUS)
+    unregister_modules("body_moments.panels", ["menus"])
     try:
-        for name, draw in menus.ADDED:
-            assert draw not in getattr(bpy.types, name).draw._draw_funcs
+        assert not any(draw in menu.draw._draw_funcs for menu, draw in menus.MENUS)
     finally:
-        menus.register()
+        register_modules("body_moments.panels", ["menus"])
 
 
 def drawn(menu):
