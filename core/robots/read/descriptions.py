@@ -107,10 +107,10 @@ def _include(root: Node, roots: Roots, own: Path) -> None:
     included = [own]
     total, count = 0, 0
     while waiting:
-        node, depth, *origin = waiting.pop()
+        node, depth, beside, within = waiting.pop()
         count += 1
         check_size(depth, count)
-        children, pending = [], [(child, *origin) for child in reversed(node.children)]
+        children, pending = [], [(child, beside, within) for child in reversed(node.children)]
         while pending:
             child, here, above = pending.pop()
             if child.tag != "include":
