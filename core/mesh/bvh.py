@@ -225,9 +225,14 @@ class Bvh:
         above = height > 0.0
         np.add.at(winding, place[above], np.where(positive[above], 1, -1))
 
-    def distances(self, query_points: NDArray[np.float64], component: NDArray[np.intp]) -> NDArray[np.float64]:
-        """Return the (k,) distances of places (about `origin`) from the surfaces of components."""
-        nearest = np.full(len(query_points), np.inf)
+    def nearest(
+        self, query_points: NDArray[np.float64], component: NDArray[np.intp], within: float = np.inf
+    ) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+        """Return the (k,) distances of places (about `origin`) from the surfaces of components, and sorted triangles.
+
+        Distances beyond `within` are infinite, and the triangle is -1.
+        """
+        nearest, closest = np.full(len(query_points), within), np.full(len(query_points), -1)
         pieces = _batches(np.arange(len(query_points)), self.root[component])
         while pieces:
             place, node = pieces.pop()
@@ -235,7 +240,7 @@ class Bvh:
             occupied = high[:, 0] >= low[:, 0]
             least = np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0), axis=1)
             most = np.linalg.norm(np.maximum(np.abs(point - low), np.abs(high - point)), axis=1)
-            np.minimum.at(nearest, place[occupied], most[occupied])
+            np.minimum.at(nearest, place[occupied], most[occupied] * (1.0 + 1e-12))
             near = occupied & (least <= nearest[place])
             place, node = place[near], node[near]
             child = self.child[node]
@@ -245,10 +250,13 @@ class Bvh:
                 triangle = np.repeat(self.first[node[leaf]], size) + segment_ranges(size)
                 at = np.repeat(place[leaf], size)
                 corners = self.corners(triangle).transpose(2, 1, 0)
-                np.minimum.at(nearest, at, triangle_distances(query_points[at], corners))
+                distance = triangle_distances(query_points[at], corners)
+                np.minimum.at(nearest, at, distance)
+                is_closest = distance <= nearest[at]
+                closest[at[is_closest]] = triangle[is_closest]
             place, child = place[~leaf], child[~leaf]
             pieces += _batches(np.concatenate([place, place]), np.concatenate([child, child + 1]))
-        return nearest
+        return np.where(closest < 0, np.inf, nearest), closest
 
 
 def intersecting_pairs(

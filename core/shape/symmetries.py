@@ -11,10 +11,8 @@ C∞v a body of revolution, K a ball.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,11 +25,6 @@ from ..moments.symmetric_tensors import distinct_arrays, invert_through_point
 from ..numerics.arguments import check_type
 
 EQUAL_OPERATION_ATOL = 1e-4  # matrices of one operation, known to noise, are equal to this
-EQUAL_PRODUCT_ATOL = 1e-3  # traces: a product of operations is the operation nearest to it
-REFINEMENTS = 3  # of an operation by the surface
-MAX_REFINEMENT = 1e-2  # angle by which noise may have turned an operation
-LIMIT_RANGE = 8.0  # misfits so many times smaller or larger than the tolerance are decided
-NO_INDICES = np.empty(0, np.intp)
 MAX_AXIS_ORDER = 128  # highest order of an axis that is searched for
 FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candidates fail
 
@@ -39,15 +32,6 @@ FIRST_SAMPLES = 64  # points at most of the first test, which most wrong candida
 UNDECIDED = {"Oh": "O", "Ih": "I", "D6h": "C6h, D6", "C6v": "C6", "D5h": "C5h", "D5d": "S10", "D4d": "S8"}
 
 Distance = Callable[[NDArray], NDArray]
-
-
-class Skin(Protocol):
-    """A surface: points on it, distances of points from it (infinite if far), and its points nearest to others."""
-
-    points: NDArray[np.float64]
-
-    def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]: ...
-    def nearest(self, points: NDArray) -> NDArray[np.float64]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +145,7 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
         return all((distance(part @ operation.T + center) <= tolerance).all() for part in (some, points))
 
     if len(candidate.revolution_axes) == 3:
-        turns = [_axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
+        turns = [axis_rotation(axis, 1.0) for axis in np.concatenate([np.eye(3), np.ones((1, 3)) / 3.0**0.5])]
         ball = all(holds(turn) for turn in turns)
         return Symmetry(
             np.eye(3)[None], candidate.revolution_axes if ball else np.empty((0, 3)), candidate.order, tolerance
@@ -169,90 +153,12 @@ def confirm(candidate: Symmetry, center: NDArray, points: NDArray, distance: Dis
     operations = candidate.operations
     if len(candidate.revolution_axes):
         axis = candidate.revolution_axes[0]
-        if all(holds(_axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
+        if all(holds(axis_rotation(axis, angle)) for angle in (1.0, 0.1, 0.01)):
             confirmed = [operation for operation in operations if holds(operation)]
             return Symmetry(np.array(confirmed), candidate.revolution_axes, candidate.order, tolerance)
         operations = _around_axis(points, axis, holds)
     confirmed = np.array([operation for operation in operations if holds(operation)])
     return Symmetry(confirmed, np.empty((0, 3)), candidate.order, tolerance)
-
-
-def decide(candidates: Sequence[Symmetry], center: NDArray, skin: Skin, tolerance: float) -> list[Symmetry]:
-    """Return the largest finite symmetry among the candidates' that a surface has; two if it leaves a choice.
-
-    Misfits of one order of magnitude belong together: both limits, below and above the tolerance, are in the widest gap
-    between misfits.
-    """
-    known, compared = np.empty((0, 3, 3)), []
-    for operations in (candidate.operations for candidate in candidates):
-        if len(operations) > len(_nearest_operations(operations, known)):
-            known = np.concatenate([known, operations])
-            compared.append((operations, np.array([_misfit(each, center, skin, tolerance) for each in operations])))
-    misfits = np.concatenate([np.empty(0), *(each for _, each in compared)])
-    limits = [
-        _limit_between(misfits, tolerance * low, tolerance * low * LIMIT_RANGE) for low in (1.0 / LIMIT_RANGE, 1.0)
-    ]
-    groups = [[_closed(operations, each <= limit) for limit in limits] for operations, each in compared]
-    sure, possible = max(groups, key=lambda pair: [len(group) for group in pair], default=[np.eye(3)[None]] * 2)
-    found = [sure, possible][: 1 + (len(sure) < len(possible))]
-    return [Symmetry(group, np.empty((0, 3)), 0, tolerance) for group in found]
-
-
-def _misfit(operation: NDArray, center: NDArray, skin: Skin, tolerance: float) -> float:
-    """Return the largest distance of images of a surface's points from it; infinity if some are far away.
-
-    Noise may have turned and shifted the operation a little: it is moved back, until the images are clearly near or
-    come no nearer.
-    """
-    points, distance = skin.points - center, partial(skin.distance, within=tolerance / LIMIT_RANGE)
-    some, turned, shift, least = points[:: 1 + len(points) // FIRST_SAMPLES], operation, np.zeros(3), np.inf
-    for _ in range(1 + REFINEMENTS):
-        if not np.isfinite(distance(some @ turned.T + center + shift)).all():
-            break
-        images = points @ turned.T + shift
-        misfit = float(distance(images + center).max())
-        if misfit <= tolerance / LIMIT_RANGE or misfit > 0.9 * least:
-            return min(misfit, least)
-        least = misfit
-        turn, step = _motion_between(images, skin.nearest(images + center) - center)
-        angle = float(np.linalg.norm(turn))
-        rotation = _axis_rotation(turn / (angle or 1.0), angle)
-        turned, shift = rotation @ turned, rotation @ shift + step
-        if np.abs(turned - operation).max() > MAX_REFINEMENT:
-            break
-    return least
-
-
-def _limit_between(misfits: NDArray, low: float, high: float) -> float:
-    """Return a limit for misfits from low to high, in the widest gap between those that lie there."""
-    ends = np.array([low, *np.sort(misfits[(misfits > low) & (misfits < high)]), high])
-    widest = int((ends[1:] / ends[:-1]).argmax())
-    return float(np.sqrt(ends[widest] * ends[widest + 1]))
-
-
-def _nearest_operations(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
-    """Return the indices of operations that are equal, but for noise, to some of the products; of each one at most."""
-    alike = np.einsum("kij,nij->kn", products, operations)
-    return alike.argmax(axis=1)[alike.max(axis=1) > 3.0 - EQUAL_PRODUCT_ATOL] if len(operations) else NO_INDICES
-
-
-def _closed(operations: NDArray, held: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return the operations that hold, a mask of a group, and all their products."""
-    held, count = held | (operations.trace(axis1=1, axis2=2) > 3.0 - EQUAL_OPERATION_ATOL), 0
-    while count < held.sum():
-        count = int(held.sum())
-        products = operations[held][:, None] @ operations[held]
-        held[_nearest_operations(products.reshape(-1, 3, 3), operations)] = True
-    return operations[held]
-
-
-def _motion_between(points: NDArray, nearest: NDArray) -> tuple[NDArray, NDArray]:
-    """Return the small turn, as a vector, and shift that bring points toward the `nearest` ones of a surface."""
-    gaps, reach = points - nearest, np.abs(points).max()
-    lengths = np.linalg.norm(gaps, axis=1)
-    away = gaps / np.where(lengths > 0.0, lengths, 1.0)[:, None]
-    motion = np.linalg.lstsq(np.hstack([np.cross(points / reach, away), away]), -lengths, rcond=1e-6)[0]
-    return motion[:3] / reach, motion[3:]
 
 
 def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool]) -> NDArray[np.float64]:
@@ -264,12 +170,12 @@ def _around_axis(points: NDArray, axis: NDArray, holds: Callable[[NDArray], bool
     fold = next(
         n
         for n in range(MAX_AXIS_ORDER, 0, -1)
-        if all(holds(_axis_rotation(axis, 2.0 * np.pi * k / n)) for k in range(1, n // 2 + 1))
+        if all(holds(axis_rotation(axis, 2.0 * np.pi * k / n)) for k in range(1, n // 2 + 1))
     )
-    turns = [_axis_rotation(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
+    turns = [axis_rotation(axis, 2.0 * np.pi * k / fold) for k in range(fold)]
     across = np.eye(3) - 2.0 * np.outer(axis, axis)
     seeds = [np.eye(3)] + [
-        operation for operation in (across, _axis_rotation(axis, np.pi / fold) @ across) if holds(operation)
+        operation for operation in (across, axis_rotation(axis, np.pi / fold) @ across) if holds(operation)
     ]
     flat = points - np.outer(points @ axis, axis)
     radius = np.linalg.norm(flat, axis=1)
@@ -302,7 +208,7 @@ def _reverses_axis(operations: NDArray, axis: NDArray) -> NDArray[np.bool_]:
     return (operations @ axis) @ axis < 0.0
 
 
-def _axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
+def axis_rotation(axis: NDArray, angle: float) -> NDArray[np.float64]:
     """Return the (3, 3) rotation about an axis, by Rodrigues' formula."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -17,7 +17,13 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.inertia.axial_harmonics import AxialHarmonics, axial_harmonics, axis_last, turn_by_harmonics
+from ....core.inertia.axial_harmonics import (
+    MAX_AXIAL_ORDER,
+    AxialHarmonics,
+    axial_harmonics,
+    axis_last,
+    turn_by_harmonics,
+)
 from ....core.inertia.canonical_frame import MAX_ORDER, NOISE_LEVEL
 from ....core.inertia.principal_frames import equivalent_frames, nearest_frame, pose_matrix
 from ....core.inertia.third_moment_frames import EQUAL_AXES
@@ -27,9 +33,10 @@ from ....core.measurement.measurement import Measurement
 from ....core.mesh.surface import Surface, join_surfaces
 from ....core.moments.moments import Moments
 from ....core.polyhedron import polyhedron_moments
+from ....core.shape.point_groups import PlacedTriangles
 from ....core.shape.registration import Residual, RigidMatch, match
 from ....core.shape.signatures import Signature, signature
-from ....core.shape.symmetries import UNDECIDED, Symmetry, confirm, decide, symmetry
+from ....core.shape.symmetries import UNDECIDED, Symmetry, confirm, symmetry
 from ....core.shape.zernike import MAX_DESCRIPTOR_ERROR, MAX_ORDER_BY_MOMENTS, zernike_quadrature
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
@@ -51,8 +58,8 @@ NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame 
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
-CANDIDATE_NOISE = 1e-2, 1e-3, 1e-4, NOISE_LEVEL  # of moments whose symmetries the surface may have
-MAX_NOISE = 1e-6  # relative to the size: coordinates with more noise may hide corners from the moments
+LEAST_MISFIT = NOISE_LEVEL / 4.0  # relative to the size: images of a symmetry are nearer to the surface
+MAX_MISFIT = 0.02  # relative to the size: coordinates that leave more tell no group
 MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
@@ -159,18 +166,14 @@ class Shape:
     def _point_group(self) -> dict[str, Any]:
         """Return the body's point group and the order of the moments that it was found by.
 
-        The surface decides between the groups that the moments allow. Small moments do not fix axes well: more noise
-        leaves the group of a nearly equal body with clear axes, of which the surface keeps a part.
+        The surface decides by its corners. Where moments are those of a body of revolution or of a ball, so is the body
+        if its surface is near one and it has no axis of a lower order than harmonics show.
         """
         axial = self._harmonics if self._is_polygonal else None
         found = symmetry(self.moments, axial=axial)
-        group = found.group
+        group: str | None = found.group
         if self._is_polygonal:
-            exact = replace(self.moments, input_error=np.zeros_like(self.moments.raw))
-            candidates = [found, symmetry(exact, CANDIDATE_NOISE[0], axial)]
-            if any(len(each.operations) > 1 or len(each.revolution_axes) for each in candidates):
-                candidates += [symmetry(exact, noise, axial) for noise in CANDIDATE_NOISE[1:]]
-                group = self._confirmed_group(candidates)
+            group = self._confirmed_group(found)
         elif group in UNDECIDED:
             group = "{} or {}".format(UNDECIDED[group], group)
         return {"symmetry": group, "symmetry_order": found.order}
@@ -181,25 +184,25 @@ class Shape:
             self._known_harmonics[:] = [axial_harmonics(self.pieces(), self.center, frame, area=self._sheets)]
         return self._known_harmonics[0].in_frame(frame)
 
-    def _confirmed_group(self, candidates: list[Symmetry]) -> str:
-        """Return the largest group of the candidates' operations that the surface has, or groups that it may have."""
-        skin, first = SurfaceDistance(self), candidates[0]
-        for _ in skin.build():
-            pass
-        rough = MAX_FACETS * self.size
-        if len(first.revolution_axes):
-            found = confirm(first, self.center, skin.points, partial(skin.distance, within=rough), rough)
-            if len(found.revolution_axes):
-                return first.group
-        moved = max([float(np.linalg.norm(piece.coordinate_error)) for piece in self.pieces()])
-        # Trees of single precision miss some narrow triangles: then not even the surface's own points lie on it.
-        near = max(NOISE_LEVEL * self.size + 4.0 * moved, 2.0 * float(skin.distance(skin.points).max()))
-        finite = [each for each in candidates if not len(each.revolution_axes)]
-        groups = [each.group for each in decide(finite, self.center, skin, near)]
-        # Noise may hide what a body has beside a body of revolution.
-        uncertain = candidates if moved > MAX_NOISE * self.size else [first]
-        groups += [each.group for each in uncertain if len(each.revolution_axes)]
-        return " or ".join(dict.fromkeys(groups))
+    def _confirmed_group(self, found: Symmetry) -> str | None:
+        """Return the group that the surface has, or the groups that it may have; None if coordinates are too coarse."""
+        whole = join_surfaces(list(self.pieces()))
+        moved = float(np.linalg.norm(whole.coordinate_error)) / self.size
+        near, far = LEAST_MISFIT + 4.0 * moved, 4.0 * NOISE_LEVEL + 16.0 * moved
+        if far > MAX_MISFIT:
+            return None
+        points = (whole.points.astype(np.float64) - self.center) / self.size
+        placed = PlacedTriangles(points, whole.all_triangles()[0], near, far)
+        finite = [Symmetry(each, np.empty((0, 3)), 0) for each in placed.groups() or ()]
+        names = [each.group for each in finite]
+        if len(found.revolution_axes) and placed.is_round(found, MAX_FACETS):
+            order = max([n for each in finite[:1] for _, n in each.axes], default=0)
+            # An axis of a higher order than harmonics show, or facets that are no misfit, count as round.
+            known = order > MAX_AXIAL_ORDER or placed.is_round(found, near)
+            names = [found.group] if known else [*names, found.group]
+        elif not finite:
+            names = ["C1", found.group]
+        return " or ".join(dict.fromkeys(names))
 
     @property
     def _is_polygonal(self) -> bool:
