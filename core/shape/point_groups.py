@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The finite groups that a surface of triangles may have, by its corners, with proof on all triangles.
+"""The finite groups that a surface of triangles may have, by its corners, with proof on their triangles.
 
 A corner farthest from the center is a corner in every triangulation, and a symmetry takes it to another such corner. So
 it does with a corner farthest from the line through the first. Two pairs of them fix a rotation, and a rotation with a
@@ -31,6 +31,7 @@ MAX_TRIES = 64  # corners of nearly equal height along it that are compared
 FIRST_IMAGES = 12  # images of corners that refute most candidates
 FIRST_SAMPLES = 64  # corners that refute most of the others
 ROUND_SAMPLES = 1500  # corners that are turned about an axis
+MAX_PROVED = 4096  # triangles between other corners that are proved; of more, evenly many (all corners are compared)
 MAX_ROUNDS, MAX_PIECES = 200, 1 << 18  # of cutting
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
@@ -150,7 +151,8 @@ class PlacedTriangles:
             return level
         faces = self._face_keys(np.where(match < 0, -1, self._first[match]), self._sides)[1]
         new = (match[self.triangles] < 0).any(axis=1) | ~np.isin(faces, self._faces)
-        return self._cover(images[self.triangles[new]])
+        rows = np.flatnonzero(new)
+        return self._cover(images[self.triangles[rows[:: 1 + len(rows) // MAX_PROVED]]])
 
     def _match(self, images: NDArray) -> NDArray[np.intp]:
         """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""

@@ -58,7 +58,7 @@ NOISE_FACTORS = 0.5, 1.0, 2.0  # of the level of noise, on which a unique frame 
 MAX_FRAME_CHANGE = 0.1  # between two frames that are the same but for noise
 MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is not called unique
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
-LEAST_MISFIT = NOISE_LEVEL / 4.0  # relative to the size: images of a symmetry are nearer to the surface
+LEAST_MISFIT = NOISE_LEVEL / 2.0  # relative to the size: images of a symmetry are nearer to the surface
 MAX_MISFIT = 0.02  # relative to the size: coordinates that leave more tell no group
 MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
