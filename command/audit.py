@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import argparse
 import os
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -13,20 +15,27 @@ from ..blender.write.findings import FILE_NOT_WRITTEN
 from ..core.files.whole_file import whole_file
 from ..core.measurement.plain_text import counted, print_message
 from ..core.robots.audit import Audit, Auditor
+from ..core.robots.findings import DESCRIPTION_UNKNOWN
+from ..core.robots.formats import AUDITED_SUFFIXES
 from ..core.robots.read.descriptions import read_description
 from ..core.robots.read.paths import Roots
 from ..core.robots.repair import repaired_copy
 from ..core.robots.write import audit_report
+from ..core.streams.findings import FILE_WITHOUT_OBJECTS
 from ..core.verdict import internal_error
 from ..core.verdict.finding import FileError, MeasureError, system_reason
-from .options import targets
+from . import audit_gate
+from .options import option_types, targets
 from .parser import COMMANDS, Parser
+from .supervisor.progress import Progress
 
 _EPILOG = """\
-FILE is URDF, SDF, MJCF, or USD as text (.usda). A link that is off is listed with the one change that makes it agree
-with its geometry. Meshes (.stl .obj .glb .dae) are read from the folder of FILE, from that of the package that it is
-in, and from each --root; nothing is loaded from a network.
-exit code: 0 nothing but notes, 1 warnings or errors, or a file that cannot be read, 2 wrong usage, 3 interrupted,
+FILE is URDF, SDF, MJCF, USD or xacro; of a folder, all such files are audited. USD that is not text needs the Python
+module usd-core, and xacro the module xacro. A link that is off is listed with the one change that makes it agree with
+its geometry. Meshes (.stl .obj .glb .dae) and included files are read from the nearest folder above FILE that holds a
+package.xml, else from the folder above that of FILE, and from each --package-path and ROS_PACKAGE_PATH; nothing is
+loaded from a network.
+exit code: 0 nothing that --fail-on names, 1 findings, or a file that cannot be read, 2 wrong usage, 3 interrupted,
 70 a fault of the program"""
 
 
@@ -34,7 +43,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     """Return the options of `audit`. Raises SystemExit(2), or HelpRequested."""
     parser = Parser(
         prog="body_moments",
-        usage="body_moments audit [options] FILE ...",
+        usage="body_moments audit [options] FILE_OR_FOLDER ...",
         description=COMMANDS["audit"],
         epilog=_EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -43,63 +52,135 @@ def parse(argv: list[str]) -> argparse.Namespace:
     add = parser.add_argument
     add("command", metavar="audit")
     add("files", nargs="+", type=Path, metavar="FILE")
-    add("--root", action="append", type=Path, default=[], metavar="FOLDER", help="meshes may be in it; repeatable")
+    add("--package-path", "--root", dest="root", action="append", type=Path, default=[], metavar="FOLDER",
+        help="packages and meshes may be in it; repeatable")  # fmt: skip
     add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")
     add("--repair", type=Path, metavar="FOLDER", help="write repaired copies there, of what has a repair")
     formats = "{" + ",".join(audit_report.FORMATS) + "}"
     add("--format", choices=tuple(audit_report.FORMATS), default="json", metavar=formats, help="(json)")
     add("--output", type=Path, metavar="PATH", help="(standard output)")
+    levels = tuple(audit_gate.FAILING)
+    metavar = "{" + ",".join(levels) + "}"
+    add(
+        "--fail-on", choices=levels, default="warning", metavar=metavar, help="findings that give exit code 1 (warning)"
+    )
+    add("--ignore", action="append", default=[], metavar="CODE", help="leave out findings of this code; repeatable")
+    add("--light-links", type=option_types.positive, default=0.0, metavar="KG",
+        help="findings of links of this mass or less are notes (0)")  # fmt: skip
+    add("--baseline", type=Path, metavar="FILE", help="only findings that are not in this file count")
+    add("--write-baseline", type=Path, metavar="FILE", help="write the present findings, for --baseline")
+    add("--jobs", type=option_types.count, default=1, metavar="N", help="files that are audited at a time (1)")
     add("--force", action="store_true", help="replace any file at --output and in --repair (only results)")
     options = parser.parse_intermixed_args(argv)
+    unknown = audit_gate.unknown_codes(options.ignore)
+    if unknown:
+        parser.error("--ignore: no finding has the code {}".format(unknown[0]))
+    options.names = dict(_find_files(options.files))
+    if not options.names:
+        parser.error("there is no robot description in {}".format(", ".join(map(str, options.files))))
+    options.known = None
+    if options.baseline is not None:
+        try:
+            options.known = audit_gate.read_baseline(options.baseline)
+        except (OSError, ValueError) as error:
+            parser.error("--baseline: {} cannot be read: {}".format(options.baseline, error))
     if options.repair is not None:
-        if not options.repair.is_dir():
-            parser.error("--repair: {} is no folder".format(options.repair))
-        here = os.path.realpath(options.repair)
-        if any(os.path.realpath(path.parent) == here for path in options.files):
-            parser.error("--repair: {} is the folder of a file that is read. Choose another one".format(options.repair))
-        if len({path.name for path in options.files}) < len(options.files):
-            parser.error("--repair: two files have one name. Audit them one at a time, or choose other folders")
-    targets.check_targets(options, options.files, parser.error)
+        _check_repair(options, parser)
+    targets.check_targets(options, [*options.names], parser.error)
     return options
 
 
+def _check_repair(options: argparse.Namespace, parser: Parser) -> None:
+    if not options.repair.is_dir():
+        parser.error("--repair: {} is no folder".format(options.repair))
+    here = os.path.realpath(options.repair)
+    if any(os.path.realpath(path.parent) == here for path in options.names):
+        parser.error("--repair: {} is the folder of a file that is read. Choose another one".format(options.repair))
+    if len({*options.names.values()}) < len(options.names):
+        parser.error("--repair: two files have one name. Audit them one at a time, or choose other folders")
+
+
+def _find_files(paths: list[Path]) -> Iterator[tuple[Path, Path]]:
+    """Yield the named files and those in named folders, each with its path below --repair."""
+    for path in paths:
+        if not path.is_dir():
+            yield path, Path(path.name)
+            continue
+        for folder, folders, names in os.walk(path):
+            folders[:] = sorted(name for name in folders if not name.startswith("."))
+            for name in sorted(names):
+                if name.lower().endswith(AUDITED_SUFFIXES):
+                    file = Path(folder, name)
+                    yield file, file.relative_to(path)
+
+
 def answer(options: argparse.Namespace) -> tuple[list[str], int]:
-    """Return the report, and the exit code: 1 after warnings, errors or unread files, 70 after an internal error."""
-    documents, faults, internal = [], 0, 0
-    for path in options.files:
-        try:
-            documents.append(_document(path, options))
-        except MeasureError as error:
-            documents.append(audit_report.failed_document(str(path), error.finding))
-        except Exception as error:
-            reason = internal_error.finding_of(error)
-            internal += reason.code == internal_error.CODE
-            documents.append(audit_report.failed_document(str(path), reason))
-        for reason in documents[-1]["errors"]:
+    """Return the report, and the exit code: 1 after findings or unread files, 70 after an internal error."""
+    documents, internal = [], False
+    listed = {path for path in options.files if not path.is_dir()}
+    progress = Progress(len(options.names))
+    for path, document in zip(options.names, _documents(options)):
+        codes = {reason["code"] for reason in document["errors"]}
+        internal |= internal_error.CODE in codes
+        if path not in listed and codes & {DESCRIPTION_UNKNOWN, FILE_WITHOUT_OBJECTS}:
+            continue  # A folder holds other files of these types, too.
+        documents.append(document)
+        for reason in document["errors"]:
             print_message(path, reason["message"])
-        faults += documents[-1]["status"] != "ok"
-    return [audit_report.FORMATS[options.format](documents)], 70 if internal else 1 if faults else 0
+        if not document["errors"]:
+            counts = audit_report.count_findings(document)
+            print_message(path, ", ".join(counted(count, name.removesuffix("s")) for name, count in counts.items()))
+        progress.count_file(document["status"])
+        progress.show()
+    progress.finish()
+    if options.write_baseline is not None:
+        try:
+            audit_gate.write_baseline(options.write_baseline, documents)
+        except OSError as error:
+            file = str(options.write_baseline)
+            raise FileError(FILE_NOT_WRITTEN, file=file, error=system_reason(error)) from error
+    fails = audit_gate.fails(documents, options.fail_on)
+    return [audit_report.FORMATS[options.format](documents)], 70 if internal else 1 if fails else 0
 
 
-def _document(path: Path, options: argparse.Namespace) -> dict[str, Any]:
+def _documents(options: argparse.Namespace) -> Iterator[dict[str, Any]]:
+    """Yield the report document of each file, in order; several threads make them on request."""
+    tasks = [(path, name, options) for path, name in options.names.items()]
+    if options.jobs == 1:
+        yield from map(_audit_file, tasks)
+        return
+    with ThreadPoolExecutor(min(options.jobs, len(tasks))) as pool:
+        yield from pool.map(_audit_file, tasks)
+
+
+def _audit_file(task: tuple[Path, Path, argparse.Namespace]) -> dict[str, Any]:
+    """Return the report document of one file; of its failure if it cannot be audited."""
+    path, name, options = task
+    try:
+        document = _document(path, name, options)
+    except MeasureError as error:
+        return audit_report.failed_document(str(path), error.finding)
+    except Exception as error:
+        return audit_report.failed_document(str(path), internal_error.finding_of(error))
+    return audit_gate.apply(document, options)
+
+
+def _document(path: Path, name: Path, options: argparse.Namespace) -> dict[str, Any]:
     roots = Roots.for_file(path, options.root, options.allow_outside)
     audit = Auditor(roots).audit(read_description(path, roots))
-    repaired = _write_copy(path, audit, options)
-    document = audit_report.document(str(path), audit, repaired)
-    counts = audit_report.count_findings(document)
-    print_message(path, ", ".join(counted(count, name.removesuffix("s")) for name, count in counts.items()))
-    return document
+    return audit_report.document(str(path), audit, _write_copy(name, audit, options))
 
 
-def _write_copy(path: Path, audit: Audit, options: argparse.Namespace) -> str | None:
+def _write_copy(name: Path, audit: Audit, options: argparse.Namespace) -> str | None:
     repairs, folder = audit.repairs(), options.repair
     if folder is None or not repairs:
         return None
-    target = folder / path.name
+    target = folder / name
     try:
         copy = repaired_copy(audit.description, repairs)
         if target.is_file() and not options.force and target.read_bytes() not in (b"", copy):
             raise FileExistsError("it is another file. Choose another folder, or --force")
+        target.parent.mkdir(parents=True, exist_ok=True)
         with whole_file(target) as file:
             file.write(copy)
     except OSError as error:

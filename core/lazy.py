@@ -10,10 +10,7 @@ from typing import Any
 
 
 def lazy_names(package: str, **modules: str) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
-    """Return `__getattr__`, `__dir__` and `__all__` of a package. modules: the module of each public name.
-
-    Modules and packages in the package are attributes, too. Importing the package loads none of them.
-    """
+    """Return `__getattr__`, `__dir__` and `__all__` of a package. modules: the module of each public name."""
     names = sorted(modules)
 
     def load(name: str) -> Any:

@@ -11,7 +11,7 @@ MODULES = (
     *("measure." + name for name in ("moments", "library", "reference", "fourier")),
     *("snap." + name for name in ("frames", "empty", "cursor", "orientation", "rigid_body", "sculpt_balance")),
     "statics",
-    *("export." + name for name in ("robot", "copy_inertial", "primitive", "audit")),
+    *("export." + name for name in ("robot", "primitive", "audit")),
     "rig",
     *("shape." + name for name in ("match_pose", "find_similar", "find_symmetry")),
     "batch",

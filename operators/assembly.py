@@ -15,7 +15,7 @@ from ..blender import bodies, read, scene, session, write
 from ..blender.scene.changes import require_editable
 from ..blender.scene.findings import OPEN_OBJECT
 from ..blender.session import stored
-from ..blender.settings.assembly import Root, is_assembly
+from ..blender.settings.assembly import Root, active_assembly, is_assembly
 from ..blender.write import properties, reports
 from ..core.numerics.float32 import shortest_decimal
 from ..core.verdict.finding import EditRefusedError, MeasureError, Severity
@@ -36,6 +36,7 @@ TARGET = EnumProperty(
     items=(
         ("COLLECTION", "Collection", "The active collection with its nested collections"),
         ("OBJECT", "Empty", "The active empty with its children"),
+        ("OF_OBJECT", "Collection of Object", "The collection of the active object, or the empty itself"),
     ),
     default="COLLECTION",
 )
@@ -43,6 +44,8 @@ TARGET = EnumProperty(
 
 def target_of(context: Context, target: str) -> Root:
     """Return the assembly that an operator works on; raise MeasureError if there is none."""
+    if target == "OF_OBJECT":
+        return active_assembly(context)
     data = context.collection if target == "COLLECTION" else context.object
     if data is None or target == "OBJECT" and not is_assembly(data):
         raise MeasureError(NO_ACTIVE_ASSEMBLY)

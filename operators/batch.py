@@ -91,15 +91,17 @@ def _measure(argv: list[str], channel: int, file_needed: bool) -> int:
         bpy = sys.modules.get("bpy")
         return supervised.measure(options, channel, bpy.data.filepath if bpy else None)
     options.files = supervised.files_of(options)
-    _load_settings()
 
     from ..command.files import output, own_results
     from ..command.measure.run import Run
-    from ..command.options import checks
+    from ..command.options import checks, needs_blender
     from ..command.options.formats import FORMATS
     from ..command.supervisor import processes
 
-    checks.check(options)
+    needs_blender.check(options, options.files)
+    _load_settings()
+    bpy = sys.modules.get("bpy")
+    checks.check(options, bpy.data.filepath if bpy else None)
     run = Run(options, memory=processes.memory_share())
     run.measure()
     text = FORMATS[options.format](run.documents)
@@ -146,7 +148,9 @@ _PRINTING |= dict.fromkeys(("manifest", "merge", "to-csv", "summary", "compare",
 
 
 def _load_settings() -> None:
-    """Register the settings of objects, collections and bones if the add-on is not registered."""
+    """Register the settings of objects, collections and bones, where there is Blender and no registered add-on."""
+    if importlib.util.find_spec("bpy") is None:
+        return
     import bpy
 
     from .. import blender

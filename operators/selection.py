@@ -17,6 +17,7 @@ from .. import core
 from ..blender.read.visibility import measurable
 from ..blender.scene.changes import ancestors
 from ..blender.session.stored import outcome
+from ..blender.session.tracking import armatures
 from ..blender.settings.preferences import copy_defaults
 from ..blender.write import reports
 from ..blender.write.findings import FILE_NOT_WRITTEN
@@ -27,12 +28,12 @@ MAX_OBJECTS_WITHOUT_REDRAW = 4  # limit of objects that are measured before the 
 
 
 def selected_measurable(context: Context) -> list[Object]:
-    """Return the measurable selected objects, parents before children.
+    """Return the measurable selected objects, parents before children; the meshes of posed armatures in their place.
 
     Works in background too. A scene that is used for the first time gets its defaults.
     """
     copy_defaults(context.scene)
-    objects = [obj for obj in context.view_layer.objects.selected if measurable(obj)]
+    objects = [obj for obj in armatures.subjects(context.view_layer.objects.selected) if measurable(obj)]
     return sorted(objects, key=lambda obj: len([*ancestors(obj)]))
 
 

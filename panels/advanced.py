@@ -12,6 +12,7 @@ from bpy.types import Context, Object, UILayout
 from ..blender.session import stored
 from ..blender.session.displayed import displayed
 from ..blender.session.tracking.staleness import stale_reason
+from ..blender.settings.preferences import shows_advanced
 from ..blender.write import properties
 from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
@@ -34,6 +35,10 @@ class AdvancedPanel:
 
     bl_label = "Advanced"
 
+    @classmethod
+    def poll(cls, _context: Context) -> bool:
+        return shows_advanced()
+
     def draw(self, context: Context) -> None:
         layout, obj, scene = self.layout, context.object, context.scene
         layout.use_property_decorate = False
@@ -43,14 +48,7 @@ class AdvancedPanel:
             numbers = shown.in_frame(scene.body_moments.frame)
             _bounds(layout, obj, units, numbers)
             _display_mesh(layout, obj, units, numbers)
-        rows.button(
-            layout,
-            context,
-            "object.body_moments_fourier",
-            "MOD_WAVE",
-            text="Fourier Transform...",
-            short="Fourier...",
-        )
+        rows.button(layout, context, "object.body_moments_fourier", "MOD_WAVE", short="Fourier")
 
 
 def _display_mesh(layout: UILayout, obj: Object, units: Units, shown: PlainBody) -> None:
@@ -115,7 +113,7 @@ class MomentsPanel:
         if computed.order > table.MAX_SHOWN_ORDER:
             text, first = "Orders {first} to {last} are only in the copy.", table.MAX_SHOWN_ORDER + 1
             rows.remark(layout, context, text, first=first, last=computed.order)
-        rows.button(layout, context, "object.body_moments_copy_moments", "COPYDOWN", short="Copy as CSV")
+        rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "MOMENTS"
 
 
 CLASSES = (

@@ -2,20 +2,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Assemblies: a collection, or an empty with its children, as one body, with the tree of its members.
 
-The sub-panel shows the active empty if it has children, else the active collection, which has a panel among the
-collection's properties too.
+The sub-panel shows the active empty if it has children, else the active object's collection; the active collection has
+a panel among the collection's properties too.
 """
 
 from __future__ import annotations
 
+from itertools import islice
+
 from bpy.types import Collection, Context, Panel, PropertyGroup, UILayout, UIList
 
+from ..blender.read.visibility import GEOMETRY_TYPES
 from ..blender.session.tracking.staleness import stale_reason
-from ..blender.settings.assembly import Root, is_assembly, settings_of
+from ..blender.settings.assembly import Root, active_assembly, settings_of
+from ..blender.settings.given import shows_collection
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
+from ..core.verdict.groups import Group
 from ..core.verdict.sentences import severity
 from . import remedies, rows
 from .density import given_rows
@@ -43,7 +48,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
             line.prop(row, "is_open", text="", icon=icon, emboss=False)
         else:
             line.label(text="", icon="BLANK1")
-        split = line.split(factor=0.44, align=True)
+        split = line.split(factor=0.4, align=True)
         name = split.row(align=True)
         name.active = row.is_counted
         name.label(text=row.name, icon=MEMBER_ICONS[row.member], translate=False)
@@ -54,7 +59,7 @@ class BODY_MOMENTS_UL_assembly(UIList):
         if row.mass > 0.0:
             numbers.label(text=Units.from_settings(context.scene.unit_settings).text("mass", row.mass), translate=False)
             if row.is_counted and row.depth:
-                numbers.label(text="{:.1f}%".format(100.0 * row.share), translate=False)
+                numbers.progress(text="{:.0f}%".format(100.0 * row.share), factor=row.share)
         if findings:
             worst = max(findings, key=lambda found: tuple(rows.ICONS).index(severity(found)))
             numbers.label(text="", icon=rows.ICONS[severity(worst)])
@@ -72,10 +77,10 @@ class BODY_MOMENTS_UL_assembly(UIList):
         return flags, []
 
 
-def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
+def draw_assembly(layout: UILayout, context: Context, root: Root, target: str) -> None:
     """Draw an assembly's settings, its total and its tree."""
     layout.use_property_decorate = False
-    settings, target = settings_of(root), "COLLECTION" if isinstance(root, Collection) else "OBJECT"
+    settings = settings_of(root)
     column = layout.column()
     rows.setting(column, settings, "mass_from", expand=True)
     if settings.mass_from == "MASS":
@@ -90,7 +95,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
     units = Units.from_settings(context.scene.unit_settings)
     findings = properties.findings(root)
     rows.stale_row(layout, context, stale_reason(root, context.scene))
-    remedies.warnings(layout, context, "body_moments_assembly_warnings", findings, can_accept=False)
+    remedies.lines(layout, context, [Group(found) for found in findings], can_accept=False)
     rows.quantities(layout, units, [("Mass", "mass", stored.mass)])
     _tree(layout, context, settings)
     _numbers(layout, units, stored, isinstance(root, Collection))
@@ -105,7 +110,7 @@ def draw_assembly(layout: UILayout, context: Context, root: Root) -> None:
         column, context, "view3d.body_moments_cursor_to_assembly", "PIVOT_CURSOR", short="Cursor"
     ).target = target
     rows.button(column, context, "object.body_moments_assembly_empty", "OUTLINER_OB_EMPTY").target = target
-    text = "Instance Offset to Center of Mass" if target == "COLLECTION" else "Origin to Center of Mass"
+    text = "Instance Offset to Center of Mass" if isinstance(root, Collection) else "Origin to Center of Mass"
     rows.button(column, context, "object.body_moments_assembly_origin", "OBJECT_ORIGIN", text=text).target = target
 
 
@@ -139,11 +144,19 @@ class AssemblyPanel:
 
     bl_label = "Assembly"
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        root = None if context.object is None else active_assembly(context)
+        if not isinstance(root, Collection):
+            return root is not None
+        members = (True for obj in root.all_objects if obj.type in GEOMETRY_TYPES or shows_collection(obj))
+        return properties.is_stored(root) or len([*islice(members, 2)]) > 1
+
     def draw(self, context: Context) -> None:
-        root = context.object if is_assembly(context.object) else context.collection
+        root = active_assembly(context)
         text = localized("Empty: {:s}") if root == context.object else localized("Collection: {:s}")
         self.layout.label(text=text.format(root.name), icon="OUTLINER_COLLECTION", translate=False)
-        draw_assembly(self.layout, context, root)
+        draw_assembly(self.layout, context, root, "OF_OBJECT")
 
 
 class COLLECTION_PT_body_moments(Panel):
@@ -161,7 +174,7 @@ class COLLECTION_PT_body_moments(Panel):
         return context.collection is not None
 
     def draw(self, context: Context) -> None:
-        draw_assembly(self.layout, context, context.collection)
+        draw_assembly(self.layout, context, context.collection, "COLLECTION")
 
 
 CLASSES = (BODY_MOMENTS_UL_assembly, *in_both_places(AssemblyPanel, "assembly"), COLLECTION_PT_body_moments)

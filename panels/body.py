@@ -1,20 +1,26 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The main panel: the object's name and a verdict, warnings and their remedies, mass, volume and center.
+"""The main panel: the answer (a verdict, mass, volume and center of mass), the buttons, and then the findings.
 
-The rest is in sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
+Nothing that comes and goes stands above a button: refusals of the last action are below all sub-panels. The rest is in
+sub-panels, in the order of CAD's mass property dialogs (`places.ORDER`).
 """
 
 from __future__ import annotations
 
-from bpy.types import Context, Object, UILayout
+from bpy.types import Context, UILayout
 
-from ..blender.session.displayed import Displayed, Trust, displayed, failure
+from ..blender.read.visibility import measurable
+from ..blender.session.displayed import Displayed, Total, Trust, displayed, shown_objects, total
 from ..blender.session.live.following import Lag, current_numbers, is_live
+from ..blender.session.stored import outcome
 from ..blender.session.tracking import armatures
+from ..blender.settings.links import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
+from ..core.inertia.plain_body import PlainBody
+from ..core.verdict.groups import Group
 from ..core.verdict.method import Source
 from ..core.verdict.sentences import METHODS, method_key
 from ..core.wall.findings import WALL_MEASURED
@@ -26,18 +32,7 @@ from .places import in_both_places
 CENTER_HEADINGS = {"WORLD": "Center of Mass (World)", "OBJECT": "Center of Mass (Object)"}  # by the frame
 RESTING_HEADINGS = {"WORLD": "Center of Mass at Rest (World)", "OBJECT": "Center of Mass at Rest (Object)"}  # for rigs
 
-ICONS = {
-    "exact": "CHECKMARK",
-    "grid exact": "VOLUME_DATA",
-    "shell": "MOD_SOLIDIFY",
-    "wall": "MOD_SOLIDIFY",
-    "wire": "CURVE_DATA",
-    "capped": "ERROR",
-    "open": "CANCEL",
-    "given": "EMPTY_AXIS",
-    "assembly": "OUTLINER_COLLECTION",
-}
-SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # prefix for the measured data, before a verdict
+SOURCES = {Source.NURBS: "NURBS: {:s}", Source.GRID: "Grid: {:s}"}  # prefix for the measured data, before a method
 
 LIVE = {
     Lag.NONE: "Live ({milliseconds:.0f} ms). Press Measure to store",
@@ -59,110 +54,154 @@ class BodyPanel:
 
     def draw_header_preset(self, context: Context) -> None:
         header_switch(self.layout, context)
+        draw_links(self.layout, icons_only=True)
 
     def draw(self, context: Context) -> None:
-        obj, scene = context.object, context.scene
-        layout = self.layout
-        layout.use_property_decorate = False
-        shown = displayed(obj, scene)
-        _verdict(layout, context, obj, shown)
-        findings = shown.findings if shown is not None else ()
-        remedies.last_action(layout, context)
-        remedies.warnings(layout, context, "body_moments_warnings", findings)
-        material_row(layout, context, obj)
-        narrow = rows.is_narrow(context)
-        buttons = layout.column(align=True) if narrow else layout.row(align=True)
-        buttons.scale_y = 1.4
-        rows.button(buttons, context, "object.body_moments_measure", "PHYSICS")
-        row = buttons.row(align=True)
-        followed = any(is_live(subject) for subject in armatures.subjects([obj]))
-        rows.button(row, context, "object.body_moments_live", "REC", depress=followed)
-        row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
-        if shown is not None:
-            remedies.unit_question(layout, context, shown.world)
-            _numbers(layout, context, shown)
-            row = layout.column(align=True) if narrow else layout.row(align=True)
-            rows.button(row, context, "object.body_moments_copy_report", "COPYDOWN")
-            rows.button(row, context, "object.body_moments_clear", "TRASH")
-            remedies.notes(layout, context, "body_moments_notes", findings)
+        self.layout.use_property_decorate = False
+        if shown_objects(context) == [context.object]:
+            _one_object(self.layout, context, displayed(context.object, context.scene))
+        else:
+            _several_objects(self.layout, context, total(context))
 
 
-def _verdict(layout: UILayout, context: Context, obj: Object, shown: Displayed | None) -> None:
-    """Draw the object's name, and the state and method of its measurement."""
-    column = layout.column(align=True)
-    column.label(text=obj.name, icon="OBJECT_DATA", translate=False)
-    refusal = failure(obj)
-    if refusal is not None or shown is None:
-        text = "Not Measured Again" if shown is not None else "Not Measured"
-        column.label(text=text, icon="RADIOBUT_OFF" if refusal is None else "CANCEL")
-    if refusal is not None:
-        rows.message(column, context, refusal, icon="BLANK1")
-        remedies.remedies(column, context, refusal)
-    if shown is None:
-        return
-    if armatures.stands_for_meshes(obj):
-        _posed(column, context, obj)
-        return
-    _headline(column, context, obj, shown)
-    if shown.live is not None and shown.reason is None:
-        rows.remark(column, context, LIVE[shown.lag], icon="REC", milliseconds=1e3 * shown.live.seconds)
+def _one_object(layout: UILayout, context: Context, shown: Displayed | None) -> None:
+    obj, frame = context.object, context.scene.body_moments.frame
+    _verdict(layout, obj.name, "OBJECT_DATA", None if shown is None else shown.trust)
+    length = properties.optional(obj, "body_length")
+    numbers = None if shown is None else shown.in_frame(frame)
+    is_rig = obj.type == "ARMATURE" and shown is not None and not shown.is_posed
+    _answer(layout, context, numbers, (RESTING_HEADINGS if is_rig else CENTER_HEADINGS)[frame], length)
+    material_row(layout, context, obj)
+    _buttons(layout, context)
     now = current_numbers(obj)
-    if now is not None and now.refusal is not None and now.refusal != refusal:
-        rows.message(column, context, now.refusal)
-    rows.stale_row(column, context, shown.reason)
+    if now is not None and now.refusal is not None:
+        rows.message(layout, context, now.refusal)
+    if shown is None or numbers is None:
+        return
+    if shown.live is not None and shown.reason is None:
+        rows.remark(layout, context, LIVE[shown.lag], icon="REC", milliseconds=1e3 * shown.live.seconds)
+    rows.stale_row(layout, context, shown.reason)
+    remedies.unit_question(layout, context, shown.world)
+    remedies.lines(layout, context, [Group(found) for found in shown.findings])
+    _details(layout, context, shown, numbers)
+    row = layout.column(align=True) if rows.is_narrow(context) else layout.row(align=True)
+    row.menu("VIEW3D_MT_body_moments_copy", icon="COPYDOWN")
+    rows.button(row, context, "object.body_moments_clear", "TRASH")
+    remedies.notes(layout, context, "body_moments_notes", shown.findings)
 
 
-def _posed(column: UILayout, context: Context, armature: Object) -> None:
-    """Draw the number of meshes that an armature deforms, and warnings about missing and outdated numbers."""
-    meshes = armatures.deformed_meshes(armature)
-    texts = "Sum of {count} mesh of the armature", "Sum of {count} meshes of the armature"
-    rows.remark(column, context, *texts, icon="POSE_HLT", count=len(meshes))
-    numbers = {mesh.name: displayed(mesh, context.scene) for mesh in meshes}
-    lacking = [name for name, shown in numbers.items() if shown is None]
-    stale = [name for name, shown in numbers.items() if shown is not None and shown.trust == Trust.OUT_OF_DATE]
-    for text, names in (("Not measured: {objects}", lacking), ("Out of date: {objects}", stale)):
-        if names:
-            rows.remark(column, context, text, icon="ERROR", objects=names)
-
-
-def _headline(column: UILayout, context: Context, obj: Object, shown: Displayed) -> None:
-    """Draw the method in two lines; show an unknown method, of another version of the add-on, by its stored text."""
-    key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
-    source = Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
-    headline, explanation = METHODS.get(key, (properties.method_text(obj).title(), ""))
-    title = localized(SOURCES.get(source, "{:s}")).format(localized(headline))
-    rows.sentence(column, context, title, icon=ICONS.get(key, "INFO"))
-    if explanation:
-        rows.sentence(column, context, localized(explanation), icon="BLANK1")
-
-
-def _numbers(layout: UILayout, context: Context, displayed: Displayed) -> None:
-    """Draw mass, volume, area, density and center of the measurement."""
-    column = layout.column(align=True)
-    frame = context.scene.body_moments.frame
-    shown, units = displayed.in_frame(frame), Units.from_settings(context.scene.unit_settings)
-    entries = [("Mass", "mass", shown.mass)]
-    length = properties.optional(context.object, "body_length")
-    if length is None:
-        entries.append(("Volume", "volume", shown.volume))
-        if shown.area:  # a grid of densities has no surface
-            entries.append(("Area", "area", shown.area))
-        entries.append(("Density", "density", shown.density))
+def _several_objects(layout: UILayout, context: Context, shown: Total) -> None:
+    """Draw the selected objects, or the meshes of a posed armature, as one body."""
+    count = shown.count + len(shown.missing)
+    if armatures.stands_for_meshes(context.object):
+        text = localized("{:s}: {:d} Mesh" if count == 1 else "{:s}: {:d} Meshes").format(context.object.name, count)
     else:
-        entries.append(("Length", "length", length))
-    rows.quantities(column, units, entries)
-    source = properties.density_from(context.object)
+        text = localized("1 Object" if count == 1 else "{:d} Objects").format(count)
+    _verdict(layout, text, "GROUP", shown.trust)
+    posed = displayed(context.object, context.scene) if armatures.stands_for_meshes(context.object) else None
+    numbers = shown.numbers if posed is None else posed.world
+    _answer(layout, context, numbers, CENTER_HEADINGS["WORLD"], volume=shown.volume)
+    material_row(layout, context, context.object)
+    _buttons(layout, context)
+    if posed is not None and properties.optional(context.object, "body_mass") is not None:
+        rows.remark(layout, context, "The mass is that of the rest pose. Clear Bones to take that of the posed skin")
+    for names, text in ((shown.missing, "Not measured: {objects}"), (shown.stale, "Out of date: {objects}")):
+        if names:
+            rows.remark(layout, context, text, icon="FILE_REFRESH", objects=names)
+    remedies.lines(layout, context, [*(Group(found) for found in shown.findings), *shown.groups])
+
+
+def _verdict(layout: UILayout, text: str, icon: str, trust: Trust | None) -> None:
+    """Draw a translated name, and the verdict on its numbers at the right end."""
+    row = layout.row(align=True)
+    row.label(text=text, icon=icon, translate=False)
+    verdict = row.row(align=True)
+    verdict.alignment = "RIGHT"
+    icon, word = rows.VERDICTS[trust]
+    verdict.label(text=word, icon=icon)
+
+
+def _answer(
+    layout: UILayout,
+    context: Context,
+    numbers: PlainBody | None,
+    heading: str,
+    length: float | None = None,
+    volume: float | None = None,
+) -> None:
+    """Draw mass, volume and center, in as many rows before they are known. length: of a wire, in place of the volume.
+
+    volume: of several objects, which is known if they have no mass.
+    """
+    units, column = Units.from_settings(context.scene.unit_settings), layout.column(align=True)
+    if numbers is None:
+        rows.table(column, [("Mass", "–", "", ""), ("Volume", "–", "", "")])
+        column = layout.column(align=True)
+        rows.title(column.row(align=True), heading)
+        rows.table(column, [(label, "–", "", "") for label in rows.AXIS_LABELS])
+        return
+    size = ("Volume", "volume", numbers.volume if volume is None else volume)
+    rows.quantities(
+        column, units, [("Mass", "mass", numbers.mass), size if length is None else ("Length", "length", length)]
+    )
+    rows.center(layout, units, heading, numbers)
+
+
+def _buttons(layout: UILayout, context: Context) -> None:
+    narrow = rows.is_narrow(context)
+    buttons = layout.column(align=True) if narrow else layout.row(align=True)
+    buttons.scale_y = 1.4
+    subjects = [obj for obj in armatures.subjects(context.selected_objects) if measurable(obj)]
+    text = "Measure" if subjects == [context.object] or not subjects else "Measure {:s}"
+    name = subjects[0].name if len(subjects) == 1 else localized("{:d} Objects").format(len(subjects))
+    measure = {"text": localized(text).format(name), "translate": False}
+    rows.button(buttons, context, "object.body_moments_measure", "PHYSICS", **measure)
+    row = buttons.row(align=True)
+    followed = any(is_live(subject) for subject in armatures.subjects([context.object]))
+    short = {"text": ""} if text != "Measure" else {}  # the longer text needs the room
+    rows.button(row, context, "object.body_moments_live", "REC", depress=followed, **short)
+    row.operator("object.body_moments_select_faults", text="", icon="ZOOM_SELECTED")
+
+
+def _details(layout: UILayout, context: Context, shown: Displayed, numbers: PlainBody) -> None:
+    """Draw area, density and method; an unknown method, of another version of the add-on, by its stored text."""
+    obj, units = context.object, Units.from_settings(context.scene.unit_settings)
+    column = layout.column(align=True)
+    if numbers.area:  # neither a wire nor a grid of densities has a surface
+        rows.quantities(column, units, [("Area", "area", numbers.area)])
+    if properties.optional(obj, "body_length") is None:
+        rows.quantities(column, units, [("Density", "density", numbers.density)])
+    source = properties.density_from(obj)
     if source:
         rows.remark(column, context, "Mean density, from {cause}", icon="BLANK1", cause=source)
-    is_rig = context.object.type == "ARMATURE" and not displayed.is_posed
-    headings = RESTING_HEADINGS if is_rig else CENTER_HEADINGS
-    rows.center(layout, units, headings[frame], shown)
+    key = method_key(shown.method, any(found.code == WALL_MEASURED for found in shown.findings))
+    origin = Source.POLYGONS if shown.method is None or key == str(shown.method) else shown.method.source
+    name = METHODS[key][0] if key in METHODS else properties.method_text(obj).title()
+    method = localized(SOURCES.get(origin, "{:s}")).format(localized(name))
+    rows.table(column, [("Method", method, "", "")])
+
+
+class RefusedPanel:
+    """Refusals of the last action, below everything that they could move"""
+
+    bl_label = "Refused"
+
+    @classmethod
+    def poll(cls, _context: Context) -> bool:
+        return outcome.last() is not None
+
+    def draw(self, context: Context) -> None:
+        remedies.last_action(self.layout, context)
 
 
 class ApplyPanel:
     """Use the center of mass and the principal axes in the scene"""
 
     bl_label = "Apply to Object"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and measurable(context.object)
 
     def draw(self, context: Context) -> None:
         layout, obj = self.layout, context.object
@@ -171,18 +210,19 @@ class ApplyPanel:
         rows.button(column, context, "object.body_moments_axes_to_principal", "EMPTY_AXIS")
         rows.button(column, context, "object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
         column = layout.column(align=True)
-        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY", text="Add Empty")
+        rows.button(column, context, "object.body_moments_add_empty", "OUTLINER_OB_EMPTY")
         rows.button(column, context, "view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
-        rows.button(
-            column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL", text="Transform Orientation"
-        )
+        rows.button(column, context, "object.body_moments_create_orientation", "ORIENTATION_LOCAL")
         rows.button(column, context, "object.body_moments_rigid_bodies", "RIGID_BODY")
-        text = "Set Rigid Body Mass" if obj.rigid_body else "Add Rigid Body with Mass"
-        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY", text=text)
+        button = rows.button(column, context, "object.body_moments_set_rigid_body_mass", "RIGID_BODY")
         button.add = not obj.rigid_body
         rows.button(layout, context, "object.body_moments_add_nodes", "GEOMETRY_NODES")
         rows.button(layout, context, "object.body_moments_sculpt_balance", "SCULPTMODE_HLT")
 
 
 VIEW3D_PT_body_moments, OBJECT_PT_body_moments = in_both_places(BodyPanel)
-CLASSES = (VIEW3D_PT_body_moments, OBJECT_PT_body_moments, *in_both_places(ApplyPanel, "apply"))
+CLASSES = (
+    *(VIEW3D_PT_body_moments, OBJECT_PT_body_moments),
+    *in_both_places(ApplyPanel, "apply"),
+    *in_both_places(RefusedPanel, "refused", options={"HIDE_HEADER"}),
+)

@@ -14,7 +14,7 @@ from bpy.types import Context, Object, PropertyGroup, Scene, UILayout
 from ..blender.read.visibility import GEOMETRY_TYPES
 from ..blender.session import stored
 from ..blender.settings.given import shows_collection
-from ..blender.settings.preferences import default_material
+from ..blender.settings.preferences import default_material, shows_advanced
 from ..blender.settings.properties import density_field_name
 from ..blender.write.translations import CONTEXT
 from ..blender.write.units import Units
@@ -61,6 +61,16 @@ def material_row(layout: UILayout, context: Context, obj: Object) -> None:
         rows.setting(column, settings, "density_from")
 
 
+def _density_source(column: UILayout, settings: PropertyGroup) -> None:
+    """Draw the source of the density, without polynomials unless one is in use or the preferences show them."""
+    if shows_advanced() or settings.density_from == "POLYNOMIAL":
+        rows.setting(column, settings, "density_from")
+        return
+    grid = column.grid_flow(row_major=True, columns=2, even_columns=True, align=True)
+    for source in ("VALUE", "MATERIALS", "ATTRIBUTE", "VOLUME"):
+        grid.prop_enum(settings, "density_from", source)
+
+
 def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     settings = obj.body_moments
     if obj.override_library is not None:
@@ -98,7 +108,7 @@ def _settings(layout: UILayout, context: Context, obj: Object) -> None:
     if settings.mass_from == "MASS":
         rows.setting(column, settings, "mass", text="Mass (kg)")
         return
-    rows.setting(column, settings, "density_from")
+    _density_source(column, settings)
     if settings.density_from == "POLYNOMIAL":
         rows.setting(column, settings, "density_polynomial")
         rows.setting(column, settings, "density_frame", expand=True)

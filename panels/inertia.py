@@ -97,8 +97,8 @@ class ReferencePanel:
         bounds = [(label, "inertia", error["inertia"], size) for label, error in sources]
         rows.bounds(layout.column(align=True), units, bounds)
         row = layout.row(align=True)
-        rows.button(row, context, "object.body_moments_store_reference", "FILE_TICK", text="Store")
-        rows.button(row, context, "object.body_moments_copy_reference", "COPYDOWN", text="Copy")
+        rows.button(row, context, "object.body_moments_store_reference", "FILE_TICK", short="Store")
+        rows.button(row, context, "object.body_moments_copy", "COPYDOWN").what = "REFERENCE"
 
 
 CLASSES = (

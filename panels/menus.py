@@ -1,32 +1,32 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus, with names and places that users expect, and in its *Help*.
+"""The menus of the add-on, its entries in Blender's own menus where users expect them, and in its *Help*.
 
 Blender's search finds entries of menus. The manual that the extension brings opens from *Help*, and from *Online
-Manual* of buttons and settings. It is HTML beside the add-on's code, which the build makes of docs/; in a checkout
-there is none, and so no entries.
+Manual* of buttons and settings.
 """
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 
 import bpy
-from bpy.types import Context, Menu
+from bpy.types import Context, Menu, UILayout
 
-ORIGIN = ("object.body_moments_origin_to_center", "Origin to Exact Center of Mass", "OBJECT_ORIGIN")
-MEASURE = ("object.body_moments_measure", "Measure Mass Properties", "PHYSICS")
-AXES = ("object.body_moments_axes_to_principal", "Axes to Principal Axes", "EMPTY_AXIS")
-ALIGN = ("object.body_moments_align_to_world", "Align to Principal Axes", "ORIENTATION_GLOBAL")
-CURSOR = ("view3d.body_moments_cursor_to_center", "Cursor to Center of Mass", "PIVOT_CURSOR")
-EMPTY = ("object.body_moments_add_empty", "Principal Frame of Selected", "EMPTY_ARROWS")
+from ..blender.settings.links import address, folder
+from ..blender.settings.preferences import shows_advanced
+
+Entry = tuple[str, str]  # an operator, which has one name wherever it stands, and its icon
+MEASURE: Entry = ("object.body_moments_measure", "PHYSICS")
+ORIGIN: Entry = ("object.body_moments_origin_to_center", "OBJECT_ORIGIN")
+AXES: Entry = ("object.body_moments_axes_to_principal", "EMPTY_AXIS")
+ALIGN: Entry = ("object.body_moments_align_to_world", "ORIENTATION_GLOBAL")
+CURSOR: Entry = ("view3d.body_moments_cursor_to_center", "PIVOT_CURSOR")
+EMPTY: Entry = ("object.body_moments_add_empty", "EMPTY_ARROWS")
+RIGID_BODY: Entry = ("object.body_moments_set_rigid_body_mass", "RIGID_BODY")
 PIE_GAP = 8.0  # rows between the pie's lowest entry and ours
-RIGID_BODY = ("object.body_moments_set_rigid_body_mass", "Set Exact Mass", "RIGID_BODY")
 
-_PACKAGE = __package__.rpartition(".")[0]
 _OBJECT, _SCENE = "bpy.types.bodymomentsobjectsettings.", "bpy.types.bodymomentsscenesettings."
 _OPERATOR = "bpy.ops.object.body_moments_"
 
@@ -40,8 +40,8 @@ PAGES = (
     *((_OBJECT + name + "*", "densities.html") for name in ("density", "material", "mass")),
     ("bpy.types.bodymomentsmaterialsettings*", "densities.html"),
     (_SCENE + "moments*", "moments.html"),
-    *((_OPERATOR + name + "*", "moments.html") for name in ("compute_moments", "copy_moments")),
-    *((_OPERATOR + name + "*", "sections.html") for name in ("measure_section", "copy_section")),
+    (_OPERATOR + "compute_moments*", "moments.html"),
+    (_OPERATOR + "measure_section*", "sections.html"),
     *((_OPERATOR + name + "*", "shape.html") for name in ("find", "match", "select_found")),
     *((_OPERATOR + name + "*", "densities.html") for name in ("set_material", "preset")),
     ("bpy.ops.material.body_moments*", "densities.html"),
@@ -53,59 +53,85 @@ PAGES = (
 )
 
 
-class VIEW3D_MT_body_moments(Menu):
+class _Groups:
+    """Base of menus that are groups of operators."""
+
+    layout: UILayout
+    GROUPS: tuple[tuple[Entry, ...], ...] = ()
+
+    def draw(self, _context: Context) -> None:
+        self.layout.operator_context = "INVOKE_DEFAULT"
+        for number, group in enumerate(self.GROUPS):
+            if number:
+                self.layout.separator()
+            for idname, icon in group:
+                self.layout.operator(idname, icon=icon)
+
+
+class VIEW3D_MT_body_moments_shape(_Groups, Menu):
+    """Placing, standing and comparing"""
+
+    bl_idname = "VIEW3D_MT_body_moments_shape"
+    bl_label = "Shape"
+    GROUPS = (
+        (ALIGN, EMPTY, CURSOR, ("object.body_moments_create_orientation", "ORIENTATION_LOCAL")),
+        (
+            ("object.body_moments_stability", "CON_FLOOR"),
+            ("object.body_moments_rest_on_ground", "TRIA_DOWN_BAR"),
+            ("object.body_moments_balance_group", "CON_FOLLOWPATH"),
+            ("object.body_moments_sculpt_balance", "SCULPTMODE_HLT"),
+        ),
+        (
+            ("object.body_moments_find_symmetry", "MOD_MIRROR"),
+            ("object.body_moments_find_similar", "VIEWZOOM"),
+            ("object.body_moments_match_pose", "SNAP_ON"),
+            ("object.body_moments_equal_inertia", "MESH_CUBE"),
+        ),
+    )
+
+
+class VIEW3D_MT_body_moments_advanced(_Groups, Menu):
+    """Analyses, for which the preferences have a switch"""
+
+    bl_idname = "VIEW3D_MT_body_moments_advanced"
+    bl_label = "Advanced"
+    GROUPS = (
+        (
+            ("object.body_moments_compute_moments", "PHYSICS"),
+            ("object.body_moments_fourier", "MOD_WAVE"),
+            ("object.body_moments_measure_section", "FACESEL"),
+        ),
+        (
+            ("object.body_moments_find_in_library", "FILEBROWSER"),
+            ("object.body_moments_measure_library", "FILE_FOLDER"),
+            ("object.body_moments_add_nodes", "GEOMETRY_NODES"),
+        ),
+    )
+
+
+class VIEW3D_MT_body_moments(_Groups, Menu):
     """Mass properties of the selected objects"""
 
     bl_idname = "VIEW3D_MT_body_moments"
     bl_label = "Body Moments"
+    GROUPS = (
+        (MEASURE, ("object.body_moments_live", "REC")),
+        (ORIGIN, AXES, ("object.body_moments_rigid_bodies", "RIGID_BODY")),
+    )
 
-    def draw(self, _context: Context) -> None:
-        groups = (
-            (
-                MEASURE,
-                ("object.body_moments_select_faults", "Select Defects", "ZOOM_SELECTED"),
-                ("object.body_moments_copy_report", "Copy Report", "COPYDOWN"),
-                ("object.body_moments_clear", "Clear Results", "TRASH"),
-            ),
-            (ORIGIN, AXES, ALIGN),
-            (
-                EMPTY,
-                CURSOR,
-                ("object.body_moments_create_orientation", "Orientation from Principal Axes", "EMPTY_AXIS"),
-            ),
-            (
-                ("object.body_moments_stability", "Check Stability", "CON_FLOOR"),
-                ("object.body_moments_rest_on_ground", "Rest on Ground", "TRIA_DOWN_BAR"),
-                ("object.body_moments_balance_group", "Balance Group...", "CON_FOLLOWPATH"),
-            ),
-            (
-                ("object.body_moments_set_rigid_body_mass", "Set Rigid Body Mass", "RIGID_BODY"),
-                ("object.body_moments_add_nodes", "Center of Mass Node Group", "GEOMETRY_NODES"),
-                ("object.body_moments_sculpt_balance", "Sculpt Balance", "SCULPTMODE_HLT"),
-            ),
-            (
-                ("object.body_moments_measure_section", "Measure Section", "FACESEL"),
-                ("object.body_moments_compute_moments", "Compute Moments", "PHYSICS"),
-                ("object.body_moments_fourier", "Fourier Transform...", "MOD_WAVE"),
-                ("object.body_moments_find_symmetry", "Find Symmetry", "MOD_MIRROR"),
-                ("object.body_moments_find_similar", "Find Similar", "VIEWZOOM"),
-                ("object.body_moments_match_pose", "Match Pose", "SNAP_ON"),
-            ),
-            (
-                ("object.body_moments_set_material", "Set Material", "MATERIAL"),
-                ("object.body_moments_copy_settings", "Copy Settings to Selected", "PASTEDOWN"),
-            ),
-            (("object.body_moments_measure_library", "Measure Library...", "FILE_FOLDER"),),
-        )
-        self.layout.operator_context = "INVOKE_DEFAULT"
-        for number, group in enumerate(groups):
-            if number:
-                self.layout.separator()
-            for idname, text, icon in group:
-                self.layout.operator(idname, text=text, icon=icon)
+    def draw(self, context: Context) -> None:
+        _Groups.draw(self, context)
+        layout = self.layout
+        layout.separator()
+        layout.menu("TOPBAR_MT_body_moments_export", text="Export", icon="EXPORT")
+        layout.operator("import_scene.body_moments_audit", icon="VIEWZOOM")
+        layout.separator()
+        layout.menu(VIEW3D_MT_body_moments_shape.bl_idname)
+        if shows_advanced():
+            layout.menu(VIEW3D_MT_body_moments_advanced.bl_idname)
 
 
-def _entries(*entries: tuple[str, str, str], separator: bool = True, mode: str = "OBJECT") -> Callable:
+def _entries(*entries: Entry, separator: bool = True, mode: str = "OBJECT") -> Callable:
     """Return a function that adds entries to a menu, in one mode or, with "", in all of them."""
 
     def draw(menu: Menu, context: Context) -> None:
@@ -113,17 +139,15 @@ def _entries(*entries: tuple[str, str, str], separator: bool = True, mode: str =
             return
         if separator:
             menu.layout.separator()
-        for idname, text, icon in entries:
-            menu.layout.operator(idname, text=text, icon=icon)
+        for idname, icon in entries:
+            menu.layout.operator(idname, icon=icon)
 
     return draw
 
 
 def _object_menu(menu: Menu, _context: Context) -> None:
-    layout = menu.layout
-    layout.separator()
-    layout.operator(ORIGIN[0], text=ORIGIN[1], icon=ORIGIN[2])
-    layout.menu(VIEW3D_MT_body_moments.bl_idname, icon="PHYSICS")
+    menu.layout.separator()
+    menu.layout.menu(VIEW3D_MT_body_moments.bl_idname, icon="PHYSICS")
 
 
 def _snap_pie(menu: Menu, _context: Context) -> None:
@@ -134,17 +158,12 @@ def _snap_pie(menu: Menu, _context: Context) -> None:
     gap = south.column()
     gap.separator()
     gap.scale_y = PIE_GAP
-    south.operator(CURSOR[0], text=CURSOR[1], icon=CURSOR[2])
+    south.operator(CURSOR[0], icon=CURSOR[1])
 
 
 def _rigid_body_panel(panel: Menu, context: Context) -> None:
     if context.object is not None and context.object.rigid_body is not None:
-        panel.layout.operator(RIGID_BODY[0], text=RIGID_BODY[1], icon=RIGID_BODY[2])
-
-
-def folder() -> Path:
-    """Return the folder of the manual, which need not exist."""
-    return Path(sys.modules[_PACKAGE].__path__[0]) / "manual"
+        panel.layout.operator(RIGID_BODY[0], icon=RIGID_BODY[1])
 
 
 def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
@@ -152,9 +171,8 @@ def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
 
 
 def _help_entry(self: Menu, _context: Context) -> None:
-    page = folder() / "index.html"
     self.layout.separator()
-    self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = page.as_uri()
+    self.layout.operator("wm.url_open", text="Body Moments Manual", icon="HELP").url = address("index.html")
 
 
 def register_manual() -> None:
@@ -181,7 +199,7 @@ ADDED = (
     ("VIEW3D_MT_empty_add", _entries(EMPTY)),
     ("PHYSICS_PT_rigid_body", _rigid_body_panel),
 )
-CLASSES = (VIEW3D_MT_body_moments,)
+CLASSES = (VIEW3D_MT_body_moments_shape, VIEW3D_MT_body_moments_advanced, VIEW3D_MT_body_moments)
 
 
 def register() -> None:

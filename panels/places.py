@@ -10,6 +10,8 @@ module that `panels/__init__.py` names. Sub-panels of the main panel follow `ORD
 
 from __future__ import annotations
 
+from collections.abc import Set
+
 from bpy.types import Panel
 
 ORDER = (
@@ -21,21 +23,33 @@ ORDER = (
     "selection",
     "assembly",
     "bones",
+    "section",
+    "shape",
     "advanced",
+    "refused",
 )  # the order of CAD's mass property dialogs
 ROOT = "body_moments"
 
 
-def in_both_places(contents: type, name: str = "", parent: str | None = None) -> tuple[type[Panel], type[Panel]]:
+def in_both_places(
+    contents: type, name: str = "", parent: str | None = None, options: Set[str] = frozenset({"DEFAULT_CLOSED"})
+) -> tuple[type[Panel], type[Panel]]:
     """Make a panel of the sidebar and one of the object's properties that show these contents.
 
     `contents` has `bl_label`, `draw(self, context)` and, if needed, `poll` and `draw_header_preset`.
     `name` is part of the identifiers, `VIEW3D_PT_body_moments_NAME` and `OBJECT_PT_body_moments_NAME`; "" for the main
-    panel. `parent` names the parent panel, by default the main one.
+    panel. `parent` names the parent panel, by default the main one. `options`: of a sub-panel.
     """
     return (
         _panel(
-            "VIEW3D_PT_", contents, name, parent, bl_space_type="VIEW_3D", bl_region_type="UI", bl_category="Moments"
+            "VIEW3D_PT_",
+            contents,
+            name,
+            parent,
+            bl_space_type="VIEW_3D",
+            bl_region_type="UI",
+            bl_category="Moments",
+            bl_options=set(options) if name else set(),
         ),
         _panel(
             "OBJECT_PT_",
@@ -45,7 +59,7 @@ def in_both_places(contents: type, name: str = "", parent: str | None = None) ->
             bl_space_type="PROPERTIES",
             bl_region_type="WINDOW",
             bl_context="object",
-            bl_options={"DEFAULT_CLOSED"},
+            bl_options=set(options),
         ),
     )
 
@@ -54,7 +68,7 @@ def _panel(prefix: str, contents: type, name: str, parent: str | None, **place: 
     idname = _idname(prefix, name)
     attributes = {"__doc__": contents.__doc__, "__module__": contents.__module__, "bl_idname": idname, **place}
     if name:
-        attributes |= {"bl_parent_id": _idname(prefix, parent), "bl_options": {"DEFAULT_CLOSED"}}
+        attributes["bl_parent_id"] = _idname(prefix, parent)
     if name in ORDER:
         attributes["bl_order"] = ORDER.index(name)
     return type(idname, (contents, Panel), attributes)

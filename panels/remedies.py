@@ -1,55 +1,60 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Warnings right under the verdict, each with the buttons that apply its remedy or accept it.
-
-The refusals of the last action, and the question whether a unit is a millimeter, are here too.
-"""
+"""Findings as lines, each with the button of its remedy; the refusals of the last action; the question of units."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 
+import bpy
 from bpy.types import Context, UILayout
 
 from ..blender.session.stored import outcome
-from ..blender.write.remedies import DEFECTS, OUTSIDE, SHELL, UNION, remedies_of
-from ..blender.write.translations import localized
+from ..blender.write.remedies import DEFECTS, REMEDIES, REPAIR, SELECT, remedies_of
+from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
-from ..core.verdict.finding import Finding, Severity, truncate
+from ..core.verdict.finding import Finding, Severity
+from ..core.verdict.groups import Group
 from ..core.verdict.sentences import of_severity, severity
-from ..operators.findings import RIGID_BODY_CENTER_ELSEWHERE
 from . import rows
 
-AXES = "object.body_moments_axes_to_principal"
-ICONS = {
-    UNION: "MOD_BOOLEAN",
-    OUTSIDE: "NORMALS_FACE",
-    DEFECTS: "ZOOM_SELECTED",
-    SHELL: "MOD_SOLIDIFY",
-    AXES: "EMPTY_AXIS",
-}
-MAX_SHOWN = 8  # limit for refusals of the last action
+ICONS = {DEFECTS: "ZOOM_SELECTED", SELECT: "RESTRICT_SELECT_OFF"}
+LINE_SHARE = 0.6  # of a row for the text of a line and its button, beside the icons
 MIN_QUESTIONED_LENGTH = 5.0  # m: longer bodies may be meant in millimeters
 MIN_QUESTIONED_MASS = 1e5  # kg
 QUESTION_DIGITS = 3
 
 
-def warnings(
-    layout: UILayout, context: Context, idname: str, findings: Sequence[Finding], can_accept: bool = True
-) -> None:
-    """Draw a sub-panel, open at first, of any errors and warnings; errors first."""
-    alarming = [*of_severity(findings, Severity.ERROR), *of_severity(findings, Severity.WARNING)]
-    if not alarming:
-        return
-    header, body = layout.panel(idname)
-    rows.filled(header, "Warnings ({:d})", len(alarming))
-    for shown in alarming if body is not None else ():
+def lines(layout: UILayout, context: Context, groups: Sequence[Group], can_accept: bool = True) -> None:
+    """Draw a line for each group of errors and warnings, with its first remedy; its sentence opens on click."""
+    acceptable = 0
+    for group in groups:
+        shown = group.finding
+        if severity(shown) == Severity.NOTE:
+            continue
+        header, body = layout.panel("body_moments_" + shown.code, default_closed=True)
+        is_acceptable = can_accept and severity(shown) == Severity.WARNING
+        acceptable += is_acceptable
+        own = _remedies(context, group)
+        text = _headline(context, group)
+        header.label(text=text, icon=rows.ICONS[severity(shown)], translate=False)
+        buttons = header.row(align=True)
+        buttons.alignment = "RIGHT"
+        if own:
+            _remedy(buttons, group, own[0], with_text=rows.fits(LINE_SHARE, text + _name(own[0])))
+        if is_acceptable:
+            _accept(buttons, shown.code, "CHECKMARK")
+        if body is None:
+            continue
         column = body.column(align=True)
-        rows.message(column, context, shown)
-        remedies(column, context, shown)
-        if can_accept and severity(shown) == Severity.WARNING:
-            _accept(column, context, shown, accepted=True)
+        rows.message(column, context, shown.of_sources(group.objects) if group.objects else shown, icon="BLANK1")
+        for remedy in own[1:]:
+            _remedy(column, group, remedy)
+    if acceptable > 1:
+        _accept(layout, "", "CHECKMARK", text="Accept All")
 
 
 def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Finding]) -> None:
@@ -63,45 +68,68 @@ def notes(layout: UILayout, context: Context, idname: str, findings: Sequence[Fi
         row = body.row(align=True)
         rows.message(row, context, shown)
         if shown.values.get("accepted"):
-            _accept(row, context, shown, accepted=False)
+            _accept(row, shown.code, "LOOP_BACK", accepted=False)
 
 
-def remedies(layout: UILayout, context: Context, shown: Finding) -> None:
-    """Draw the buttons that carry out the advice of a finding."""
-    kind = "" if context.object is None else context.object.type  # a collection may be shown without an object
-    idnames = (AXES,) if shown.code == RIGID_BODY_CENTER_ELSEWHERE else remedies_of(shown.code, kind)
-    for idname in idnames:
-        rows.button(layout, context, idname, ICONS[idname])
+def _headline(context: Context, group: Group) -> str:
+    """Return the first clause of a group's sentence; of several objects, their number and the words before a number."""
+    shown = replace(group.finding, elements=())
+    clause = re.split(r"\.$|[.;,] | \(", localized_sentence(shown, context.scene.unit_settings))[0]
+    if not group.objects:
+        return clause
+    if bpy.app.translations.locale[:2] in ("", "en"):  # nouns keep their capitals in other languages
+        clause = clause[0].lower() + clause[1:]
+    if len(group.objects) == 1:
+        return "{:s}: {:s}".format(group.objects[0], clause)
+    return localized("{:d} objects: {:s}").format(len(group.objects), clause.partition(":")[0])
 
 
-def _accept(layout: UILayout, context: Context, shown: Finding, accepted: bool) -> None:
-    if accepted:
-        button = rows.button(layout, context, "object.body_moments_accept", "CHECKMARK", text="Accept")
-    else:
-        button = layout.operator("object.body_moments_accept", text="", icon="LOOP_BACK")
-    button.code = shown.code
+def _remedies(context: Context, group: Group) -> tuple[str, ...]:
+    """Return the remedies of a group that has one object, the active one; otherwise its objects can be selected."""
+    if group.objects and group.objects != (context.object.name_full,):
+        return (SELECT,)
+    # A collection may be shown without an object.
+    return remedies_of(group.finding.code, "" if context.object is None else context.object.type)
+
+
+def _name(remedy: str) -> str:
+    return localized(REMEDIES[remedy].name if remedy in REMEDIES else "Select")
+
+
+def _remedy(layout: UILayout, group: Group, remedy: str, with_text: bool = True) -> None:
+    """Draw the button of a remedy: one of `REMEDIES`, or the idname of an operator."""
+    text = _name(remedy) if with_text else ""
+    if remedy in REMEDIES:
+        button = layout.operator(REPAIR, text=text, icon=REMEDIES[remedy].icon, translate=False)
+        button.remedy = remedy
+        return
+    button = layout.operator(remedy, text=text, icon=ICONS[remedy], translate=False)
+    if remedy == SELECT:
+        button.code = group.finding.code
+
+
+def _accept(layout: UILayout, code: str, icon: str, text: str = "", accepted: bool = True) -> None:
+    button = layout.operator("object.body_moments_accept", text=text, icon=icon)
+    button.code = code
     button.accepted = accepted
 
 
 def last_action(layout: UILayout, context: Context) -> None:
-    """Draw the refusals and warnings of the last action, until the next one."""
+    """Draw the refusals of the last action, equal ones of several objects once."""
     last = outcome.last()
     if last is None:
         return
     box = layout.box()
     header = box.row(align=True)
-    icon = "NONE" if rows.is_narrow(context) else "ERROR"
+    icon = "NONE" if rows.is_narrow(context) else "CANCEL"
     rows.sentence(header, context, localized(last.action), icon=icon, boxed=True)
     header.operator("wm.body_moments_dismiss", text="", icon="X", emboss=False)
     column = box.column(align=True)
-    shown, more = truncate(last.findings, MAX_SHOWN)
-    for refused in shown:
-        rows.message(column, context, refused, icon="NONE", boxed=True)
-        remedies(column, context, refused)
-    if more:
-        rows.filled(column, "And {:d} more", more)
-    if len(last.objects) > 1 or last.objects and last.objects[0] != context.object.name_full:
-        rows.button(box, context, "object.body_moments_select_refused", "RESTRICT_SELECT_OFF")
+    for group in last.groups:
+        shown = group.finding.of_sources(group.objects) if group.objects else group.finding
+        rows.message(column, context, shown, icon="NONE", boxed=True)
+        for remedy in _remedies(context, group):
+            _remedy(column, group, remedy)
 
 
 def unit_question(layout: UILayout, context: Context, shown: PlainBody) -> None:

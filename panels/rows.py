@@ -9,6 +9,7 @@ before that (`filled`, `message`). Names, numbers and filled texts are drawn wit
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache, partial
 
 import blf
@@ -19,6 +20,7 @@ from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import SI_UNITS, Units
 from ..core.inertia.plain_body import ENTRIES, PlainBody
 from ..core.measurement.documents import plain
+from ..core.measurement.trust import Trust
 from ..core.verdict.finding import Finding, Severity
 from ..core.verdict.sentences import fill, severity
 
@@ -34,7 +36,13 @@ MIN_PART, MIN_LAST_PART = 4, 3  # letters of a word that is broken
 NARROW = 220  # regions below this width have buttons without icons, and headings above
 ICONS = {Severity.NOTE: "INFO", Severity.WARNING: "ERROR", Severity.ERROR: "CANCEL"}  # ERROR is Blender's warning sign
 
-
+VERDICTS = {  # icon and word; the form says it, not the color alone
+    Trust.EXACT: ("CHECKMARK", "Exact"),
+    Trust.REPAIRED: ("MODIFIER", "Repaired"),
+    Trust.DOUBTFUL: ("ERROR", "Doubtful"),
+    Trust.OUT_OF_DATE: ("FILE_REFRESH", "Out of Date"),
+    None: ("RADIOBUT_OFF", "Not Measured"),
+}
 AXIS_LABELS, PRINCIPAL_LABELS = ("X", "Y", "Z"), ("1", "2", "3")
 TENSOR_LABELS = tuple("I" + name for name in ENTRIES)
 VALUE_SHARE = 0.6  # share of a row that a setting takes beside its label
@@ -210,6 +218,8 @@ def right(layout: UILayout, text: str) -> None:
 
 
 def _copy(row: UILayout, exact: str, unit: str) -> None:
+    if not exact:
+        return
     button = row.operator("object.body_moments_copy_value", text="", icon="COPYDOWN", emboss=False)
     button.value = exact
     button.unit = unit
@@ -254,8 +264,11 @@ def sentence(layout: UILayout, context: Context, text: str, icon: str = "NONE", 
 
 
 def message(layout: UILayout, context: Context, shown: Finding, icon: str = "", boxed: bool = False) -> None:
-    """Draw the sentence of a finding. icon: by default that of its severity. boxed: as for `sentence`."""
-    text = localized_sentence(shown, context.scene.unit_settings)
+    """Draw the sentence of a finding, with the number of its elements instead of their indices.
+
+    icon: by default that of its severity. boxed: as for `sentence`.
+    """
+    text = localized_sentence(replace(shown, elements=()), context.scene.unit_settings)
     sentence(layout, context, text, icon or ICONS[severity(shown)], boxed)
 
 

@@ -14,9 +14,11 @@ from ..blender.session.tracking.stamps import of_section
 from ..blender.write import section as record
 from ..blender.write.translations import localized
 from ..blender.write.units import Units, number
+from ..core.verdict.groups import Group
 from . import remedies, rows
 from .places import in_both_places
 
+FLAT_RTOL = 1e-5  # thickness of a flat shape by its width; other shapes have sections of selected faces
 ABOUT_LABELS = ("x", "y", "1", "2")
 BOUND_LABELS = {
     "area": ("Area", "area"),
@@ -34,7 +36,10 @@ class SectionPanel:
     @classmethod
     def poll(cls, context: Context) -> bool:
         obj = context.object
-        return obj is not None and (obj.type in SECTION_TYPES or record.KEY in obj)
+        if obj is None or obj.type not in SECTION_TYPES:
+            return False
+        is_flat = min(obj.dimensions) <= FLAT_RTOL * max(obj.dimensions)
+        return is_flat or obj.mode == "EDIT" or record.KEY in obj
 
     def draw(self, context: Context) -> None:
         obj, layout = context.object, self.layout
@@ -46,11 +51,11 @@ class SectionPanel:
             return
         units = Units.from_settings(context.scene.unit_settings)
         _verdict(layout, context, stored, stale_reason(obj, context.scene, of_section))
-        remedies.warnings(layout, context, "body_moments_section_warnings", stored.findings, can_accept=False)
+        remedies.lines(layout, context, [Group(found) for found in stored.findings], can_accept=False)
         _numbers(layout, units, stored.section)
         _more_numbers(layout, units, stored.section)
         remedies.notes(layout, context, "body_moments_section_notes", stored.findings)
-        rows.button(layout, context, "object.body_moments_copy_section", "COPYDOWN", short="Copy")
+        rows.button(layout, context, "object.body_moments_copy", "COPYDOWN").what = "SECTION"
 
 
 def _verdict(layout: UILayout, context: Context, stored: record.StoredSection, outdated: str | None) -> None:
@@ -115,4 +120,4 @@ def _more_numbers(layout: UILayout, units: Units, section) -> None:
             rows.bounds(column, units, entries)
 
 
-CLASSES = in_both_places(SectionPanel, "section", parent="advanced")
+CLASSES = in_both_places(SectionPanel, "section")

@@ -14,12 +14,6 @@ from ..blender.write.units import Units
 from . import rows
 from .places import in_both_places
 
-VERDICT_ICONS = {  # the form says it, not the color alone
-    Trust.EXACT: "CHECKMARK",
-    Trust.REPAIRED: "MODIFIER",
-    Trust.DOUBTFUL: "ERROR",
-    Trust.OUT_OF_DATE: "FILE_REFRESH",
-}
 LINES = 5  # height of the list, before it scrolls
 
 
@@ -47,7 +41,7 @@ class BODY_MOMENTS_UL_measured(UIList):
         row = layout.row(align=True)
         row.alert = body.trust == Trust.OUT_OF_DATE
         row.active = obj.select_get()
-        row.label(text=obj.name, icon=VERDICT_ICONS[body.trust], translate=False)
+        row.label(text=obj.name, icon=rows.VERDICTS[body.trust][0], translate=False)
         if not rows.is_narrow(context):
             rows.right(row, listed_masses(context.scene, context.view_layer)[obj.session_uid])
 
@@ -70,6 +64,11 @@ class SelectionPanel:
 
     bl_label = "Selection"
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        others = (obj for obj in context.view_layer.objects if obj != context.object)
+        return len(context.selected_objects) > 1 or any("body_mass" in obj for obj in others)
+
     def draw(self, context: Context) -> None:
         layout = self.layout
         if len(context.selected_objects) > 1:
@@ -90,10 +89,8 @@ def _listed(layout: UILayout, context: Context) -> None:
         rows=LINES,
     )
     column = layout.column(align=True)
-    rows.button(column, context, "object.body_moments_copy_csv", "COPYDOWN")
-    rows.button(
-        column, context, "object.body_moments_save_numbers", "FILE_TICK", text="Save CSV or JSON...", short="Save..."
-    )
+    rows.button(column, context, "object.body_moments_copy", "COPYDOWN").what = "TABLE"
+    rows.button(column, context, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:

@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, UILayout
 
+from ..blender.read.visibility import measurable
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.session.tracking.stamps import of_symmetry
+from ..blender.settings.preferences import shows_advanced
 from ..blender.write.translations import localized
 from ..core.verdict.finding import truncate
 from ..core.verdict.sentences import SIMILARITY
@@ -32,6 +34,10 @@ class ShapePanel:
     """Symmetry and similar shapes"""
 
     bl_label = "Shape"
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return context.object is not None and measurable(context.object) and shows_advanced()
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -105,4 +111,4 @@ def _similar(layout: UILayout, context: Context) -> None:
         rows.right(row, "{:s}{:s}, {:.2g}".format(words, size, shape.distance))
 
 
-CLASSES = in_both_places(ShapePanel, "shape", parent="advanced")
+CLASSES = in_both_places(ShapePanel, "shape")

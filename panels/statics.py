@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, UILayout
 
+from ..blender.read.visibility import measurable
 from ..blender.session import stored
+from ..blender.session.displayed import shown_objects
+from ..blender.session.tracking import armatures
 from ..blender.session.tracking.staleness import stale_reason
 from ..blender.write.units import Units
 from ..core.lazy import loaded_module
@@ -29,8 +32,14 @@ class StabilityPanel:
 
     bl_label = "Stability"
 
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        obj = context.object
+        return obj is not None and (measurable(obj) or armatures.stands_for_meshes(obj))
+
     def draw(self, context: Context) -> None:
-        layout, obj = self.layout, context.object
+        layout, objects = self.layout, shown_objects(context)
+        obj = objects[0] if len(objects) == 1 else context.object
         layout.use_property_decorate = False
         stability = loaded_module(stored, "stability")
         if stability is None or not stability.is_known(obj):
@@ -58,7 +67,9 @@ def _support(layout: UILayout, context: Context, support: Support) -> None:
     if support.stands:
         column.label(text="Stands", icon="CHECKMARK")
     else:
-        column.label(text="Tips Over", icon="ERROR")
+        row = column.row(align=True)
+        row.label(text="Tips Over", icon="ERROR")
+        row.operator("object.body_moments_sculpt_balance", text="Balance...")
     margin = support.margin * unit
     angle = degrees(support.tipping_angle)
     toward = degrees(atan2(support.direction[1], support.direction[0]))

@@ -4,10 +4,6 @@
 
 from ...core.verdict.finding import error, note, warning
 
-NON_PLANAR_FACES_OF_DISPLAY_MESH = note(
-    "non_planar_faces_of_display_mesh",
-    "Non-planar faces of the display mesh: their triangulation can change the volume by up to {share:percent}.",
-)
 UNION_BY_BOOLEAN = note(
     "union_by_boolean", "Overlapping components were united by Blender's exact Boolean, accurate to 7 digits."
 )
@@ -26,48 +22,13 @@ ZERO_SCALE = error(
     "zero_scale",
     "A zero scale flattens the object or its instances. Set their scale and their parents', or set Kind to Shell.",
 )
-FLAT_SURFACES = warning(
-    "flat_surfaces",
-    "{count} of {total} surfaces is flat: its area counts, its volume does not.",
-    "{count} of {total} surfaces are flat: their areas count, their volumes do not.",
-)
-INSTANCE_OVERLAP_UNCHECKED = warning(
-    "instance_overlap_unchecked",
-    "Overlap was not checked between instances whose bounding boxes overlap. Use Object > Apply > Make Instances Real "
-    "and join them.",
-)
 CURVE_FILL_MEASURED = warning(
     "curve_fill_measured", "Blender's fill of the curves was measured, overlapping or not: {cause}"
-)
-WALL_UNORIENTED = warning(
-    "wall_unoriented",
-    "The surface is not closed; “inward” is behind its faces as they are. Use Mesh > Normals > Flip to change sides.",
-)
-WALL_THICKNESS_VARIES = warning(
-    "wall_thickness_varies",
-    "At corners of more than three planes the wall is {minimum:.6g} to {maximum:.6g} times as thick.",
-)
-WALL_FACES_WITHOUT_AREA = warning(
-    "wall_faces_without_area",
-    "{count} face without area moved with its neighbors.",
-    "{count} faces without area moved with their neighbors.",
-)
-WALL_OVERLAP_UNCHECKED = warning(
-    "wall_overlap_unchecked", "Overlap of the walls was not checked at this thickness. Press Measure."
-)
-WALLS_OVERLAP = warning(
-    "walls_overlap", "The walls overlap; the shared space counts twice. Reduce Thickness, or change Wall."
-)
-WALL_FOLDS = error(
-    "wall_folds",
-    "A wall of {thickness:length} ({side:word}) folds over itself near {point:point}; the largest is "
-    "{largest:length}. Reduce Thickness, change Wall, or set Wall to Thin.",
 )
 WALL_CREASES = warning(
     "wall_creases",
     "At creases of up to {angle:.0f}° the wall overlaps or gapes, as it is not mitered. Use Object > Convert > Mesh.",
 )
-MASS_OVERFLOW = error("mass_overflow", "The densities are too large. Lower them.")
 DENSITY_ATTRIBUTE_OF_SOLID = error(
     "density_attribute_of_solid",
     "A vertex attribute holds densities on the surface only. Set Kind to Shell, or change Density From.",
@@ -111,70 +72,25 @@ DENSITY_NEGATIVE = error(
     "The density is negative: {density:.4g} kg/m³ at {point:point} in {frame:word} coordinates. Change Polynomial "
     "or Coordinates.",
 )
-DENSITY_FROM_SAMPLES = note("density_from_samples", "samples")
-DENSITY_FROM_GRID = note("density_from_grid", "grid “{grid}”")
 DENSITY_FROM_ATTRIBUTE = note("density_from_attribute", "vertex attribute “{attribute}”")
 DENSITY_FROM_MATERIALS = note("density_from_materials", "materials: {materials}")
 DENSITY_OF_MATERIAL = note("density_of_material", "{material} {density:.7g} kg/m³")
 DENSITY_OF_OTHERS = note("density_of_others", "others {density:.7g} kg/m³")
-GRID_DENSITY = note("grid_density", "Density from {samples:size} samples. {cause}")
-GRID_WITHOUT_SURFACE = note(
-    "grid_without_surface", "A grid has no surface: the area is 0, the volume is that of the voxels that are not empty."
-)
 LEVEL_SET_MEASURED = note(
     "level_set_measured",
     "The level set “{grid}” was measured as a solid of {polygons} polygons, within a fraction of a voxel.",
 )
-GRID_IS_LEVEL_SET = error(
-    "grid_is_level_set",
-    "The grid “{grid}” is a level set of distances, not densities. Set Measure As to Solid, or choose another grid.",
-)
 GRID_IS_NOT_LEVEL_SET = error(
     "grid_is_not_level_set", "The grid “{grid}” is not a level set. Set Measure As to Density."
 )
-GRID_EMPTY = error("grid_empty", "The grid is empty or flattened. Choose another grid, or check Values and the scale.")
 DENSITY_GRID_ELSEWHERE = error(
     "density_grid_elsewhere", "The grid “{grid}” of “{object}” has no density inside the object. Check where both are."
 )
 OUTSIDE_GRID = warning(
     "outside_grid", "{share:percent} of the volume is outside the grid and counts as empty. Enlarge the grid."
 )
-THRESHOLD_MEASURED = note(
-    "threshold_measured",
-    "The body where the grid “{grid}” is at least {threshold}, by its interpolant. Its surface passes through "
-    "{cells} cells.",
-)
-THRESHOLD_CLIPPED = warning(
-    "threshold_clipped",
-    "The body reaches the edge of the grid “{grid}” and is cut off there. Raise Threshold, or enlarge the grid.",
-)
-THRESHOLD_NOT_REACHED = error(
-    "threshold_not_reached",
-    "No value of the grid “{grid}” reaches the threshold {threshold}; the largest is {largest}. Lower Threshold.",
-)
-THRESHOLD_NEEDS_FACTOR = error(
-    "threshold_needs_factor",
-    "Within a threshold, values become densities by a factor alone. Set Values to Factor, or Filled With to Material.",
-)
-GRID_AS_SHELL = error("grid_as_shell", "A grid holds densities inside a solid only. Set Kind to Solid.")
 OPEN_SURFACE_OF_GRID = error(
     "open_surface_of_grid", "The surface is open, so the inside of the grid is undefined. Close the mesh."
-)
-SAMPLES_POSITIONED = note("samples_positioned", "The samples stand at the given positions along {axes}.")
-GIVEN_DENSITY_IGNORED = warning("given_density_ignored", "The samples are densities; the given density was not used.")
-SHAPE_OF_GRID = warning("shape_of_grid", "A grid of densities has no shape for a pose or signature.")
-WIRE_UNSUPPORTED = error(
-    "wire_unsupported", "{quantity:word} is not available for wires. Set Kind to Solid or Shell, or convert to a mesh."
-)
-SHAPE_OF_OPEN_SURFACE = error(
-    "shape_of_open_surface",
-    "Pose and signature depend on the reference point, as the surface is open. Close it, or set Kind to Shell.",
-)
-SHAPE_FAR_FROM_ORIGIN = error(
-    "shape_far_from_origin", "Too far from the world origin for an accurate shape. Move the object nearer."
-)
-SIGNATURE_NEEDS_POLYGONS = error(
-    "signature_needs_polygons", "The signature needs polygons. Use Object > Convert > Mesh."
 )
 FOURIER_NO_EXTENT = error("fourier_no_extent", "The object has no extent. Set Max Frequency.")
 FOURIER_APPROXIMATE = note(
@@ -203,18 +119,6 @@ SECTION_PROJECTED = warning(
 SECTION_FILL_WRONG = warning(
     "section_fill_wrong",
     "Blender's fill covers {share:percent} of the area; the outlines were measured. Simplify them.",
-)
-MESH_STREAMED = warning(
-    "mesh_streamed",
-    "{count} face was read in blocks, without repair: self-intersection, nested and inside-out components were not "
-    "looked for. Use --stream never where memory allows it.",
-    "{count} faces were read in blocks, without repair: self-intersection, nested and inside-out components were "
-    "not looked for. Use --stream never where memory allows it.",
-)
-STREAMED_OPEN = warning(
-    "streamed_open",
-    "The surface is not closed, or its faces disagree: the volume depends on the reference point. Repair the mesh, "
-    "or use --stream never.",
 )
 RIG_WITHOUT_PARTS = error(
     "rig_without_parts",

@@ -12,6 +12,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.bodies.findings import WIRE_UNSUPPORTED
+from ...core.bodies.reading import Reading, to_si
 from ...core.fourier.findings import FOURIER_OF_OPEN_SURFACE
 from ...core.fourier.instances import FOURIER_RTOL, BodyTransform
 from ...core.fourier.spectrum import APPROXIMATE, Spectrum
@@ -23,7 +25,6 @@ from ...core.moments.moments import Measure
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Verdict
 from ..read.objects import read_object
-from ..read.reading import Reading, to_si
 from ..read.visibility import shows_flat_region
 from ..settings.density import density_field
 from ..settings.options import MeasureOptions
@@ -33,7 +34,6 @@ from .findings import (
     FOURIER_APPROXIMATE,
     FOURIER_NO_EXTENT,
     FOURIER_OF_UNIFORM_DENSITY,
-    WIRE_UNSUPPORTED,
 )
 from .mesh.mesh import mesh_body
 

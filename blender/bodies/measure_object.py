@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 import bpy
 
+from ...core.bodies.reading import Reading
 from ...core.inertia.mass_properties import MassProperties
 from ...core.measurement.body import Body
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, MeasureError
 from ...core.verdict.method import Method
-from ..read.reading import Reading
 from ..settings.options import AS_SET, MeasureOptions
 from .assembly.given import point_measurement, read_point, with_given
 from .kinds import KINDS

@@ -16,6 +16,21 @@ from typing import ClassVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.bodies.findings import INSTANCE_OVERLAP_UNCHECKED
+from ...core.bodies.instances import (
+    each_once,
+    findings_by_part,
+    instances_overlap,
+    merge_health,
+    singular_instances_message,
+)
+from ...core.bodies.mesh_body import MeshBody, extend_input_error
+from ...core.bodies.reading import (
+    Part,
+    Reading,
+    SplineReading,
+    to_si,
+)
 from ...core.measurement.body import Body
 from ...core.measurement.findings import WALL_UNSUPPORTED
 from ...core.mesh.surface import Surface
@@ -29,21 +44,7 @@ from ...core.nurbs.patch_moments import area_moments, stored_area_moments, volum
 from ...core.nurbs.solid import PatchIntegrals, measure_patches, measure_sheet
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Source, Verdict, least_trusted
-from ..read.reading import Part, Reading, SplineReading, to_si
-from .body import MeshBody, extend_input_error
-from .findings import (
-    DISPLAY_MESH_NEEDED,
-    INSTANCE_OVERLAP_UNCHECKED,
-    WALL_CREASES,
-    ZERO_SCALE,
-)
-from .mesh.instances import (
-    each_once,
-    findings_by_part,
-    instances_overlap,
-    merge_health,
-    singular_instances_message,
-)
+from .findings import DISPLAY_MESH_NEEDED, WALL_CREASES, ZERO_SCALE
 from .mesh.mesh import mesh_body
 from .request import Request
 

@@ -10,10 +10,10 @@ from functools import cached_property
 
 import bpy
 
+from ...core.bodies.reading import Reading
 from ...core.measurement.settings import Settings
 from ...core.verdict.finding import Finding
 from ..read.objects import read_object
-from ..read.reading import Reading
 from ..settings.accepted import accepted_codes
 from ..settings.density import DensityField, density_field
 from ..settings.options import AS_SET, MeasureOptions

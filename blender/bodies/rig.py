@@ -11,9 +11,11 @@ import numpy as np
 from bpy.types import Context, Depsgraph, Object
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import Part, to_si
 from ...core.measurement.builder import Extent, add_extents, extent_of, measure_total
 from ...core.measurement.findings import DENSITY_FROM_MEMBERS, NO_VOLUME, ZERO_QUANTITY
 from ...core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
+from ...core.measurement.settings import digest, fingerprint
 from ...core.mesh.surface import Surface
 from ...core.moments.affine_maps import are_similarities
 from ...core.moments.exponents import KNOWN_ORDER
@@ -27,9 +29,8 @@ from ...core.verdict import internal_error
 from ...core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ...core.verdict.method import Method, Verdict, least_trusted
 from ..read.bones import RestBones, vertex_weights
-from ..read.fingerprint import digest, fingerprint, matrix_hash
+from ..read.fingerprint import matrix_hash
 from ..read.objects import locate, read_object
-from ..read.reading import Part, to_si
 from ..read.rig import hanging_objects, rest_pose, rig_hash, rig_objects, skinned_objects
 from ..settings.density import is_density_unset, unset_density
 from ..settings.options import AS_SET, MeasureOptions
@@ -97,10 +98,7 @@ class Rig:
 
 
 def measure_rig(context: Context, armature: Object, options: MeasureOptions = AS_SET) -> Rig:
-    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass.
-
-    options: overrides of the objects' settings; a given density or mass also overrides the bones' own.
-    """
+    """Measure the parts of all bones of a character, or raise MeasureError if none has a mass."""
     with rest_pose(context, armature) as depsgraph:
         return _Measuring(armature, depsgraph, options).rig()
 

@@ -10,6 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import Reading
 from ...core.measurement.body import Body
 from ...core.moments.moments import FLOAT32_HALF_ULP, Measure, Moments, U, monomial_count, monomials
 from ...core.nurbs.curve import Curve
@@ -19,7 +20,6 @@ from ...core.verdict.health import MeshHealth
 from ...core.verdict.method import Method, Verdict
 from ..read.findings import NO_CURVE
 from ..read.objects import read_lines
-from ..read.reading import Reading
 from .request import Request
 
 MEASURED_AS = frozenset({"wire"})

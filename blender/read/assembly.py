@@ -16,12 +16,13 @@ import bpy
 from bpy.types import Depsgraph, Object
 from mathutils import Matrix
 
+from ...core.measurement.settings import digest
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from ..settings.assembly import Root, is_assembly, settings_of
 from ..settings.given import GivenPart, is_point_mass, shows_collection
 from .findings import BOOLEAN_OPERAND, HIDDEN_IN_VIEWPORT, MEMBER_COUNTED_BEFORE, NOT_RENDERED
-from .fingerprint import digest, matrix_bytes, matrix_hash
+from .fingerprint import matrix_bytes, matrix_hash
 from .total_caveats import left_out_reasons, operands_of
 from .visibility import MAX_DEPTH, hidden_reason, instanced_by_parent, measurable
 

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY
+from ...core.bodies.reading import attribute_to_source
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, finding
 from .findings import (
     DISPLAY_MESH_FOR_MODIFIERS,
     DISPLAY_MESH_FOR_WEIGHTS,
     DISPLAY_MESH_MEASURED,
-    DRAWN_AS_POLYGONS,
     EDIT_MODE_SINGLE_SHAPE_KEY,
     EMPTY_TEXT,
     EMPTY_WITHOUT_INSTANCES,
@@ -30,7 +31,6 @@ from .findings import (
     METABALL_OF_FAMILY,
     MODIFIER_ERROR,
     MODIFIERS_LEFT_OUT,
-    NO_GEOMETRY,
     ONLY_WITHOUT_SURFACE,
     READ_IN_MODE,
     RENDER_DIFFERS,
@@ -46,7 +46,6 @@ from .instances import InstanceCollector, shows_itself, visible_objects
 from .nurbs.curves import is_round
 from .nurbs.deformation import spline_modifiers
 from .nurbs.splines import nonpositive_weights
-from .reading import attribute_to_source
 from .visibility import SURFACE_TYPES, blends_keys, hidden_reason, instanced_by_parent, measurable, metaball_families
 
 
@@ -114,9 +113,10 @@ def modifier_findings(obj, scene) -> Iterator[Finding]:
 
 
 def _render_findings(obj, scene, exact: bool = False) -> Iterator[Finding]:
-    differences = [difference.as_record() for difference in _render_differences(obj, scene, exact)]
+    differences = list(_render_differences(obj, scene, exact))
     if differences:
-        yield finding(RENDER_DIFFERS, differences=differences)
+        are_levels = all(difference.code == RENDER_LEVELS_DIFFER for difference in differences)  # Blender's default
+        yield finding(RENDER_DIFFERS, slight=are_levels, differences=[found.as_record() for found in differences])
 
 
 def _member_findings(collections) -> Iterator[Finding]:

@@ -4,7 +4,6 @@
 
 from ...core.verdict.finding import error, note, warning
 
-NO_GEOMETRY = error("no_geometry", "No surface. Add faces, or check whether a modifier removes them.")
 INSTANCES_VANISHED = note(
     "instances_vanished", "Left out: {count} instance scaled to zero.", "Left out: {count} instances scaled to zero."
 )
@@ -74,10 +73,6 @@ METABALL_OF_FAMILY = error(
 )
 METABALL_FAMILY = note("metaball_family", "Holds the polygons of its metaball family: {objects}.")
 KIND_COUNT = note("kind_count", "{kind:word}: {count}")
-DRAWN_AS_POLYGONS = note(
-    "drawn_as_polygons",
-    "The round shape was measured as drawn polygons. Doubling the resolution makes the error four times smaller.",
-)
 CURVE_MEASURED_WHOLE = warning("curve_measured_whole", "The curve was measured without {ignored:word}.")
 SPLINES_LEFT_OUT = warning(
     "splines_left_out",
@@ -124,9 +119,6 @@ GRID_UNREADABLE = error(
     "grid_unreadable", "The grid “{grid}” is missing or cannot be read: {error}. Choose another file or grid."
 )
 GRID_FRUSTUM = error("grid_frustum", "The grid “{grid}” has a frustum transform. Resample it with a linear transform.")
-GRID_TOO_LARGE = error(
-    "grid_too_large", "The grid “{grid}” spans too many voxels, {samples:size}. Crop it, or use a coarser one."
-)
 GRID_FAR_FROM_ORIGIN = error(
     "grid_far_from_origin", "The voxel indices of the grid “{grid}” are too far from zero. Move its origin nearer."
 )
@@ -170,10 +162,6 @@ SECTION_EXTRUDED = error(
 SCALE_ZERO_AXIS = error("scale_zero_axis", "A scale is zero along an axis: its own, a delta or a parent's. Set it.")
 TOTAL_DOUBTFUL_PARTS = warning(
     "total_doubtful_parts", "{kind:word} count as bodies: {objects}. Leave out what is not a part."
-)
-TOTAL_OF_OPEN_OBJECTS = warning(
-    "total_of_open_objects",
-    "The total depends on the reference point, as these are open: {objects}. Close them, or leave them out.",
 )
 NO_ACTIVE_ARMATURE = error("no_active_armature", "The active object is not an armature. Select one.")
 ARMATURE_IN_EDIT_MODE = error("armature_in_edit_mode", "The armature is in Edit Mode. Leave it.")

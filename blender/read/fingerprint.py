@@ -9,25 +9,18 @@ may compare them while it draws, without numpy.
 
 from __future__ import annotations
 
-import hashlib
 import math
 import struct
 
 import bpy
 from mathutils import Matrix
 
-from ...core.measurement.settings import Settings
+from ...core.measurement.settings import Settings, digest
 from ..settings.density import density_key
 from ..settings.resolve import object_settings
 
-VERSION = "v1"
 SAME_SCALE_RTOL = 2e-6  # relative to an axis' length: float32 matrices change as much as the object turns
 MAX_LENGTH = 3e38  # largest length of an axis that float32 can store
-
-
-def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
-    """Return the text stored as `body_fingerprint`: version, then the three digests."""
-    return ":".join([VERSION, digest(geometry), matrix, settings])
 
 
 def matrix_hash(obj: bpy.types.Object) -> str:
@@ -41,11 +34,7 @@ def matrix_bytes(matrix: Matrix) -> bytes:
 
 
 def transform_key(obj: bpy.types.Object) -> str:
-    """Return a key of the transform as far as the numbers of the object depend on it, for `has_transform` to compare.
-
-    The key contains scale and mirroring, but neither location nor rotation. It is a digest of the whole transform if
-    the object is sheared, or its body does not move along with it.
-    """
+    """Return a key of the transform for `has_transform`: scale and mirroring, or all if sheared or not movable."""
     scale = _scale(obj) if _moves_along(obj) else None
     if scale is None:
         return matrix_hash(obj)
@@ -105,8 +94,3 @@ def settings_hash(obj: bpy.types.Object, scene: bpy.types.Scene) -> str:
 def current_settings(obj: bpy.types.Object, scene: bpy.types.Scene) -> Settings:
     """Return the current settings of the object, with the key of a varying density."""
     return object_settings(obj, scene, varying=density_key(obj, str(obj.get("body_materials", "")).splitlines(), scene))
-
-
-def digest(data: bytes) -> str:
-    """Return a digest of the data as 12 hexadecimal digits."""
-    return hashlib.blake2s(data, digest_size=6).hexdigest()

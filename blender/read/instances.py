@@ -21,6 +21,13 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import (
+    NO_VALUES,
+    FaceAttributes,
+    Part,
+    SplineReading,
+    float64_matrix,
+)
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import MeasureError, ReadError
 from .findings import (
@@ -29,7 +36,6 @@ from .findings import (
 )
 from .mesh import face_slots, from_edit_mesh, mesh_surface, vertex_values
 from .nurbs.splines import spline_reading
-from .reading import NO_VALUES, FaceAttributes, Part, SplineReading, float64_matrix
 from .visibility import GEOMETRY_TYPES, MAX_DEPTH, blends_keys, edit_modifiers, evaluated_geometry
 
 

@@ -102,11 +102,7 @@ def _faces(mesh, corners: NDArray[np.int32]) -> dict[str, NDArray]:
 
 
 def from_edit_mesh(mesh, read: Callable[[bpy.types.Mesh], Read]) -> Read:
-    """Return the result of `read` for a copy of a mesh in Edit Mode, with edits that so far only its BMesh has.
-
-    A BMesh gives its elements one by one only, 5 s for a million faces; the copy into a mesh that
-    lives for this call costs a fortieth of that and leaves the edit mesh as it is.
-    """
+    """Return the result of `read` for a mesh in Edit Mode, by a copy: a BMesh gives its elements one by one only."""
     copy = bpy.data.meshes.new("Body Moments Reading")
     try:
         bmesh.from_edit_mesh(mesh).to_mesh(copy)

@@ -11,6 +11,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...core.bodies.reading import (
+    Part,
+    Reading,
+    attribute_to_source,
+    float64_matrix,
+)
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import rotation_matrix
 from ...core.nurbs.findings import NON_POSITIVE_WEIGHTS
@@ -22,7 +28,6 @@ from .instances import InstanceCollector
 from .nurbs.curves import read_curves
 from .nurbs.deformation import is_deformed
 from .nurbs.splines import nonpositive_weights, spline_reading
-from .reading import Part, Reading, attribute_to_source, float64_matrix
 from .visibility import evaluated_geometry, require_kind, why_not_evaluated
 
 

@@ -12,9 +12,10 @@ from contextlib import contextmanager
 
 from bpy.types import Context, Depsgraph, Object, Scene
 
+from ...core.measurement.settings import digest
 from ...core.verdict.finding import ReadError
 from .findings import ARMATURE_IN_EDIT_MODE, NO_ACTIVE_ARMATURE
-from .fingerprint import digest, matrix_bytes, settings_hash
+from .fingerprint import matrix_bytes, settings_hash
 from .tracking import tracking_paused
 from .visibility import measurable
 

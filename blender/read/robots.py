@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from bpy.types import Depsgraph, Object, PoseBone, RigidBodyConstraint, Scene
 
+from ...core.bodies.reading import float64_matrix
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface, join_surfaces
 from ...core.numerics.rotations import polar_rotation
@@ -20,7 +21,6 @@ from ...core.robots.links import Candidate, Connection, make_candidate
 from ...core.robots.model import VALUES, FreeAxis, Link, Mimic, Pose
 from ...core.verdict.finding import Finding, MeasureError, finding
 from .objects import read_object
-from .reading import float64_matrix
 
 
 def object_candidate(
@@ -158,12 +158,7 @@ def sheared_objects(objects: Iterable[Object]) -> list[str]:
 def bone_freedom(
     bone: PoseBone, values: Mapping[str, float] = MappingProxyType({}), unit: float = 1.0
 ) -> tuple[FreeAxis, ...]:
-    """Return a bone's axes along which it may move in its parent, then those about which it may turn, with limits.
-
-    Angles have the limits of a Limit Rotation constraint in local space, else those for inverse kinematics. A bone
-    moves only along axes that a Limit Location constraint limits. Axes are left out if they are locked, or if their
-    limits leave no room. values: of each axis. unit: m.
-    """
+    """Return a bone's unlocked axes of movement and of rotation with limits, in m, by constraints and IK."""
     turns = {
         axis: (getattr(bone, "ik_min_" + axis), getattr(bone, "ik_max_" + axis))
         for axis in "xyz"

@@ -17,13 +17,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...core.bodies.findings import DRAWN_AS_POLYGONS
+from ...core.bodies.reading import Reading
 from ...core.mesh.surface import Surface
 from ...core.numerics.rotations import polar_rotation
 from ...core.nurbs.curve import Curve
 from ...core.solid.findings import NON_FINITE_VERTICES
 from ...core.verdict.finding import Finding, ReadError, finding
 from .findings import (
-    DRAWN_AS_POLYGONS,
     FLAT_OF_TYPE,
     MODIFIERS_LEFT_OUT,
     RENDER_DIFFERS,
@@ -39,7 +40,6 @@ from .findings import (
 from .mesh import from_edit_mesh, mesh_surface
 from .nurbs.curves import read_curves, text_curves
 from .objects import locate, read_object
-from .reading import Reading
 from .visibility import SECTION_TYPES
 
 ZERO_SCALE = 1e-17  # a scale that `decompose()` takes for zero

@@ -10,9 +10,10 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
+from ...core.measurement.settings import digest
 from ...core.mesh.surface import Surface
 from ...core.verdict.finding import ReadError
-from .fingerprint import SAME_SCALE_RTOL, digest
+from .fingerprint import SAME_SCALE_RTOL
 from .mesh import mesh_surface
 from .visibility import evaluated_geometry
 

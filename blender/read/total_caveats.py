@@ -9,8 +9,7 @@ from collections.abc import Collection, Iterable, Iterator
 from bpy.types import LayerCollection, Object, Scene, ViewLayer
 
 from ...core.verdict.finding import Finding, finding
-from ...core.verdict.method import Method, Verdict
-from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_DOUBTFUL_PARTS, TOTAL_OF_OPEN_OBJECTS
+from .findings import BOOLEAN_OPERAND, NOT_RENDERED, TOTAL_DOUBTFUL_PARTS
 
 
 def left_out_reasons(scene: Scene, view_layer: ViewLayer) -> dict[Object, Finding]:
@@ -68,13 +67,6 @@ def total_caveats(objects: Collection[Object], view_layer: ViewLayer) -> list[Fi
             )
         )
     return findings
-
-
-def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Finding]:
-    """Return caveats about open bodies, given as names and methods: their own numbers depend on a reference point."""
-    methods = list(methods)
-    names = sorted(name for name, method in methods if method is not None and method.verdict == Verdict.OPEN)
-    return [finding(TOTAL_OF_OPEN_OBJECTS, objects=names)] if names and len(methods) > 1 else []
 
 
 def _operands(obj: Object) -> Iterator[Object]:

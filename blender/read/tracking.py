@@ -6,10 +6,7 @@ from __future__ import annotations
 
 
 class tracking_paused:
-    """A context in which no change is noted: for changes that leave every object's shape as it was.
-
-    While any such context is open, changes that Blender reports are no edits; `depth` is the number of open contexts.
-    """
+    """Note no change while the block runs: for changes that leave every object's shape as it was."""
 
     depth = 0
 

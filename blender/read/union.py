@@ -18,11 +18,7 @@ from .mesh import mesh_surface
 
 
 def union_surface(surface: Surface) -> Surface:
-    """Return the surface around the union of all shells of `surface`, in float32 coordinates as Blender computes it.
-
-    The shells are taken about the middle of their bounding box and at about unit size, so that nothing is lost far from
-    the origin, and no threshold of Blender's meets a tiny part.
-    """
+    """Return the surface around the union of all shells, in float32; measured about their middle at unit size."""
     points, faces = surface.points.astype(np.float64), surface.all_triangles()[0]
     middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
     scale = 2.0 ** np.ceil(np.log2(np.abs(points - middle).max()))  # a power of two rounds nothing

@@ -68,11 +68,7 @@ def shows_flat_region(obj) -> bool:
 
 
 def measurable_objects(view_layer) -> list:
-    """Return the measurable objects of a view layer, sorted by name, hidden objects included.
-
-    Objects that are measured with others are left out: children of objects that instance on vertices or faces, hidden
-    members of instanced collections, and metaballs, except for the metaball that holds its family's polygons.
-    """
+    """Return the measurable objects of a view layer by name, hidden ones included, objects measured with others not."""
     # A view layer that has not been updated knows neither its new objects nor their visibility.
     view_layer.update()
     objects = [obj for obj in view_layer.objects if measurable(obj) and not instanced_by_parent(obj)]

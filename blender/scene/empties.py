@@ -30,11 +30,7 @@ def place_empties(
     size: float,
     progress: Callable[[float], None],
 ) -> tuple[list[SnapTarget], dict[Object, Exception]]:
-    """Put an empty at the principal frame of each object, or move the empty that an earlier run put there.
-
-    Return the bodies whose empties were elsewhere, and the errors of refused objects. is_parent: make the empties
-    children of the objects. display: type of new empties. size: relative to the largest radius of gyration.
-    """
+    """Put or move empties to objects' principal frames; return the bodies whose empties were elsewhere, and errors."""
     existing = {
         empty[OBJECT_KEY]: empty for empty in context.scene.objects if empty.type == "EMPTY" and OBJECT_KEY in empty
     }
@@ -67,10 +63,7 @@ def place_empties(
 def _place(
     existing: Object | None, context: Context, body: SnapTarget, is_parent: bool, display: str, size: float
 ) -> Generator[None, Depsgraph, bool]:
-    """Move the empty, or a new one, to the body's frame; return whether it was elsewhere.
-
-    Raises EditRefusedError if the empty cannot be there: then nothing has changed.
-    """
+    """Move the empty, or a new one, to the body's frame; return whether it was elsewhere. Raises EditRefusedError."""
     parent = body.obj if is_parent else None
     if existing is not None:
         return (yield from _moved(existing, body, parent, size))

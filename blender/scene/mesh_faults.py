@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import fields
 
 import bmesh
@@ -15,6 +16,7 @@ from bpy.types import Object
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import EditRefusedError
 from ...core.verdict.findings import LINKED_OBJECT
+from ...core.verdict.tolerances import welding_tolerance
 from .findings import SHAPE_OF_MODIFIERS
 
 # Modifiers that only move vertices: the faults' indices are those of the mesh itself.
@@ -88,16 +90,54 @@ def select_elements(obj: Object, elements: dict[str, np.ndarray]) -> None:
     bmesh.update_edit_mesh(obj.data)
 
 
+@contextmanager
+def _edited(mesh: bpy.types.Mesh) -> Iterator[bmesh.types.BMesh]:
+    """Yield a copy of a mesh to edit, and write it back. EditRefusedError if the mesh is linked."""
+    if not mesh.is_editable:
+        raise EditRefusedError(LINKED_OBJECT)
+    edited = bmesh.new()
+    try:
+        edited.from_mesh(mesh)
+        edited.faces.ensure_lookup_table()
+        yield edited
+        edited.to_mesh(mesh)
+        mesh.update()
+    finally:
+        edited.free()
+
+
 def reverse_faces(mesh: bpy.types.Mesh, elements: Sequence[Sequence[int]]) -> int:
     """Reverse the faces in several lists of indices, or all faces if one list is empty; return the number."""
     if not all(map(len, elements)):
         elements = [range(len(mesh.polygons))]
-    faces = sorted({int(index) for indices in elements for index in indices})
-    if faces:
-        edited = bmesh.new()
-        edited.from_mesh(mesh)
-        edited.faces.ensure_lookup_table()
-        bmesh.ops.reverse_faces(edited, faces=[edited.faces[index] for index in faces], flip_multires=True)
-        edited.to_mesh(mesh)
-        edited.free()
-    return len(faces)
+    indices = sorted({int(index) for part in elements for index in part})
+    if indices:
+        with _edited(mesh) as edited:
+            faces = [edited.faces[index] for index in indices]
+            bmesh.ops.reverse_faces(edited, faces=faces, flip_multires=True)
+    return len(indices)
+
+
+def delete_faces(mesh: bpy.types.Mesh, indices: Sequence[int]) -> int:
+    """Delete faces, with edges and vertices that nothing else uses; return the number."""
+    if len(indices):
+        with _edited(mesh) as edited:
+            bmesh.ops.delete(edited, geom=[edited.faces[index] for index in indices], context="FACES")
+    return len(indices)
+
+
+def fill_holes(mesh: bpy.types.Mesh) -> int:
+    """Close the holes of a mesh with faces; return the number of new faces."""
+    with _edited(mesh) as edited:
+        return len(bmesh.ops.holes_fill(edited, edges=edited.edges[:], sides=0)["faces"])
+
+
+def merge_by_distance(mesh: bpy.types.Mesh) -> int:
+    """Merge vertices that count as one when a body is measured; return the number of vertices that are gone."""
+    before = len(mesh.vertices)
+    points = np.empty((before, 3), np.float32)
+    mesh.vertices.foreach_get("co", points.ravel())
+    with _edited(mesh) as edited:
+        size, error = float(np.linalg.norm(np.ptp(points, axis=0))), float(np.spacing(np.abs(points).max()))
+        bmesh.ops.remove_doubles(edited, verts=edited.verts[:], dist=welding_tolerance(size, error))
+    return before - len(mesh.vertices)

@@ -15,6 +15,7 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...core.density.grid_values import positions_text
 from ...core.numerics.float32 import shortest_decimal
 from ...core.scans.formats import read_scan, sample_matrix, scan_suffix
 from ...core.scans.limits import Limits
@@ -23,7 +24,6 @@ from ...core.scans.positions import Positions, place_samples, read_all_positions
 from ...core.scans.scan import Scan
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, system_reason
-from ..settings.grid_values import positions_text
 from .findings import SCAN_NON_FINITE
 
 GRID_NAME = "density"
@@ -51,11 +51,7 @@ def read_placed(
     files: dict[str, str],
     unit: float,
 ) -> PlacedScan:
-    """Read a scan and place its samples.
-
-    raw: shape, type and byte order of raw samples, if the file name does not state them. spacing: in m, in place of the
-    file's. files: files of sample positions, by axis. unit: meters per unit of these files. Raises FileError.
-    """
+    """Read a scan and place its samples; files: of their positions, in `unit` meters, by axis. Raises FileError."""
     try:
         is_raw = scan_suffix(path) == ".raw"
         scan = read_raw(path, *raw, limits) if raw is not None and is_raw else read_scan(path, limits)
@@ -72,10 +68,7 @@ def read_placed(
 
 
 def write_volume(module: ModuleType, placed: PlacedScan, unit: float) -> float:
-    """Write the scan as a grid with `unit` meters per unit, whole or not at all, and return its least value.
-
-    The background differs from every sample's value, so that none is lost, but is zero if no sample is negative.
-    """
+    """Write the scan whole, with `unit` meters per unit and a background unlike any value; return the least value."""
     scan, target, matrix = placed.scan, placed.target, placed.matrix.copy()
     matrix[:3] /= unit
     least, exact = np.inf, True

@@ -18,6 +18,7 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import Part
 from ...core.measurement.measurement import Measurement
 from ...core.mesh.surface import Surface
 from ...core.moments.moments import Measure
@@ -29,7 +30,6 @@ from ...core.verdict.method import Method, Verdict
 from ..bodies.measure_object import measure_object
 from ..read.findings import SCALE_ZERO_AXIS
 from ..read.objects import read_object
-from ..read.reading import Part
 from ..read.tracking import tracking_paused
 from .findings import (
     BALANCE_NO_VERTICES,
@@ -122,11 +122,7 @@ class _GroupedMesh:
 def balance_mesh(
     context: Context, obj: Object, group: str, target: Sequence[float], across: str, limit: float
 ) -> Balanced:
-    """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place.
-
-    group: the vertex group in Object Mode, "" for the active one. target: (3,) in Blender units. across: "ALL" for all
-    directions, else those across gravity. limit: of a move in Blender units, 0 for the size of the mesh.
-    """
+    """Move vertices so that the center of mass comes over a point, or raise MeasureError and leave them in place."""
     mesh = _EditedMesh(obj) if obj.mode == "EDIT" else _GroupedMesh(obj, group)
     unit = shortest_decimal(context.scene.unit_settings.scale_length)
     directions = np.eye(3) if across == "ALL" else _horizontal_directions(context.scene)

@@ -75,10 +75,7 @@ class SnapTarget:
         return float(self.gyration.max())
 
     def is_principal(self, frame: NDArray) -> bool:
-        """Return whether the columns of `frame` are this body's principal axes, as far as its coordinates can show.
-
-        The axes must be in this order and with these signs.
-        """
+        """Return whether the columns of `frame` are this body's principal axes, as far as its coordinates can show."""
         tensor = frame.T @ self.inertia @ frame
         limit = DIAGONAL_RTOL * np.trace(tensor)
         diagonal = np.diag(tensor)
@@ -101,20 +98,13 @@ class SnapTarget:
 def targets_in_turn(
     context: Context, objects: Sequence[Object], strict: bool = False
 ) -> Callable[[Object], SnapTarget]:
-    """Return a function that gives the `snap_target` of one object at a time, measured in batches.
-
-    The scene must not change meanwhile.
-    """
+    """Return a function that gives the `snap_target` of one object at a time, measured in batches, in a fixed scene."""
     measured = measured_in_turn(objects, context.evaluated_depsgraph_get(), POSE)
     return lambda obj: target_of(context, obj, measured(obj), strict)
 
 
 def snap_target(context: Context, obj: Object, strict: bool = False) -> SnapTarget:
-    """Measure an object for snapping.
-
-    Raises EditRefusedError if its numbers depend on a reference point. strict: use the axes of Zhang and Chen's rule,
-    or refuse the object if it has none.
-    """
+    """Measure an object for snapping, or raise EditRefusedError; strict: by Zhang and Chen's rule."""
     return target_of(context, obj, measure_body(obj, context.evaluated_depsgraph_get(), POSE), strict)
 
 
@@ -158,11 +148,7 @@ def matrix_along_axes(obj: Object, body: SnapTarget) -> NDArray | None:
 
 
 def align_to_world(context: Context, obj: Object, order: str, at_origin: bool, strict: bool) -> bool:
-    """Turn an object until its principal axes 1, 2, 3 lie along the world's axes; return whether it had to be moved.
-
-    order: the letters of the world's axes. An odd order would mirror the body, so axis 3 is reversed in it. at_origin:
-    the center of mass goes to the world's origin.
-    """
+    """Turn an object's principal axes along the world's in an order; return whether it had to be moved."""
     frame = np.eye(3)[:, ["XYZ".index(letter) for letter in order]]
     frame[:, 2] *= np.linalg.det(frame)
     reframe.check_movable(obj)

@@ -19,6 +19,7 @@ import numpy as np
 from bpy.types import Context, Curve, Object, Scene
 from numpy.typing import NDArray
 
+from ...core.bodies.reading import SplineReading
 from ...core.cad.surface_file import read_surfaces
 from ...core.cad.surfaces import MAX_ORDER, SurfaceBody, is_storable
 from ...core.numerics.float32 import shortest_decimal
@@ -29,7 +30,6 @@ from ...core.scans.limits import Limits
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..read.nurbs.splines import keep_faces
-from ..read.reading import SplineReading
 from .findings import SURFACES_ROUNDED
 
 MAX_DISTANCE = 16.0  # from the origin, in sizes: farther away float32 would lose more than a digit
@@ -38,12 +38,7 @@ MIN_LOFTED_POINTS = 3  # along v: with fewer Blender does not loft
 
 
 def surface_object(name: str, patches: Sequence[Patch], factor: float = 1.0) -> tuple[Object, float]:
-    """Return a surface object in no collection, and the largest effect of float32 on a point as a share of its size.
-
-    patches: with the flags *Bézier* and *Endpoint*; s becomes v and t becomes u, so that Blender's faces look where the
-    patches do. factor: Blender units for a unit of the patches. The object's origin is the origin of the patches'
-    coordinates, or a point among the patches if they are far from it.
-    """
+    """Return a surface object of *Bézier* patches in no collection, and the effect of float32 as a share."""
     data, moved, origin = surface_data(name, patches, factor)
     obj = bpy.data.objects.new(name, data)
     obj.location = origin
@@ -214,10 +209,7 @@ class ImportedSurfaces(NamedTuple):
 
 
 def import_surfaces(path: Path, limits: Limits, unit: float, context: Context) -> ImportedSurfaces:
-    """Make an object of each body in a file. unit: meters per unit of a file that states none.
-
-    Raises FileError.
-    """
+    """Make an object of each body in a file. unit: meters per unit of a file that states none. Raises FileError."""
     try:
         file = read_surfaces(path, limits)
     except OSError as error:

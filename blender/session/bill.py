@@ -16,11 +16,7 @@ from ..write.bill import BillRow
 
 
 def bill_rows(part: MemberBody, mass: float, level: int = 0, counted: bool = True) -> Iterator[BillRow]:
-    """Yield the rows of a member and of all members below it.
-
-    mass: of the whole assembly, in kg. level: number of assemblies around the member. counted: whether the member's
-    mass is part of the assembly's mass.
-    """
+    """Yield the rows of a member and of all members below it; mass: of the whole, kg; level: assemblies around it."""
     moments = part.mass
     measurement = part.measurement
     findings = part.findings if measurement is None else measurement.findings

@@ -19,7 +19,7 @@ from ..bodies.measure_object import Measured
 from ..bodies.stacks.many import measure_many
 from ..bodies.stacks.stack import Stacked
 from ..settings.options import MeasureOptions
-from ..write.remedies import remedies_of
+from ..write.remedies import REMEDIES, REPAIR, remedies_of
 from .snapping import store_measured
 from .stored.density import noted
 
@@ -134,7 +134,7 @@ def _description(
         {
             **one,
             "elements": one.get("elements", [])[:MAX_ELEMENTS],
-            "remedies": [CALL.format(idname) for idname in remedies_of(one["code"], obj.type)],
+            "remedies": [_call(remedy) for remedy in remedies_of(one["code"], obj.type)],
         }
         for one in entry["findings"]
     ]
@@ -149,3 +149,8 @@ def _description(
         "findings": findings,
         "next": [*dict.fromkeys(calls)],
     }
+
+
+def _call(remedy: str) -> str:
+    """Return the call of a remedy, a key of REMEDIES or the idname of an operator."""
+    return "bpy.ops.{}(remedy={!r})".format(REPAIR, remedy) if remedy in REMEDIES else CALL.format(remedy)

@@ -10,16 +10,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-import bpy
 from bpy.types import ID, Context, Object, PoseBone, Scene
 
 from ...core.inertia.plain_body import PlainBody, add_bodies
-from ...core.measurement.trust import Trust, trust_of
+from ...core.measurement.trust import Trust, open_body_caveats, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
+from ...core.verdict.groups import Group, grouped
 from ...core.verdict.method import Method, Verdict
 from .. import read
-from ..read.fingerprint import has_transform, settings_hash
+from ..read.fingerprint import has_transform
 from ..write import properties
 from . import live
 from .live import following
@@ -63,7 +63,8 @@ class Total:
     """Selected objects as one body.
 
     count: objects with results; numbers: SI, world axes, None if they have no mass; missing: names of objects without
-    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: caveats about the sum.
+    results; stale, doubtful: names of objects with outdated or untrustworthy results; findings: caveats about the sum;
+    trust: the least of any object; groups: the objects' own findings.
     """
 
     count: int
@@ -74,12 +75,13 @@ class Total:
     stale: tuple[str, ...]
     doubtful: tuple[str, ...]
     findings: tuple[Finding, ...]
+    trust: Trust | None
+    groups: tuple[Group, ...]
 
 
 _drawn: dict[int, Displayed] = {}  # session uid → drawn numbers, of objects that depend on no other
 _drawn_in: tuple = ()  # the scene's part in them
 _moved: set[int] = set()  # session uids of objects that have only moved since
-_failures: SessionCache[tuple[Finding, str]] = SessionCache()  # the reason, and the digest of the refused settings
 # A scene's last total, after its generation and view layer: the panel is drawn at every mouse movement.
 _totals: SessionCache[tuple[tuple[int, str], Total]] = SessionCache()
 
@@ -196,23 +198,25 @@ def _as_one(armature: Object, scene: Scene, parts: Iterable[Displayed | None]) -
     if world is None:
         return None
     unit = shortest_decimal(scene.unit_settings.scale_length)
+    rest = properties.optional(armature, "body_mass")
+    if rest is not None:  # posing stretches and squeezes the skin, and leaves the mass
+        factor = rest / world.mass
+        inertia, moments = ([factor * value for value in entries] for entries in (world.inertia, world.moments))
+        world = world._replace(
+            mass=rest, density=factor * world.density, inertia=tuple(inertia), moments=tuple(moments)
+        )
     own = world.in_object(armature.matrix_world, unit)
     worst = max(known, key=lambda part: tuple(Trust).index(part.trust))
     return Displayed(own, world, unit, worst.method, worst.findings, worst.trust, is_posed=True)
 
 
-def remember_failure(obj: Object, reason: Finding | None) -> None:
-    """Keep, while the file is open, the reason why the object could not be measured; None forgets it."""
-    if reason is None:
-        _failures.forget(obj)
-    else:
-        _failures[obj] = reason, settings_hash(obj, bpy.context.scene)
+def shown_objects(context: Context) -> list[Object]:
+    """Return the objects that the panel is about: the selected ones if there are several, else the active one.
 
-
-def failure(obj: Object) -> Finding | None:
-    """Return the reason why the last measurement with the object's current settings failed, or None if it did not."""
-    reason, settings = _failures.get(obj) or (None, "")
-    return reason if reason is not None and settings == settings_hash(obj, bpy.context.scene) else None
+    The meshes of a posed armature stand in its place.
+    """
+    chosen = armatures.subjects(context.view_layer.objects.selected)
+    return chosen if len(chosen) > 1 else armatures.subjects([context.object])
 
 
 def total(context: Context) -> Total:
@@ -252,7 +256,9 @@ def _sum(context: Context) -> Total:
         stale,
         doubtful,
         (
-            *read.total_caveats.open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
+            *open_body_caveats((obj.name, properties.method(obj)) for obj in parts),
             *read.total_caveats.total_caveats(parts, context.view_layer),
         ),
+        max((shown.trust for shown in parts.values()), key=tuple(Trust).index, default=None),
+        tuple(grouped((obj.name_full, found) for obj, shown in parts.items() for found in shown.findings)),
     )

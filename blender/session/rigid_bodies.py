@@ -65,11 +65,7 @@ class RigidBodies:
 def make_rigid_bodies(
     context: Context, objects: Sequence[Object], type: str, shape: str, frame: str, compounds: bool
 ) -> RigidBodies:
-    """Make objects rigid bodies with their mass, center of mass and principal axes.
-
-    type, shape, frame: values of the operator's properties. compounds: make each object and its descendants among
-    `objects` one body.
-    """
+    """Make objects, or each with its descendants, rigid bodies with their mass, center of mass and principal axes."""
     bodies = _bodies(objects) if compounds else [Body(obj) for obj in objects]
     measured: dict[Object, Measured] = {}
     failures: list[Finding] = []

@@ -80,10 +80,7 @@ def jointed_robot(
 def object_links(
     context: Context, name: str, objects: list[Object], step: Callable[[float], None] = lambda done: None
 ) -> SceneLinks:
-    """Return a robot with a link for each object that can be measured; a finding names the others.
-
-    EditRefusedError if none can be measured. step: gets the number of finished objects.
-    """
+    """Return a robot with a link for each measurable object; a finding names the others. step: gets finished counts."""
     depsgraph = context.evaluated_depsgraph_get()
     chosen = [obj for obj in objects if measurable(obj)]
     measured: dict[Object, Measurement] = {}
@@ -107,10 +104,7 @@ def object_links(
 def collection_links(
     context: Context, name: str, root: Collection, objects: list[Object], options: MeasureOptions = AS_SET
 ) -> SceneLinks:
-    """Return a robot with a link along the world's axes for each child collection of `root`, or for a childless `root`.
-
-    Links are assemblies. objects: the objects whose meshes the links may show.
-    """
+    """Return a robot with a link along the world's axes for each child collection of `root`, or for `root` alone."""
     depsgraph = context.evaluated_depsgraph_get()
     made, failures, members, labels = [], [], {}, {}
     collections = list(root.children) or [root]

@@ -96,10 +96,7 @@ class SimilarSearch:
         return matches
 
     def find_in_library(self, path: Path, scaled: bool, mirrored: bool) -> tuple[list[Match], list[Finding]]:
-        """Return the bodies of a library, the most similar first, and findings about records that are left out.
-
-        Measures the object first. Raises MeasureError and OSError.
-        """
+        """Return the bodies of a library, the most similar first, and findings about records that are left out."""
         entries, missing = read_library(path)
         for _ in self.measure():
             pass

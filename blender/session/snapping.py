@@ -37,10 +37,7 @@ def store_measured(context: Context, measured: Iterable[tuple[Object, Measured |
 def remeasure(
     context: Context, objects: Sequence[Object], known: Mapping[Object, Measured | Stacked] | None = None
 ) -> None:
-    """Measure and store again the objects with stored results, after an operator has moved them.
-
-    known: measurements of objects that have not moved since.
-    """
+    """Measure and store results anew after objects have moved; known: measurements of those that have not."""
     known = known or {}
     stored = [obj for obj in objects if properties.is_stored(obj)]
     if not stored:
@@ -64,11 +61,7 @@ def reframe_objects(
     move_only: bool,
     strict: bool = False,
 ) -> tuple[list[reframe.Plan], list[Finding]]:
-    """Give each object the matrix that `target_matrix` returns, while nothing visible moves.
-
-    Return the finished plans, and the reasons for refusals. `target_matrix` returns None if the object is in place
-    already. move_only: keep the axes. strict: as for `snap_target`.
-    """
+    """Give objects the frames of `target_matrix` while nothing visible moves; return finished plans and refusals."""
 
     def plans_of(
         chosen: Sequence[Object], right: dict[Object, Measured | Stacked]

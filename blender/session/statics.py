@@ -24,11 +24,7 @@ from .tracking import staleness
 
 
 def check_stability(context: Context, obj: Object, measured: list[Object]) -> list[str]:
-    """Compute and remember an object's convex hull; return texts about decisions, such as a simplified hull.
-
-    An object without up-to-date stored numbers is measured and stored before, and added to `measured`. Raises
-    MeasureError if the object has no certain center or no surface.
-    """
+    """Compute and remember an object's convex hull, measuring it if needed; return texts about decisions."""
     depsgraph = context.evaluated_depsgraph_get()
     if properties.stored(obj) is None or staleness.stale_reason(obj, context.scene):
         result = measure_body(obj, depsgraph)
@@ -48,11 +44,7 @@ def check_stability(context: Context, obj: Object, measured: list[Object]) -> li
 
 
 def lay_on_ground(context: Context, obj: Object, pose: int, ground: str, notes: list[str]) -> bool:
-    """Lay the object on the ground, and return whether it had to be moved.
-
-    pose: number of a stable pose, the likeliest first, 0 for the smallest turn. ground: value of the operator's
-    property. notes: gets texts about decisions.
-    """
+    """Lay the object on the ground, on its likeliest pose `pose` or the nearest (0); return whether it had to move."""
     reframe.check_movable(obj)
     measured: list[Object] = []
     notes += check_stability(context, obj, measured)
@@ -92,10 +84,7 @@ def _ground(context: Context, obj: Object, ground: str, center: NDArray, down: N
 
 
 def _shortest_turn(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the (3, 3) rotation by the smallest angle that takes one (3,) unit vector to another.
-
-    For opposite vectors it is a half turn about an axis across them.
-    """
+    """Return the (3, 3) rotation by the smallest angle from one (3,) unit vector to another."""
     middle = start + end
     length = np.linalg.norm(middle)
     if length < 1e-8:

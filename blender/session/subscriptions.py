@@ -44,6 +44,7 @@ SUBSCRIPTIONS: tuple[tuple[list[Any], Callable[..., None]], ...] = (
     (handlers.on_note, displayed.forget_drawn),
     (handlers.before_undo, staleness.note_all_edits),
     (handlers.on_undo, updates.note_undo),
+    (handlers.on_undo, outcome.forget),
     (handlers.on_undo, armatures.watch_all),  # undo makes Python's references to objects invalid
     (handlers.on_load, updates.forget_file),
     (handlers.on_load, staleness.forget_file),

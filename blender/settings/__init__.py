@@ -9,8 +9,6 @@ from ...core.lazy import lazy_names
 if TYPE_CHECKING:
     from . import density as density
     from . import given as given
-    from . import grid as grid
-    from . import grid_values as grid_values
     from . import limits as limits
     from . import options as options
 
@@ -18,8 +16,6 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     density="density",
     given="given",
-    grid="grid",
-    grid_values="grid_values",
     limits="limits",
     options="options",
 )

@@ -6,7 +6,7 @@ An assembly is a collection, or an empty with its children; the rows of its tree
 """
 
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
-from bpy.types import Collection, Object, PoseBone, PropertyGroup
+from bpy.types import Collection, Context, Object, PoseBone, PropertyGroup
 
 from .given import GivenPartProperties, shows_collection
 from .hooks import part_changed
@@ -15,10 +15,7 @@ Root = Object | Collection
 
 
 class BodyMomentsAssemblyRow(PropertyGroup):
-    """One member in the tree of an assembly, as it was measured.
-
-    `name`: of the object or collection.
-    """
+    """One member in the tree of an assembly, as it was measured. `name`: of the object or collection."""
 
     depth: IntProperty(name="Depth", description="How many assemblies the member is in")
     member: EnumProperty(
@@ -68,6 +65,15 @@ class BodyMomentsAssemblySettings(GivenPartProperties, PropertyGroup):
 def is_assembly(data: Root) -> bool:
     """Return whether `data` is a collection, or an empty that stands for its children."""
     return isinstance(data, Collection) or data.type == "EMPTY" and not shows_collection(data) and bool(data.children)
+
+
+def active_assembly(context: Context) -> Root:
+    """Return the active empty if it has children, else a collection of the active object, else the active one."""
+    obj, active = context.object, context.collection
+    if obj is None or is_assembly(obj):
+        return active if obj is None else obj
+    collections = obj.users_collection
+    return active if active in collections or not collections else collections[0]
 
 
 def settings_of(data: Root) -> PropertyGroup:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ...core import density as density_engine
+from ...core.density.grid_options import GridOptions
 from ...core.measurement.findings import DENSITY_FROM_VALUE
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
@@ -20,7 +21,6 @@ from .findings import (
     OBJECT_DENSITY_USED_FOR_MATERIALS,
 )
 from .given import GivenPart
-from .grid import GridOptions
 from .preferences import default_density
 
 if TYPE_CHECKING:
@@ -50,19 +50,13 @@ class DensityField(NamedTuple):
         return "world" if self.in_world else "object"
 
     def polynomial_source(self) -> Finding:
-        """Return the source of a polynomial density.
-
-        A text with commas is shown as a list of coefficients, so that a mistaken decimal comma is noticed.
-        """
+        """Return the source of a polynomial density; a text with commas is shown as a list, as one may be mistaken."""
         text = "({}) · (1, x, y, z, …)".format(self.text) if "," in self.text else self.text
         return finding(DENSITY_FROM_POLYNOMIAL, polynomial=text, frame=self.frame)
 
 
 def density_field(settings: bpy.types.PropertyGroup) -> DensityField | None:
-    """Return the density field named by the object's settings, or None for one value or a given mass.
-
-    Raises MeasureError if a polynomial cannot be read, or no Volume object or attribute is chosen.
-    """
+    """Return the density field of the settings, None for one value or a given mass, or raise MeasureError."""
     if settings.mass_from != "DENSITY" or settings.density_from == "VALUE":
         return None
     if settings.density_from == "MATERIALS":
@@ -94,11 +88,7 @@ def material_density(material: bpy.types.Material | None) -> float | None:
 
 
 def unset_density(obj: bpy.types.Object, measurement: Measurement, scene: bpy.types.Scene) -> str | None:
-    """Return the used density setting that nobody has set: "density", "linear_density" or None.
-
-    It is set neither for the object nor for the scene. measurement: of the object, without a density or mass in the
-    options.
-    """
+    """Return the density setting that a measurement uses and nobody has set, or None."""
     settings = obj.body_moments
     used = {measurement.density_from.code, *(one.code for one in measurement.findings)}
     if not used & _BY_OBJECT:
@@ -114,10 +104,7 @@ def is_density_unset(settings: bpy.types.PropertyGroup, scene: bpy.types.Scene) 
 
 
 def density_anchor(obj: bpy.types.Object) -> str:
-    """Return the coordinates to which the object's density is fixed: "own", "world" or "".
-
-    With "own", the density changes if the object gets other axes; with "world", if the object moves.
-    """
+    """Return the coordinates to which the object's density is fixed: "own", "world" or ""."""
     settings = obj.body_moments
     if settings.mass_from != "DENSITY" or settings.density_from != "POLYNOMIAL":
         return ""
@@ -125,10 +112,7 @@ def density_anchor(obj: bpy.types.Object) -> str:
 
 
 def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
-    """Return a key of the density of a Volume object, "" if its grid is measured as a solid.
-
-    density: as for `GridOptions.from_settings`.
-    """
+    """Return a key of the density of a Volume object, "" if its grid is measured as a solid."""
     grid = GridOptions.from_settings(obj.body_moments, density)
     return "" if grid.solid else repr(grid.key)
 

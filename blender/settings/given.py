@@ -70,10 +70,7 @@ class GivenPart(NamedTuple):
 
     @classmethod
     def from_settings(cls, settings: PropertyGroup, unit: float) -> "GivenPart":
-        """Return the given values in the settings of an object or assembly.
-
-        unit: meters per Blender unit.
-        """
+        """Return the given values in the settings of an object or assembly. unit: meters per Blender unit."""
         center = inertia = None
         if settings.use_center:
             center = tuple(unit * shortest_decimal(value) for value in settings.given_center)

@@ -15,6 +15,7 @@ from bpy.types import AddonPreferences, Context, Scene
 from ...core.density.materials import BY_NAME, MATERIALS
 from ...core.numerics.float32 import shortest_decimal
 from .hooks import default_density_changed
+from .links import draw_links
 
 ADDON_ID = __name__.removesuffix(".blender.settings.preferences")
 MATERIAL_ITEMS = [
@@ -50,7 +51,7 @@ class SceneDefaults:
     digits: IntProperty(
         name="Precision",
         description="Significant digits of the largest number of a column. Copied values always have all digits",
-        default=6,
+        default=4,
         min=2,
         max=15,
     )
@@ -105,10 +106,17 @@ class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
         soft_max=100.0,
         precision=1,
     )
+    show_advanced: BoolProperty(
+        name="Advanced",
+        description="Show the menu and the panel Advanced: moments of any order, Fourier transforms, sections, "
+        "signatures, density polynomials",
+        default=False,
+    )
 
     def draw(self, _context: Context) -> None:
         layout = self.layout
         layout.use_property_split = True
+        draw_links(layout.row())
         layout.label(text="Defaults, copied into a scene when it is first used")
         column = layout.column()
         column.prop(self, "default_material")
@@ -123,7 +131,9 @@ class BodyMomentsPreferences(SceneDefaults, AddonPreferences):
         column.prop(self, "show_overlay")
         layout.separator()
         layout.label(text="For all scenes")
-        layout.column().prop(self, "live_budget")
+        column = layout.column()
+        column.prop(self, "live_budget")
+        column.prop(self, "show_advanced")
 
 
 def preferences() -> BodyMomentsPreferences | None:
@@ -132,11 +142,14 @@ def preferences() -> BodyMomentsPreferences | None:
     return None if addon is None else addon.preferences
 
 
-def copy_defaults(scene: Scene) -> None:
-    """Copy the preferences into a scene into which they have not been copied yet.
+def shows_advanced() -> bool:
+    """Return whether analyses that few need are shown; without an enabled add-on nothing could switch them on."""
+    chosen = preferences()
+    return chosen is None or chosen.show_advanced
 
-    Meant for operators that a user starts.
-    """
+
+def copy_defaults(scene: Scene) -> None:
+    """Copy the preferences into a scene that has none yet; meant for operators that a user starts."""
     settings, source = scene.body_moments, preferences()
     if source is None or settings.has_defaults or not scene.is_editable:
         return

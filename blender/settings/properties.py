@@ -340,10 +340,7 @@ def density_field_name(scene: Scene) -> str:
 
 
 def copy_settings(source: PropertyGroup, target: PropertyGroup) -> bool:
-    """Copy COPIED_PROPERTIES; return whether any value was different.
-
-    A property that is set in the source becomes set in the target, too, even if the values are equal.
-    """
+    """Copy COPIED_PROPERTIES, set ones even if equal; return whether any value was different."""
     changed = False
     for name in COPIED_PROPERTIES:
         value = getattr(source, name)

@@ -30,10 +30,7 @@ def with_options(options: MeasureOptions, **values: Any) -> Settings:
 def object_settings(
     obj: Object, scene: Scene, options: MeasureOptions = AS_SET, unit: float | None = None, varying: str = ""
 ) -> Settings:
-    """Return the options with every gap filled from the object's properties, or a missing density from the scene's.
-
-    unit: meters per Blender unit, by default the scene's. varying: as in `Settings`.
-    """
+    """Return the options with gaps filled from the object's, and the scene's, settings; varying: as in `Settings`."""
     properties = obj.body_moments
     density, mass = options.density, options.mass
     unit = unit or options.meters_per_unit(scene)

@@ -23,12 +23,13 @@ class BodyMomentsOverlaySettings(PropertyGroup):
     )
     show_all: BoolProperty(
         name="All Measured Objects",
-        description="Draw all visible measured objects instead of the selected ones",
+        description="Draw all visible measured objects instead of the selected ones. From 20 objects on, only the "
+        "sum, doubtful ones and the active one are drawn",
         default=False,
     )
     show_axes: BoolProperty(
         name="Principal Axes",
-        description="Draw the principal axes 1, 2 and 3, each as long as its radius of gyration in both directions",
+        description="Draw the principal axes 1, 2 and 3 in the colors of X, Y and Z",
         default=True,
     )
     show_drop_line: BoolProperty(

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from ... import core
 from ...core.inertia.plain_body import BOUND_KEYS, COLUMNS, ROWS, PlainBody, rotation_axes
 from ...core.measurement.documents import plain
 from ...core.measurement.findings import DENSITY_FROM_MASS, DENSITY_FROM_VALUE
@@ -86,10 +87,7 @@ ROUNDING = 2.0**-52  # relative, for a product of two rounded numbers
 
 
 def store(obj: Owner, measurement: Measurement) -> None:
-    """Write all results on an object, a collection or a pose bone.
-
-    Raises EditRefusedError if the owner cannot hold them.
-    """
+    """Write all results on an object, a collection or a pose bone. Raises EditRefusedError if it cannot hold them."""
     require_storable(obj)
     body, bound = measurement.in_object_frame(), measurement.error_bound
     row = (
@@ -187,10 +185,7 @@ def _write(obj: Owner, values: dict[str, Any]) -> None:
 
 
 def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Finding], fingerprint: str) -> None:
-    """Scale the stored results to another density: mass, inertia and its bounds change by a factor.
-
-    The results must be finite, and the owner able to hold them. density: the mean in kg/m³, 0 for a wire. mass: in kg.
-    """
+    """Scale stored finite results to another density: mass, inertia and its bounds. density: mean, 0 for a wire."""
     factor = mass / obj["body_mass"]
     for key in ("body_inertia", "body_inertia_diagonal", "body_inertia_products", "body_principal_moments"):
         obj[key] = [factor * value for value in obj[key]]
@@ -199,6 +194,21 @@ def store_scaled(obj: Owner, density: float, mass: float, findings: Sequence[Fin
     obj["body_error_bound"] = bounds
     obj["body_mass"], obj["body_density"], obj["body_fingerprint"] = mass, density, fingerprint
     obj["body_findings"], obj["body_warnings"] = findings_text(findings), warning_lines(findings)
+    retrigger_drivers(obj)
+
+
+def store_body(obj: Owner, body: PlainBody, fingerprint: str) -> None:
+    """Replace the numbers of stored results, in the object frame; method and findings stay."""
+    bounds = [bound[name] for bound in (body.error_bound, body.error_bound["input"]) for name in BOUND_KEYS]
+    turn = core.numerics.rotations.quaternion([list(axis) for axis in zip(*body.axes)]).tolist()
+    row = body.mass, body.density, body.volume, body.area, body.center, body.inertia, body.moments, turn, bounds
+    values = dict(zip(LENGTHS, row)) | {
+        "body_inertia_diagonal": body.inertia[:3],
+        "body_inertia_products": body.inertia[3:],
+        "body_fingerprint": fingerprint,
+    }
+    for key, value in values.items():
+        obj[key] = value
     retrigger_drivers(obj)
 
 
@@ -215,10 +225,7 @@ def _description(key: str, owner: type) -> str:
 
 
 def store_reference(obj: Owner, values: dict) -> None:
-    """Write results about a reference, in place of earlier results about one; other results stay.
-
-    Raises EditRefusedError if the owner cannot hold them.
-    """
+    """Write results about a reference, in place of earlier ones, or raise EditRefusedError."""
     require_storable(obj)
     for key in DESCRIPTIONS:
         if key.startswith(REFERENCE_KEYS) and key not in values and key in obj:
@@ -298,10 +305,7 @@ def findings_text(findings: Iterable[Finding]) -> str:
 
 
 def findings_in(text: object) -> tuple[Finding, ...]:
-    """Return the findings in a stored text, or none if `findings_text` did not write it.
-
-    A finding that this version of the add-on cannot put into words is left out.
-    """
+    """Return the findings in a stored text that can be put into words; none if `findings_text` did not write it."""
     return _findings_in(text) if isinstance(text, str) else ()
 
 

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that carry out the advice of findings."""
+"""The remedies of findings: what one press of a button does, and which findings it is for."""
+
+from typing import NamedTuple
 
 from ...core.inertia.findings import NEGATIVE_INERTIA
 from ...core.measurement.findings import NO_VOLUME
@@ -20,21 +22,43 @@ from ...core.solid.findings import (
 )
 from ...core.verdict.findings import FLIPPED_FACES, SELF_INTERSECTION
 
-UNION = "object.body_moments_count_as_union"
-OUTSIDE = "object.body_moments_recalculate_outside"
+
+class Remedy(NamedTuple):
+    """A change of an object after which it is measured again."""
+
+    name: str
+    description: str
+    icon: str
+
+
+REPAIR = "object.body_moments_remedy"  # the operator of all `REMEDIES`
+SELECT = "object.body_moments_select_refused"
 DEFECTS = "object.body_moments_select_faults"
-SHELL = "object.body_moments_measure_as_shell"
-REMEDIES: dict[str, tuple[str, ...]] = {
+FILL, OUTSIDE, MERGE, DUPLICATES, UNION, SHELL = "FILL_HOLES", "OUTSIDE", "MERGE", "DUPLICATES", "UNION", "SHELL"
+REMEDIES = {
+    FILL: Remedy("Fill Holes", "Close the holes of the mesh with faces", "MESH_PLANE"),
+    OUTSIDE: Remedy(
+        "Recalculate Outside",
+        "Reverse the faces that were measured as reversed: flipped ones, and those of components that are inside out. "
+        "Cavities keep facing inward",
+        "NORMALS_FACE",
+    ),
+    MERGE: Remedy("Merge by Distance", "Merge vertices as close as those that were welded", "AUTOMERGE_ON"),
+    DUPLICATES: Remedy("Delete Duplicate Faces", "Delete the later copies of faces", "X"),
+    UNION: Remedy("Count as Union", "Unite overlapping components before they are measured", "MOD_BOOLEAN"),
+    SHELL: Remedy("Measure as Shell", "Measure the surface as a sheet with a thickness", "MOD_SOLIDIFY"),
+}
+ADVICE: dict[str, tuple[str, ...]] = {
     COMPONENTS_NESTED: (UNION,),
     COMPONENTS_OVERLAP: (UNION,),
     SELF_INTERSECTING: (UNION,),
     SELF_INTERSECTION: (UNION,),
     FLIPPED_FACES: (OUTSIDE, DEFECTS),
     INVERTED_COMPONENTS: (OUTSIDE,),
-    HOLES_CAPPED: (DEFECTS, SHELL),
-    DUPLICATE_FACES_IGNORED: (DEFECTS,),
-    DUPLICATE_FACES_COUNTED: (DEFECTS,),
-    VERTICES_WELDED: (DEFECTS,),
+    HOLES_CAPPED: (FILL, DEFECTS, SHELL),
+    DUPLICATE_FACES_IGNORED: (DUPLICATES, DEFECTS),
+    DUPLICATE_FACES_COUNTED: (DUPLICATES, DEFECTS),
+    VERTICES_WELDED: (MERGE, DEFECTS),
     ONE_SIDED_COMPONENTS: (SHELL,),
     NON_MANIFOLD_COMPONENTS: (DEFECTS, SHELL),
     FLAT_COMPONENTS: (SHELL,),
@@ -42,10 +66,10 @@ REMEDIES: dict[str, tuple[str, ...]] = {
     NO_VOLUME: (SHELL,),
     NEGATIVE_INERTIA: (UNION, SHELL),
 }
-MESH_ONLY = (OUTSIDE, DEFECTS)
+EDITS = (FILL, OUTSIDE, MERGE, DUPLICATES)  # edits of a mesh
 
 
 def remedies_of(code: str, object_type: str) -> tuple[str, ...]:
-    """Return the idnames of the operators that carry out the advice of a finding about an object of this type."""
-    found = REMEDIES.get(code, ())
-    return found if object_type == "MESH" else tuple(idname for idname in found if idname not in MESH_ONLY)
+    """Return the remedies of a finding about an object of this type: keys of REMEDIES, or an operator's idname."""
+    found = ADVICE.get(code, ())
+    return found if object_type == "MESH" else tuple(key for key in found if key not in (*EDITS, DEFECTS))

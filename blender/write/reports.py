@@ -26,10 +26,7 @@ LEVELS = {Severity.NOTE: "INFO", Severity.WARNING: "WARNING", Severity.ERROR: "E
 
 
 def phrase(template: str, plural: str | None = None, /, **values: Any) -> str:
-    """Return an interface text, translated and filled with values in the same way as sentences of findings.
-
-    plural: the template for a `count` other than 1.
-    """
+    """Return an interface text, translated and filled as sentences are; plural: for a `count` other than 1."""
     return fill(template, plural, values, bpy.app.translations.pgettext_rpt, _length)
 
 

@@ -141,10 +141,7 @@ def _from_keys(numbers: tuple[tuple[float, ...], ...], words: tuple[str, ...]) -
 
 
 def text(name: str, section: StoredSection, outdated: str | None = None) -> str:
-    """Return a report that a person reads, in SI units.
-
-    outdated: the reason why the section no longer holds.
-    """
+    """Return a report that a person reads, in SI units. outdated: the reason why the section no longer holds."""
     return "\n".join(_lines(name, section, outdated)) + "\n"
 
 

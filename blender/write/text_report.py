@@ -31,10 +31,7 @@ BOUNDS = {"volume": "m³", "area": "m²", "center_of_mass": "m", "inertia": "kg�
 def report_text(
     context: Any, objects: Sequence[Any], outdated: Collection[str] = (), caveats: Sequence[Finding] = ()
 ) -> str:
-    """Return a report of the results stored on `objects`, in the frame that the context's scene is set to.
-
-    outdated: names of objects with outdated results. Objects without results are named too. caveats: about their total.
-    """
+    """Return a report of results stored on objects, in the scene's frame; outdated: names; caveats: about the total."""
     return text(stored_document(context, objects, outdated, caveats))
 
 
@@ -46,10 +43,7 @@ def stored_document(
     file: str | None = None,
     blender: str | None = None,
 ) -> dict[str, Any]:
-    """Return the document of the results stored on `objects`; see `report_text`.
-
-    The health of their meshes is not stored.
-    """
+    """Return the document of the results stored on `objects`; see `report_text`. Their health is not stored."""
     scene = context.scene
     unit, frame = shortest_decimal(scene.unit_settings.scale_length), scene.body_moments.frame.lower()
     entries, bodies, errors = [], [], []
@@ -207,10 +201,7 @@ def _stored_record(obj: Any, stored: PlainBody, outdated: bool) -> dict[str, Any
 
 
 def _stored_total(entries: Sequence[dict[str, Any]], bodies: Sequence[PlainBody]) -> dict[str, Any]:
-    """Return the sum of all stored results as one body, world frame.
-
-    Principal axes are left out: their signs need third moments, which are not stored.
-    """
+    """Return the sum of stored results, world frame, without axes, whose signs need third moments."""
     total = {name: sum(entry[name] for entry in entries) for name in ("mass", "volume", "area")}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments"))
     whole = add_bodies(bodies)

@@ -37,10 +37,7 @@ _FUZZY = r"(?m)^#,.*\bfuzzy\b"  # a tool's guess that no translator has confirme
 
 
 def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
-    """Yield (context or None, English text, translation) of each singular and plural that is translated.
-
-    Blender looks up singular and plural as two texts, so that the plural takes the language's last form.
-    """
+    """Yield (context or None, English text, translation) of each translated singular and (last form) plural."""
     for block in re.split(r"\n\s*\n", path.read_text(encoding="utf-8")):
         if re.search(_FUZZY, block):
             continue
@@ -57,10 +54,7 @@ def read_po(path: Path) -> Iterator[tuple[str | None, str, str]]:
 
 
 def read_translations(locale: str) -> dict[tuple[str, str], str]:
-    """Return translations by (context, English text), empty if no file is named like the locale or its language.
-
-    Names of operators have a context of their own, so that a text without context stands under each.
-    """
+    """Return translations by (context, English text), {} without a file; those without context stand under each."""
     contexts = bpy.app.translations.contexts
     everywhere = (contexts.default, contexts.operator_default, CONTEXT)
     paths = [FOLDER / f"{name}.po" for name in (locale, locale.partition("_")[0])]
@@ -74,10 +68,7 @@ def read_translations(locale: str) -> dict[tuple[str, str], str]:
 
 @persistent
 def register_language(*_: Any) -> None:
-    """Give Blender the translations into the interface's language, if there are any.
-
-    Translations into an earlier language may stay, because Blender keeps languages apart by locale.
-    """
+    """Give Blender the translations into the interface's language, if there are any."""
     locale = bpy.app.translations.locale
     if translations := read_translations(locale):
         bpy.app.translations.unregister(ADDON_ID)

@@ -72,6 +72,8 @@ SI_UNITS = {
     "area_moment": "m⁴",
 }
 DIGITS = 6
+SMALL_LENGTHS = ("CENTIMETERS", "MILLIMETERS", "MICROMETERS")  # beside these, masses are in grams
+HEAVY = 1e4  # kg: from here on, masses are in tonnes
 GROUPS = {"SPACE": "\u2009", "COMMA": ",", "NONE": ""}  # separators of groups of three digits
 MIN_GROUPED = 5  # integers of fewer digits are read at a glance
 MIN_EXPONENT, MAX_EXPONENT = -5, 10  # beyond these, powers of ten are shown
@@ -104,8 +106,11 @@ class Units(NamedTuple):
         return cls(*units) if shown is None else cls(*units, shown.density_unit, shown.digits, shown.digit_grouping)
 
     def text(self, quantity: str, value: float) -> str:
-        """Return one SI value as text: "1.5 kg", "12.3457 cm²"."""
-        return self.texts(quantity, (value,))[0]
+        """Return one SI value as text: "1.5 kg", "12.3457 cm²"; a density in g/cm³ too where grams are shown."""
+        text = self.texts(quantity, (value,))[0]
+        if quantity == "density" and self.shows_grams and text.endswith(SI_UNITS["density"]):
+            text += " ({:s} g/cm³)".format(number(1e-3 * value, self.digits, self.grouping))
+        return text
 
     def texts(self, quantity: str, values: Sequence[float], size: float = 0.0) -> list[str]:
         """Return SI values of one quantity as a column, all in one unit with equally many decimals.
@@ -138,6 +143,16 @@ class Units(NamedTuple):
             return DENSITY_UNITS[density_unit(self.density, self.system)]
         return self._inertia(value)
 
+    @property
+    def _has_default_mass(self) -> bool:
+        """Whether nobody has chosen another unit of mass than that of a new scene."""
+        return self.system == "METRIC" and self.mass == "KILOGRAMS"
+
+    @property
+    def shows_grams(self) -> bool:
+        """Whether masses are in grams, because lengths are in centimeters or less, or as chosen."""
+        return self.mass == "GRAMS" or self._has_default_mass and self.length in SMALL_LENGTHS
+
     def _length(self, value: float) -> tuple[float, str]:
         table = LENGTHS[self.system]
         if self.length != "ADAPTIVE":
@@ -146,6 +161,9 @@ class Units(NamedTuple):
 
     def _mass(self, value: float) -> tuple[float, str]:
         table = MASSES[self.system]
+        if self.shows_grams or self._has_default_mass:
+            small = self.shows_grams or self.length == "ADAPTIVE" and 0.0 < value < 1.0
+            return table["TONNES" if value > HEAVY else "GRAMS" if small else "KILOGRAMS"]
         if self.mass != "ADAPTIVE":
             return table[self.mass]
         base = table[BASES[self.system][1]]
@@ -155,7 +173,8 @@ class Units(NamedTuple):
         masses, lengths = MASSES[self.system], LENGTHS[self.system]
         if self.mass != "ADAPTIVE" or self.length != "ADAPTIVE":
             base_length, base_mass = BASES[self.system]
-            mass, length = masses.get(self.mass, masses[base_mass]), lengths.get(self.length, lengths[base_length])
+            mass = masses["GRAMS"] if self.shows_grams else masses.get(self.mass, masses[base_mass])
+            length = lengths.get(self.length, lengths[base_length])
             return mass[0] * length[0] ** 2, "{:s}·{:s}²".format(mass[1], length[1])
         return _fitting_unit(ADAPTIVE_INERTIAS[self.system], value, ADAPTIVE_INERTIAS[self.system][0])
 

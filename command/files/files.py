@@ -13,17 +13,12 @@ import gzip
 import os
 import re
 import sys
-import zipfile
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from pathlib import Path
 
 import bpy
 
-from ...core.scans import formats as scans
-from ...core.scans.findings import DAMAGE_INCOMPLETE, FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
-from ...core.scans.scan import damaged
 from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...core.verdict.finding import FileError, Finding, finding, system_reason
 from ..findings import FILE_NEWER_VERSION, FILE_VERSION_UNSUPPORTED
@@ -34,15 +29,12 @@ from .import_mesh import import_mesh
 from .import_surfaces import import_iges, import_obj
 from .import_usd import import_usd
 from .references import Opened
+from .suffixes import BLEND, USD, check_file, file_suffix
 
-BLEND = ".blend"
 _OLDEST = (2, 50)  # reading files of older versions can damage their content
 _KNOWN_FORMAT = 1  # version of the .blend format
 _TRACEBACK = "Traceback (most recent call last)"
-UNITLESS = (".stl", ".obj", ".ply")
-STREAMED = (".stl", ".ply")  # formats that can be measured without an import
 _BLEND_WORD = re.compile(r"\.blend\d*$", re.IGNORECASE)
-USD = (".usd", ".usda", ".usdc", ".usdz")
 
 _IMPORTERS: dict[str, Callable[[str], object]] = {
     **dict.fromkeys((".stl", ".ply"), import_mesh),
@@ -53,11 +45,6 @@ _IMPORTERS: dict[str, Callable[[str], object]] = {
     **dict.fromkeys((".glb", ".gltf"), import_gltf),
     **dict.fromkeys(USD, import_usd),
 }
-
-
-def file_suffix(path: str) -> str:
-    """Return the file's suffix in lower case."""
-    return scans.scan_suffix(path) or Path(path.lower()).suffix
 
 
 def open_file(path: str) -> Opened:
@@ -126,41 +113,6 @@ def newer_version() -> Iterator[Finding]:
     version = tuple(bpy.data.version[:2])
     if version > tuple(bpy.app.version[:2]):
         yield finding(FILE_NEWER_VERSION, version="{}.{}".format(*version), blender=bpy.app.version_string)
-
-
-def check_file(path: str) -> None:
-    """Raise FileError if a file cannot be opened, or is visibly cut short."""
-    kind = file_suffix(path)
-    if kind != BLEND and kind not in _IMPORTERS:
-        raise FileError(FILE_TYPE, suffixes=" ".join((BLEND, *_IMPORTERS, *scans.SUFFIXES)))
-    if not os.path.exists(path):
-        raise FileError(FILE_MISSING)
-    if not os.path.isfile(path):
-        raise FileError(FILE_NOT_REGULAR)
-    try:
-        with open(path, "rb") as file:
-            is_empty = not file.read(1)
-    except OSError as error:
-        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
-    if is_empty:
-        raise FileError(FILE_UNREADABLE, error="it is empty")
-    if kind == ".usdz":
-        _check_usdz(Path(path))
-
-
-def _check_usdz(path: Path) -> None:
-    """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            stored = [entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED]
-            if sum(entry.file_size for entry in stored) > path.stat().st_size:
-                raise zipfile.BadZipFile("overlapping entries")
-            for entry in stored:
-                with archive.open(entry) as file:
-                    while file.read(1 << 20):
-                        pass
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
-        raise damaged(path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")) from error
 
 
 def reason(error: Exception) -> str:

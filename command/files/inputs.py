@@ -6,11 +6,9 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
-
-import bpy
 
 from ...blender.settings.limits import scan_limits
 from ...core.scans.nrrd import data_file, read_header
@@ -24,14 +22,12 @@ _UNREADABLE = (OSError, RuntimeError, MeasureError, *MALFORMED)
 _ASSET = re.compile(rb"@@@(.+?)@@@|@([^@\n]+)@")
 
 
-def references(path: str, is_open: bool) -> set[Path]:
+def references(path: str, opened: Iterable[str] = ()) -> set[Path]:
     """Return the files, existing or not, that a file refers to directly or indirectly.
 
-    is_open: whether the file is the open scene. Layers in binary USD layers are not found, nor are missing tiles.
+    opened: the files that Blender has read with it. Layers in binary USD layers are not found, nor are missing tiles.
     """
-    waiting, known = [Path(path)], set()
-    if is_open:
-        waiting += map(Path, bpy.utils.blend_paths(absolute=True, packed=False))
+    waiting, known = [Path(path), *map(Path, opened)], set()
     while waiting:
         file = waiting.pop()
         with suppress(*_UNREADABLE):

@@ -10,15 +10,13 @@ import os
 from contextlib import redirect_stderr, suppress
 from typing import Any
 
-import bpy
-
 from ..files.inputs import references
 from ..interruption import Progress
 from ..options.arguments import parse
 from ..options.checks import prepare
 from ..supervisor.journal import state
 from ..supervisor.lifeline import Lifeline
-from .run import Run
+from .run import Run, blender_version
 
 
 def serve(line: Lifeline) -> None:
@@ -34,7 +32,7 @@ def serve(line: Lifeline) -> None:
         line.answer({"usage": said.getvalue()})
         return
     run = Run(options, setup["threads"], setup["memory"], lambda file, what: _Told(file, what, line))
-    line.answer({"ready": {"blender": ".".join(map(str, bpy.app.version))}})
+    line.answer({"ready": {"blender": blender_version()}})
     for message in messages:
         with suppress(OSError):
             os.ftruncate(2, 0)  # Remove output about the previous file.
@@ -46,7 +44,7 @@ def _measure(run: Run, path: str, line: Lifeline) -> None:
     faults, before = run.internal_errors, state(path)
     document = run.document(path)
     head: dict[str, Any] = {"faults": run.internal_errors - faults, "state": state(path) if run.has_saved else before}
-    names = sorted(map(os.fspath, references(path, run.has_opened)))
+    names = sorted(map(os.fspath, references(path, run.opened)))
     head["reads"] = {name: state(name) for name in names}
     line.answer(head, json.dumps(document, allow_nan=False).encode() + b"\n")
 

@@ -26,7 +26,7 @@ from ...core.measurement import record
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import MeasureError
 from ...core.verdict.method import Verdict
-from .objects import failure
+from .entries import failure
 
 Internal = Callable[[str | None, Exception], dict[str, Any]]
 

@@ -11,7 +11,6 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...blender.bodies.findings import SIGNATURE_NEEDS_POLYGONS
 from ...blender.bodies.measure_object import Measured, measure_object
 from ...blender.bodies.shape.shape import NoShapeError, shape_of
 from ...blender.bodies.stacks.many import measured_in_turn
@@ -19,6 +18,7 @@ from ...blender.bodies.stacks.stack import Stacked
 from ...blender.read.objects import read_object
 from ...blender.settings.options import MeasureOptions
 from ...blender.write.thumbnail import thumbnail
+from ...core.bodies.findings import SIGNATURE_NEEDS_POLYGONS
 from ...core.measurement.measurement import Measurement
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, MeasureError, finding

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+from argparse import Namespace
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import bpy
@@ -15,24 +16,10 @@ from ...blender.read.visibility import measurable, measurable_objects
 from ...blender.session.findings import NO_SUCH_NAME
 from ...blender.settings.given import shows_collection
 from ...core.scans.findings import OTHERS_LEFT_OUT
-from ...core.verdict.finding import Finding, finding, unique
+from ...core.verdict.finding import Finding, QueryError, finding
 from ..findings import NO_MEASURABLE_OBJECT, NOTHING_RENDERED
-
-
-def failure(name: str | None, reason: Finding) -> dict[str, Any]:
-    """Return an entry of a document's `errors` or `left_out`: an object's name and the reason."""
-    return {"name": name, "reason": str(reason)}
-
-
-def said_once(entries: Sequence[dict[str, Any]], code: str) -> Iterator[Finding]:
-    """Yield the finding with a code, to be said once of a file, if several records all have it; it leaves them."""
-    found = [(entry, one) for entry in entries for one in entry["findings"] if one["code"] == code]
-    if len(found) < len(entries) or len(entries) < 2:
-        return
-    for entry, one in found:
-        entry["findings"].remove(one)
-        entry["warnings"].remove(one["message"])
-    yield from unique(finding(code, **one["values"]) for _, one in found)
+from ..options.option_types import split_source
+from .entries import failure
 
 
 def why_nothing(left_out: int) -> Finding:
@@ -88,3 +75,26 @@ def other_scenes(scene: bpy.types.Scene) -> Iterator[Finding]:
     other_scenes = [other.name for other in bpy.data.scenes if any(measurable(obj) for obj in {*other.objects} - here)]
     if other_scenes:
         yield finding(OTHERS_LEFT_OUT, kind="scene", name=scene.name, others=other_scenes)
+
+
+def set_density(obj: bpy.types.Object, options: Namespace) -> None:
+    """Set the source of the object's density and the threshold of its grid, if given. Raises MeasureError.
+
+    The object's settings change in memory. Only --write saves them, together with the results.
+    """
+    settings = obj.body_moments
+    if options.threshold is not None and obj.type == "VOLUME":
+        settings.grid_as, settings.threshold = "THRESHOLD", options.threshold
+    if options.polynomial is not None:
+        settings.mass_from, settings.density_from = "DENSITY", "POLYNOMIAL"
+        settings.density_polynomial = options.polynomial
+    elif options.density_from is not None:
+        source, name = split_source(options.density_from)
+        settings.mass_from, settings.density_from = "DENSITY", source.upper()
+        if source == "attribute":
+            settings.density_attribute = name
+        elif source == "volume":
+            volume = bpy.context.scene.objects.get(name)
+            if volume is None or volume.type != "VOLUME":
+                raise QueryError(NO_SUCH_NAME, kind="Volume object", name=name)
+            settings.density_volume = volume

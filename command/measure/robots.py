@@ -30,7 +30,7 @@ from ...core.robots.write.texts import robot_text, with_geometry
 from ...core.verdict.finding import MeasureError, Severity, finding, system_reason
 from ...core.verdict.sentences import sentence, severity
 from ..files.output import is_stream
-from .objects import failure
+from .entries import failure
 
 MeasuredObject = tuple[str, bpy.types.Object | None, Measurement]
 

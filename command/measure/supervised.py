@@ -28,7 +28,7 @@ from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from ...core.verdict.finding import Finding, finding, system_reason
 from ..files import output, own_results
 from ..findings import FILE_CRASHED, FILE_TIMED_OUT, FILE_TOOK_MEMORY
-from ..options import targets
+from ..options import needs_blender, targets
 from ..options.arguments import ONE_FILE, ONE_OBJECT, fail, files_of_options, of_numbers, run_of, version
 from ..options.formats import FORMATS
 from ..options.measure_parser import DEFAULT_TIMEOUT
@@ -47,9 +47,9 @@ def measure(options: Namespace, channel: int, opened: str | None) -> int:
     """
     end_with_window()
     paths = files_of(options)
+    if options.blender is None:
+        needs_blender.check(options, paths)
     command = processes.run_command(_blender(options), ["child"])
-    if command is None:
-        fail("No module named 'bpy' is here. Use --blender PATH, or install it")
     targets.check_targets(options, files_of_options(options, paths, opened))
     with ExitStack() as ends:
         places = _Places(options, ends)

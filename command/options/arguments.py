@@ -20,7 +20,7 @@ from typing import Any, NoReturn
 from ...core.robots.formats import FORMATS as ROBOT_FORMATS
 from .measure_parser import DEFAULT_ORDER, measure_parser
 
-TARGETS = ("output", "fourier")  # options whose files are written
+TARGETS = ("output", "fourier", "write_baseline")  # options whose files are written
 
 # These options change no number: two runs that differ in these alone have the same records.
 _OF_RUNS = {
@@ -75,6 +75,11 @@ def parse(argv: list[str], file_needed: bool = False) -> argparse.Namespace:
 def fail(reason: str) -> NoReturn:
     """Print the reason with the usage to the standard error, and raise SystemExit(2)."""
     measure_parser().error(reason)
+
+
+def words(names: Iterable[str]) -> list[str]:
+    """Return the options as they are written, such as “--unit-scale”."""
+    return ["--" + name.replace("_", "-") for name in names]
 
 
 def of_numbers(options: argparse.Namespace) -> dict[str, Any]:

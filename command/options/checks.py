@@ -10,21 +10,22 @@ from __future__ import annotations
 from argparse import Namespace
 from dataclasses import replace
 
-import bpy
-
 from ...blender.settings.limits import scan_limits
 from ...core.verdict.finding import MeasureError
-from ..measure import fourier
 from ..parser import UsageError
 from . import density as density_options
 from . import targets
 from .arguments import fail, files_of_options
+from .waves import wave_vectors_of
 
 
-def check(options: Namespace) -> None:
-    """Prepare a measurement and check output files, in a process that both measures and writes."""
+def check(options: Namespace, opened: str | None) -> None:
+    """Prepare a measurement and check output files, in a process that both measures and writes.
+
+    opened: the file that this process has open, if any.
+    """
     prepare(options)
-    targets.check_targets(options, files_of_options(options, options.files, bpy.data.filepath))
+    targets.check_targets(options, files_of_options(options, options.files, opened))
 
 
 def prepare(options: Namespace) -> None:
@@ -35,6 +36,6 @@ def prepare(options: Namespace) -> None:
     except (MeasureError, UsageError) as error:
         fail(str(error))
     try:
-        options.waves = fourier.wave_vectors_of(options)
+        options.waves = wave_vectors_of(options)
     except (MeasureError, UsageError) as error:
         fail("argument --{}: {}".format("grid" if options.q is None else "q", error))

@@ -9,19 +9,15 @@ from collections.abc import Iterable, Iterator
 
 from ...core.measurement.measurement import Measurement
 from ...core.verdict.finding import Finding, finding
-from ..files.files import UNITLESS, file_suffix
+from ..files.suffixes import UNITLESS, file_suffix
 from ..findings import OPTIONS_UNUSED, UNIT_ASSUMED
+from .arguments import words
 
 OF_ARRAYS = ("spacing", "origin", "spline_order", "density_scale", "positions")
 
 
 def is_unitless(path: str | None) -> bool:
     return path is not None and file_suffix(path) in UNITLESS
-
-
-def words(names: Iterable[str]) -> list[str]:
-    """Return the options as they are written, such as “--unit-scale”."""
-    return ["--" + name.replace("_", "-") for name in names]
 
 
 def unused(names: Iterable[str]) -> Iterator[Finding]:

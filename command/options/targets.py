@@ -29,7 +29,7 @@ def check_targets(options: Namespace, read: Sequence[str | Path], fail: Fail = f
         except OSError as error:  # a name that is too long, a folder that may not be entered
             refusal = "{}: {}. Use another name".format(error.filename or target, system_reason(error))
         if refusal:
-            fail("argument --{}: {}".format(option, refusal))
+            fail("argument --{}: {}".format(option.replace("_", "-"), refusal))
 
 
 def _find_refusal(target: Path, read: Sequence[str | Path], force: bool) -> str:

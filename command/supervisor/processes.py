@@ -25,16 +25,19 @@ _GRACE = 0.4  # seconds to clean up in, for a child that is asked to end
 _SWITCHES = ("-b", "--factory-startup", "--disable-autoexec", "--offline-mode", "-q", "--python-exit-code", "70")
 
 
-def run_command(blender: str | None, words: Sequence[str]) -> list[str] | None:
-    """Return the command that runs our command line with these words in a Blender, else in Python; None without bpy."""
+def run_command(blender: str | None, words: Sequence[str]) -> list[str]:
+    """Return the command that runs our command line with these words in a Blender, else in this Python."""
     batch = importlib.util.find_spec("...operators.batch", __package__)
     assert batch is not None and batch.origin is not None
     script = str(Path(batch.origin).resolve())
     if blender is not None:
         return [blender, *_SWITCHES, "--python", script, "--", *words]
-    if importlib.util.find_spec("bpy") is None:
-        return None
     return [sys.executable, script, *words]
+
+
+def has_blender() -> bool:
+    """Return whether this process is a Blender, or this Python has the bpy module."""
+    return sys.modules.get("bpy") is not None or importlib.util.find_spec("bpy") is not None
 
 
 def start(command: Sequence[str], folder: Path, log: Path) -> subprocess.Popen[bytes]:

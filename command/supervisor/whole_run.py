@@ -25,8 +25,6 @@ class WholeRun:
 
     def __init__(self, words: Sequence[str], output: Path, blender: str | None) -> None:
         command = processes.run_command(blender, ["measure", *words, "--output", str(output)])
-        if command is None:
-            raise FileNotFoundError("No module named 'bpy' is here")
         self._journal = output.with_name(output.name + ".journal")
         self._place, self._lines = 0, 0
         nowhere = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)

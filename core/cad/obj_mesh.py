@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces of Wavefront .obj files: each ``o`` begins a mesh; groups, lines, normals and textures are not read."""
+"""Faces of Wavefront .obj files: each ``o`` begins a mesh; groups, lines, normals and textures are not read.
+
+An ``o`` with vertices and no faces is a mesh without faces. So is a file.
+"""
 
 from __future__ import annotations
 
@@ -20,16 +23,16 @@ _OBJECT = re.compile(rb"^[ \t\v]*o[ \t\v]+(\S[^\n]*?)\s*$", re.MULTILINE)
 
 
 def read_obj_meshes(path: Path) -> list[FileMesh]:
-    """Return the meshes with faces, in the file's own axes. Raises FileError and OSError."""
+    """Return the meshes, in the file's own axes. Raises FileError and OSError."""
     return _split(*read_obj_faces(path))
 
 
 def read_obj_faces(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], list]:
-    """Return (n, 3) points, (k,) corners and (m,) sides of all faces, and each object's first face and name."""
+    """Return (n, 3) points, (k,) corners and (m,) sides of faces; of objects the first face, first vertex and name."""
     data = map_file(path) if path.stat().st_size else b""
     check_obj_text(data)
     points, corners, sides = [np.zeros((0, 3))], [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
-    starts, counts, faces = [(0, name_of_file(path))], np.zeros(3, np.int64), 0
+    starts, counts, faces = [(0, 0, name_of_file(path))], np.zeros(3, np.int64), 0
     for _, text in blocks(data):
         lines = Lines(_COMMENT.sub(b"", text) if b"#" in text else text, counts)
         points.append(_read_points(lines))
@@ -39,7 +42,8 @@ def read_obj_faces(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], 
         if b"o" in text:
             for name in _OBJECT.finditer(lines.text):
                 before = int(np.searchsorted(places, name.start()))
-                starts.append((faces + before, name[1].decode("utf-8", "replace")))
+                vertices = int(lines.before[0, np.searchsorted(lines.starts, name.start(), "right") - 1])
+                starts.append((faces + before, vertices, name[1].decode("utf-8", "replace")))
         counts, faces = lines.after, faces + len(lengths)
     return np.concatenate(points), np.concatenate(corners), np.concatenate(sides), starts
 
@@ -65,12 +69,13 @@ def _read_faces(lines: Lines) -> tuple[NDArray[np.int64], NDArray[np.int64], NDA
     return index, np.diff(first, append=len(index)), lines.starts[line[first]]
 
 
-def _split(points: NDArray, corners: NDArray, sides: NDArray, starts: list[tuple[int, str]]) -> list[FileMesh]:
-    """Return a mesh of each object with faces. starts: the first face of each object, and its name."""
+def _split(points: NDArray, corners: NDArray, sides: NDArray, starts: list[tuple[int, int, str]]) -> list[FileMesh]:
+    """Return a mesh of each object. starts: the first face and the first vertex of each object, and its name."""
     ends = np.append(0, np.cumsum(sides))
     meshes = []
-    for (begin, name), (end, _) in zip(starts, [*starts[1:], (len(sides), "")]):
-        if begin == end:
+    for i, (end, last, _) in enumerate([*starts[1:], (len(sides), len(points), "")]):
+        begin, first, name = starts[i]
+        if begin == end and (first == last or i == 0 < len(starts) - 1):  # What follows may use the first vertices.
             continue
         own = corners[ends[begin] : ends[end]]
         own_points = points

@@ -62,11 +62,7 @@ def _block_size(order: int) -> int:
 
 
 def solid_mass_moments(points: NDArray, triangles: NDArray, density: NDArray, like: Moments) -> Moments:
-    """Return ∫ ρ x^p y^q z^r dV of the parts that triangles bound, each of one density, with measure VOLUME.
-
-    points: (n, 3). triangles: (t, 3). density: (t,) density of the part that each triangle bounds, not negative. like:
-    the parts' volume moments, for the order, the reference point and the input error.
-    """
+    """Return ∫ ρ x^p y^q z^r dV for triangles (t, 3) with (t,) densities of their parts; like: their volume moments."""
     sums, sizes, tau = _accumulate(points, triangles, density, like, solid=True)
     reach = _reach(points, triangles, like.about)
     raw = sums * _scales(like.order, 3)

@@ -101,10 +101,7 @@ class Polynomial:
         return result
 
     def lower_bound(self, low: ArrayLike, high: ArrayLike) -> float:
-        """Return a lower bound of the polynomial on a box, less rounding: some 1e-13 of the sum of the terms' sizes.
-
-        The box is halved as long as that may still prove the polynomial not negative, at most `MAX_BOXES` times.
-        """
+        """Return a lower bound of the polynomial on a box, less rounding; boxes are halved as long as that may help."""
         low, high = np.asarray(low, float), np.asarray(high, float)
         local = self.translate(low).coefficients()
         top = monomials(self.degree)
@@ -125,10 +122,7 @@ class Polynomial:
 
 
 def parse_polynomial(text: str) -> Polynomial:
-    """Parse a polynomial that was typed: an expression such as ``1000 + 20*z``, or coefficients as for `from_list`.
-
-    MeasureError if the text is no polynomial; the finding names the offending part.
-    """
+    """Parse a typed polynomial, such as ``1000 + 20*z``, or coefficients. MeasureError names a wrong part."""
     text = text.strip()
     if not text:
         raise MeasureError(POLYNOMIAL_EMPTY)

@@ -25,10 +25,7 @@ MAX_LOCATED_POINTS = 24  # points that are located in the body
 def find_negative_point(
     density: Polynomial, points: NDArray, triangles: NDArray, solid: bool
 ) -> tuple[tuple[float, NDArray] | None, bool]:
-    """Return a negative value and its point (3,), or None; and True if there may be an undetected negative value.
-
-    points: (n, 3) in the density's coordinates. triangles: (m, 3). solid: the inside counts too.
-    """
+    """Return a negative value and its (3,) point, or None; and True if there may be an undetected negative value."""
     used = np.unique(triangles)
     tried = points[used]
     if density.degree > 1:

@@ -52,11 +52,7 @@ class SplineAxis:
 
     @classmethod
     def at_positions(cls, positions: ArrayLike, order: int = 1) -> SplineAxis:
-        """Return an axis with one function of full support for each sample, with knots around its position.
-
-        With an even order the knots are the positions, with an odd one the middles between them; beyond the ends they
-        go on with the last distance. ValueError if positions do not ascend, or there are fewer than two.
-        """
+        """Return an axis with one function of full support around each sample. ValueError unless positions ascend."""
         x = float_array("positions", positions, "n")
         if len(x) < 2 or not np.isfinite(x).all() or not (np.diff(x) > 0.0).all():
             raise ValueError("positions must ascend")
@@ -84,10 +80,7 @@ class SplineAxis:
         return float(np.abs(self.knots[[0, -1]] - center).max())
 
     def table(self, degree: int, center: float = 0.0) -> NDArray[np.float64]:
-        """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt.
-
-        Error: at most `rounding_counts` roundings of ∫ B_i times the largest |t - center|^l in the support.
-        """
+        """Return (degree + 1, count) ∫ (t - center)^l B_i(t) dt; `rounding_counts` bounds their roundings."""
         return full_support_integrals(self.knots - center, self.order, degree)
 
     def rounding_counts(self, degree: int) -> int:

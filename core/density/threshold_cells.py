@@ -87,10 +87,7 @@ class Columns:
 
 
 def columns_of(corners: NDArray, points: int, metric: NDArray) -> Columns:
-    """Return the columns along z at the Gauss points between the lines where the surface leaves a cell.
-
-    metric: (3, 3) scales the area of a piece of surface by √(n·metric·n) for its normal n.
-    """
+    """Return columns at the Gauss points between the lines where the surface leaves a cell; metric: of its area."""
     nodes, weights = gauss_legendre(points)
     _, exponent = np.frexp(np.abs(corners).max(axis=(1, 2, 3)))
     corners = np.ldexp(corners, -exponent[:, None, None, None])  # so that no product leaves the range of numbers

@@ -51,11 +51,7 @@ class OutlineDefects:
 
 
 def area_moments(points: ArrayLike, edges: ArrayLike, order: int, about: ArrayLike | None = None) -> SimplexMoments:
-    """Return ∫ x^p y^q dA of the region left of (m, 2) directed edges for all p + q ≤ order, with error bounds.
-
-    The moments are about the middle of the bounding box of the used points by default. MeasureError if edges do not
-    close.
-    """
+    """Return ∫ x^p y^q dA of the region left of (m, 2) closed edges, about the middle of the box, with error bounds."""
     points, edges = edge_arrays(points, edges)
     ends = [np.bincount(edges[:, i], minlength=len(points)) for i in (0, 1)]
     loose = int(np.count_nonzero(ends[0] != ends[1]))
@@ -96,11 +92,7 @@ def directed_edges(loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
 
 
 def orient_loops(points: ArrayLike, loops: Sequence[ArrayLike]) -> NDArray[np.intp]:
-    """Return (m, 2) edges of loops, oriented so that points in an odd number of loops are inside.
-
-    points: (n, 2). loops: outlines, their holes, islands in holes, as (k,) indices of points. The inside lies to the
-    left of each edge. MeasureError if one loop runs along another all the way, so that neither is in the other.
-    """
+    """Return (m, 2) edges of loops, (k,) indices each, so that points in an odd number of loops are left of them."""
     points = float_array("points", points, "n", 2)
     loops = [index_array("loops", loop, "k", count=len(points)) for loop in loops]
     lows, highs = (
@@ -177,10 +169,7 @@ def winding_numbers(points: NDArray, edges: NDArray, query_points: NDArray) -> N
 
 
 def _side_windings(points: NDArray, edges: NDArray, touch: float) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the winding numbers to the left and to the right of edges, (k,) each; of a sample if there are many edges.
-
-    Rays are sent across the edges, so that no ray runs along its edge; a ray passes edges on one another together.
-    """
+    """Return the (k,) winding numbers left and right of edges, by rays across them; of a sample of many edges."""
     span = np.abs(points[edges[:, 1]] - points[edges[:, 0]])
     steep, long = span[:, 1] >= span[:, 0], np.hypot(*span.T) > 4.0 * touch
     parts = [
@@ -231,11 +220,7 @@ def _twice_the_area(points: NDArray, edges: NDArray) -> float:
 
 
 def _crossing_pairs(points: NDArray, edges: NDArray, touch: float) -> tuple[int, float, bool]:
-    """Count pairs of edges that cross by more than `touch`, and sum the length of edges that run against each other.
-
-    Each edge is entered into the cells of a grid that its box meets, and compared with edges that share a cell. The
-    last value is True if there were too many pairs to compare all.
-    """
+    """Count pairs of edges that cross by more than `touch`, and sum opposed lengths; True if there are too many."""
     start, end = points[edges[:, 0]], points[edges[:, 1]]
     low, high = np.minimum(start, end), np.maximum(start, end)
     span = np.abs(end - start)

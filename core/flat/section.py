@@ -114,10 +114,7 @@ def _axes(normal: NDArray, prefer: NDArray) -> tuple[NDArray[np.float64], str]:
 def region(
     plane: Plane, points: NDArray, triangles: NDArray, faces: NDArray, error: float
 ) -> tuple[NDArray[np.intp], int]:
-    """Return (m, 2) directed edges of the region covered by triangles near the plane, and the number of turned faces.
-
-    Points at one place are merged. faces: (k,) face of each triangle; faces that look against the plane are turned.
-    """
+    """Return (m, 2) edges around the triangles, faces (k,) that look against the plane turned, and their number."""
     triangles = first_at_equal_position(points)[triangles]
     a, b, c = (project(plane, points)[triangles[:, i]] for i in range(3))
     areas = np.bincount(faces, ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2.0)

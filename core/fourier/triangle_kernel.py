@@ -218,10 +218,7 @@ class PhaseMeans:
 
 
 def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArray) -> tuple[NDArray, NDArray]:
-    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g.
-
-    The result is v / 2 + (1 + v) g with v = exp(-i s0) - 1, which is small if s0 is. All arguments are overwritten.
-    """
+    """Return D - 1/2 from exp(-i s0/2) and exp(i s0) D - 1/2 = g; overwrites all arguments."""
     np.multiply(cosine, sine, out=cosine)
     np.multiply(cosine, -2.0, out=cosine)  # The imaginary part of v.
     np.multiply(sine, sine, out=sine)
@@ -239,10 +236,7 @@ def _apply_phase(cosine: NDArray, sine: NDArray, real: NDArray, imaginary: NDArr
 
 
 def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArray]:
-    """Return the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, its real and its imaginary part, from -e2 and e3.
-
-    (-i)^n h_n is real for even n and imaginary for odd n; `before`, `even` and `odd` hold three consecutive terms.
-    """
+    """Return real and imaginary part of the sum over n ≥ 2 of (-i)^n h_n / (n+2)!, from -e2 and e3."""
     even, odd, before = -square, cube.copy(), np.zeros_like(square)  # n = 2, 3 and 1
     real, imaginary = even / 24.0, odd / 120.0
     product, scratch = np.empty_like(square), np.empty_like(square)
@@ -264,11 +258,7 @@ def _series(square: NDArray, cube: NDArray, terms: int) -> tuple[NDArray, NDArra
 
 
 def _series_terms(radius: float) -> int:
-    """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n.
-
-    With the largest |d| at 1 the others add up to -1 and have a product p from 0 to 1/4: h_n = (1-p) h_(n-2) + p
-    h_(n-3), which is a mean.
-    """
+    """Return the number of terms needed for |d| up to radius: |h_n| is at most radius^n, as a mean of earlier ones."""
     n = 4
     while radius**n / factorial(n + 2) > 2e-17:
         n += 2

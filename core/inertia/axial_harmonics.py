@@ -67,10 +67,7 @@ class AxialHarmonics:
 def axial_harmonics(
     surfaces: Iterable[Surface], center: NDArray, frame: NDArray, *, area: bool, order: int = MAX_AXIAL_ORDER
 ) -> AxialHarmonics:
-    """Find the harmonics, to m = order, of the body that surfaces bound, or of the surfaces themselves if `area`.
-
-    The surfaces are closed, outward, and in the same coordinates. `center` is a point of the axis, frame[:, 2].
-    """
+    """Find harmonics, to m = order, about the axis frame[:, 2] of the body in surfaces, or of these if `area`."""
     pieces = [((piece.points.astype(np.float64) - center) @ frame, piece.all_triangles()[0]) for piece in surfaces]
     reach = max(float(np.hypot(points[:, 0], points[:, 1]).max()) for points, _ in pieces)
     height = max(float(np.abs(points[:, 2]).max()) for points, _ in pieces)
@@ -116,11 +113,7 @@ def axis_last(alike: EquivalentFrames) -> NDArray[np.float64]:
 def turn_by_harmonics(
     alike: EquivalentFrames, harmonics: AxialHarmonics, noise: float = NOISE_LEVEL
 ) -> EquivalentFrames:
-    """Turn the frames of a body with one apparent axis of revolution so that its first clear harmonic is positive.
-
-    Return frames in which the body is the same, to the harmonics' order; `alike` if no harmonic is more than noise, or
-    the axis itself is not known well.
-    """
+    """Return frames turned about one axis so that the first clear harmonic is positive; `alike` without one."""
     (axis,) = alike.revolution_axes
     if alike.tilt > MAX_TILT:
         return alike

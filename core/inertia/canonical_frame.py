@@ -98,11 +98,7 @@ class EquivalentFrames:
 
 
 def canonical_frames(moments: Moments, spread: SecondMomentAxes, starts: NDArray) -> EquivalentFrames:
-    """Return the frames that a body's moments choose.
-
-    moments: to some order from 3 to MAX_ORDER, about any point. starts: (k, 3, 3) the frames along the spread's axes
-    that third moments allow. MeasureError if their size is beyond the range of numbers.
-    """
+    """Return the frames that moments (order 3 to MAX_ORDER) choose; starts: (k, 3, 3) by third moments."""
     central = moments.about_center()
     total = central.raw[0]
     with np.errstate(over="ignore", under="ignore"):
@@ -150,12 +146,7 @@ def _sign(harmonic: tuple[int, int, int] | None, fourfold: float) -> float:
 def _fix_rotation_about_axis(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int, fourfold: float = -1.0
 ) -> tuple[NDArray, tuple[int, int, int] | None, float]:
-    """Turn the bases about their axis number `axis` so that the first clear harmonic becomes real.
-
-    Return the frames, (degree, m, k) of the harmonic or None, and the angle by which noise may have turned them.
-    fourfold: the sign of a harmonic with m = 4; others become positive. E[cos 4φ] is negative for a square with sides
-    along the axes.
-    """
+    """Turn bases so that the first clear harmonic about an axis is real; return frames, (degree, m, k) and tilt."""
     harmonic = _clear_harmonic(central, spread, bases, axis)
     if harmonic is None:
         return bases, None, 0.0
@@ -176,10 +167,7 @@ def _fix_rotation_about_axis(
 def _clear_harmonic(
     central: Moments, spread: SecondMomentAxes, bases: NDArray, axis: int
 ) -> tuple[int, int, int, NDArray[np.complex128], float] | None:
-    """Return the first harmonic about an axis of the bases that is above CLEAR_HARMONIC, else the first above noise.
-
-    Return its degree, m and k, (n,) its values in the bases, and its noise; None if no harmonic is above noise.
-    """
+    """Return degree, m, k, (n,) values and noise of the first clear harmonic about an axis, else of the first."""
     first, second = (axis + 1) % 3, (axis + 2) % 3
     order, size, weaker = [first, second, axis], extents_of(spread.size), None
     for degree in range(3, central.order + 1):

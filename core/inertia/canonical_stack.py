@@ -66,10 +66,7 @@ def choose_about_axis(
 
 
 def _choose(values: NDArray, least: NDArray, allowed: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return an (n, 4) mask of the allowed half turns with the largest normalized moments (n, columns).
-
-    They are compared column after column; values that differ by no more than `least` are equal.
-    """
+    """Return an (n, 4) mask of the allowed half turns with the largest (n, columns) moments, equal within `least`."""
     kind = ODD_KIND[tuple(monomials(order_from_count(THIRD + values.shape[1]))[THIRD:].T % 2)]
     clear = (2.0 * np.abs(values) > least)[:, None] & (kind == np.arange(1, 4)[:, None])  # (n, 3, columns)
     count = values.shape[1]

@@ -212,12 +212,7 @@ def combine(bodies: Sequence[tuple[Moments, float]], preferred_axes: ArrayLike |
 def affine_image(
     properties: MassProperties, linear: ArrayLike, center: ArrayLike, mass: float, preferred_axes: ArrayLike
 ) -> MassProperties:
-    """Return the mass properties of a body that is stretched, sheared and turned by the (3, 3) part of a map.
-
-    `center` and `mass` are those of the image; each principal axis points the same way as a column of `preferred_axes`.
-    The bounds of `properties` are kept, as nothing better is known here. The frame is no choice of the canonical rule:
-    second moments alone leave the signs open.
-    """
+    """Return the properties of an image under a (3, 3) map; axes point the way of `preferred_axes`."""
     linear, preferred = np.asarray(linear, np.float64), np.asarray(preferred_axes, np.float64)
     second = np.trace(properties.inertia) / 2.0 * IDENTITY_3 - properties.inertia
     second = linear @ second @ linear.T * (mass / properties.mass)
@@ -237,10 +232,7 @@ def affine_image(
 
 
 def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return an (n,) mask of the bodies whose center and second central moments are possible for a mass in their box.
-
-    low, high: (n, 3) corners of the boxes. A surface that intersects itself may have an impossible center or moments.
-    """
+    """Return an (n,) mask of the bodies with a possible center and second moments for their mass and (n, 3) boxes."""
     total = volume.raw[:, 0]
     mean = volume.raw[:, 1:4] / total[:, None]
     second = volume.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None] - mean[:, :, None] * mean[:, None, :]
@@ -253,10 +245,7 @@ def are_physical(volume: Moments, low: NDArray, high: NDArray, size: float | NDA
 
 
 def _propagate_errors(moments: Moments, density: NDArray) -> tuple[dict[str, PerBody], dict[str, PerBody]]:
-    """Return bounds of mass, center, inertia by rounding and by `input_error`; infinite if nothing bounds a quotient.
-
-    They hold for the worst signs of all errors, with the divisor at its smallest.
-    """
+    """Return bounds of mass, center, inertia by rounding and by `input_error`; infinite if nothing bounds them."""
     delta, raw = np.array([moments.rounding_error, moments.input_error]), moments.raw
     total, off = raw[..., 0], delta[..., 0]
     is_bounded = total > 2.0 * off

@@ -181,11 +181,7 @@ def _across(vector: Sequence[float], axis: Sequence[float]) -> Vector:
 
 
 def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
-    """Return the principal moments, ascending, their axes and the symmetry, a member of SYMMETRIES.
-
-    The axes are those of `principal_frame` for a body whose third moments are unknown: right-handed and, as far as the
-    body leaves a choice, nearest to the coordinate axes.
-    """
+    """Return ascending principal moments, right-handed axes nearest to the coordinate axes, and the symmetry."""
     axes = IDENTITY
     for i, j, entry in SWEEPS * ((0, 1, 3), (0, 2, 4), (1, 2, 5)):
         turned = turn_tensor(tensor, axes)
@@ -207,10 +203,7 @@ def principal_axes(tensor: Sequence[float]) -> tuple[Vector, Axes, str]:
 
 
 def _nearest_frame(first: Vector, second: Vector, free: tuple[int, ...]) -> Axes:
-    """Return the frame along two axes and their cross product that is nearest to the coordinate axes; some are free.
-
-    If several are equally near, take the one with axes that, in order, point along rather than against them.
-    """
+    """Return the frame along two axes, as free as they are, and their cross product, nearest to the coordinate axes."""
     if len(free) == 3:
         return IDENTITY
     frames = []

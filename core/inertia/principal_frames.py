@@ -243,10 +243,7 @@ def _frames_of_shapes(fixed: ThirdMomentFrames, left: NDArray[np.intp], known: O
 
 
 def equivalent_frames(moments: Moments, noise: float = NOISE_LEVEL) -> EquivalentFrames:
-    """Return the principal frames in which a body is the same, to the order of its moments, 3 at least.
-
-    noise: normalized third moments below this count as zero; the tolerance of the others grows with it.
-    """
+    """Return the principal frames in which a body is the same; noise: of normalized third moments."""
     fixed = _of_one_body(moments, noise / NOISE_LEVEL)
     return canonical_frames(moments, fixed.spread(0), fixed.frames(0))
 

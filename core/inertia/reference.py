@@ -30,10 +30,7 @@ class Reference:
 
     @classmethod
     def through_points(cls, first: Sequence[float], second: Sequence[float]) -> Reference:
-        """Return the frame with its origin at the first point and its Z axis from there to the second.
-
-        Its other axes are as near as possible to the coordinate axes. QueryError if the points fix no direction.
-        """
+        """Return the frame with its origin at the first point and Z towards the second; else QueryError."""
         way = subtract(second, first)
         length = hypot(*way)
         if not length > MIN_AXIS_RATIO * max(map(abs, (*first, *second))):
@@ -41,11 +38,7 @@ class Reference:
         return cls(first, frame_about([along / length for along in way]))
 
     def refer(self, body: PlainBody) -> ReferredInertia:
-        """Refer the inertia of a body, given in the same coordinates, to this frame, by the parallel-axis theorem.
-
-        With e the bound of the center, and d = |c - p|, the tensor is off by at most its own bound plus √2 d² times
-        that of the mass plus m (6 d e + 2 e²).
-        """
+        """Refer the inertia of a body, given in the same coordinates, to this frame, by the parallel-axis theorem."""
         arm = subtract(body.center, self.origin)
         distance = hypot(*arm)
         rounded = 2.0 * U * sum(map(abs, (*body.center, *self.origin)))

@@ -53,10 +53,7 @@ BELOW_THIRD = np.where((POWERS[:THIRD] % 2 == 0).all(axis=1), 1.0, 0.0)  # for a
 
 
 def shared_frames(moments: Moments, fixed: ThirdMomentFrames, bodies: NDArray[np.intp]) -> list[EquivalentFrames]:
-    """Find the frames of `canonical_frames`, without values, for bodies with two or three equal second moments.
-
-    The moments are to order MAX_ORDER; `bodies` are indices. MeasureError if a size is beyond the range of numbers.
-    """
+    """Find `canonical_frames`, without values, of the bodies (indices) with two or three equal second moments."""
     with np.errstate(over="ignore", under="ignore"):
         reach = moments.raw[:, 0] * fixed.size[bodies].max(axis=1) ** moments.order
     if not ((reach > np.finfo(float).tiny) & (reach < np.inf)).all():

@@ -162,10 +162,7 @@ def _are_decided(size: NDArray, error: NDArray, noise: NDArray, fixed: NDArray[n
 def _third_scores(
     moments: Moments, shift: NDArray, size: NDArray, axes: NDArray, symmetry: NDArray[np.intp]
 ) -> tuple[NDArray, NDArray]:
-    """Return (n, 3, 3) for each axis i its normalized M_iii, M_ijj and M_ikk, all odd in i, and their error bounds.
-
-    If axes j and k are free, the last two are replaced by their mean, the same for every choice of these axes.
-    """
+    """Return (n, 3, 3) normalized M_iii, M_ijj, M_ikk of axes i (means if j and k are free), and error bounds."""
     count, total = len(shift), moments.raw[:, 0]
     second = moments.raw[:, SECOND_MOMENT_INDEX] / total[:, None, None]
     third = moments.raw[:, THIRD_MOMENT_INDEX] / total[:, None, None, None]

@@ -58,11 +58,7 @@ class Body:
         return self.volume
 
     def moments_for_axes(self, order: int, area: bool) -> Moments | OwnMoments:
-        """Return the moments of the volume, or of the area, from which the principal axes are found.
-
-        For a single surface under a similarity they are in the surface's own coordinates, so that the axes do not
-        depend on its placement.
-        """
+        """Return the moments that fix the axes, in own coordinates if of one surface under a similarity."""
         volume, areas = self.moments(order, area)
         return volume if areas is None else areas
 

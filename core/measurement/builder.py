@@ -68,11 +68,7 @@ def build_measurement(
 
 
 def measure_body(body: Body, settings: Settings, *, findings: tuple[Finding, ...] = (), **fields: Any) -> Measurement:
-    """Return the measurement of a body, with its moments to the requested order.
-
-    findings: about the reading. fields: name, type, frame and fingerprint of the measurement. Raise MeasureError if the
-    body has no mass, or no moments of that order.
-    """
+    """Return the measurement of a body, with moments to an order; fields: name, type, frame, fingerprint."""
     shell, wire, thin = settings.kind == "shell", settings.kind == "wire", _is_thin(body, settings)
     solid = body.wall or body.volume
     measured = find_extent(body, settings)

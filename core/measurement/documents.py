@@ -86,10 +86,7 @@ def document(
 
 
 def failed_document(file: str, reason: str, status: str, **values: Any) -> dict[str, Any]:
-    """Return the document of a file that was not measured, with the reason as its only error.
-
-    values: of `document`, such as `blender` and `frame`.
-    """
+    """Return the document of a file that was not measured; values: of `document`, such as `blender` and `frame`."""
     total: dict[str, Any] = {"mass": 0.0, "volume": 0.0, "area": 0.0}
     total |= dict.fromkeys(("center_of_mass", "inertia", "principal_moments", "principal_axes", "symmetry"))
     total |= {"findings": [], "warnings": [], "notes": []}
@@ -245,10 +242,7 @@ def _nested(prefix: str, values: dict[str, Any]) -> dict[str, Any]:
 
 
 def _line(cells: Iterable[Any]) -> str:
-    """Return a line of CSV.
-
-    Before Python 3.13 the csv module quotes only line breaks that it ends a row with.
-    """
+    """Return a line of CSV. Before Python 3.13 the csv module quotes only line breaks that it ends a row with."""
     import csv  # Registration reads the constants of this module alone.
 
     text = io.StringIO()

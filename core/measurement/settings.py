@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of one measurement: all values that influence its results, besides the geometry."""
+"""The settings of one measurement: all values that influence its results, besides the geometry.
+
+A fingerprint is a text that stands for all inputs of stored numbers: geometry, transform and settings.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,8 @@ import hashlib
 from dataclasses import dataclass
 
 from ..numerics.float32 import shortest_decimal
+
+VERSION = "v1"
 
 
 @dataclass(frozen=True)
@@ -54,4 +59,14 @@ class Settings:
             *([self.varying] if self.varying else []),
             *([self.wall.upper()] if is_shell and self.wall != "thin" else []),
         ]
-        return hashlib.blake2s(repr(used).encode(), digest_size=6).hexdigest()
+        return digest(repr(used).encode())
+
+
+def fingerprint(geometry: bytes, matrix: str, settings: str) -> str:
+    """Return the text stored as `body_fingerprint`: version, then the three digests."""
+    return ":".join([VERSION, digest(geometry), matrix, settings])
+
+
+def digest(data: bytes) -> str:
+    """Return a digest of the data as 12 hexadecimal digits."""
+    return hashlib.blake2s(data, digest_size=6).hexdigest()

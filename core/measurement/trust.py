@@ -8,10 +8,11 @@ from collections.abc import Iterable
 from enum import StrEnum
 
 from ..solid.findings import DUPLICATE_FACES_IGNORED, HOLES_CAPPED, INVERTED_COMPONENTS, VERTICES_WELDED
-from ..verdict.finding import Finding, Severity
+from ..verdict.finding import Finding, Severity, finding
 from ..verdict.findings import FLIPPED_FACES
 from ..verdict.method import Method, Verdict
 from ..verdict.sentences import severity
+from .findings import TOTAL_OF_OPEN_OBJECTS
 
 REPAIRED = (Verdict.CAPPED, Verdict.REORIENTED)
 # Warnings about repairs of the surface: a body with these warnings alone counts as repaired.
@@ -33,3 +34,10 @@ def trust_of(method: Method | None, findings: Iterable[Finding]) -> Trust:
     if method is None or method.verdict == Verdict.OPEN or not REPAIRS.issuperset(warnings):
         return Trust.DOUBTFUL
     return Trust.REPAIRED if warnings or method.verdict in REPAIRED else Trust.EXACT
+
+
+def open_body_caveats(methods: Iterable[tuple[str, Method | None]]) -> list[Finding]:
+    """Return caveats about open bodies, given as names and methods: their own numbers depend on a reference point."""
+    methods = list(methods)
+    names = sorted(name for name, method in methods if method is not None and method.verdict == Verdict.OPEN)
+    return [finding(TOTAL_OF_OPEN_OBJECTS, objects=names)] if names and len(methods) > 1 else []

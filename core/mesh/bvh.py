@@ -167,10 +167,7 @@ class Bvh:
     def winding_numbers(
         self, query_points: NDArray[np.float64], component: NDArray[np.intp], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Return (k,) winding numbers of components around places (about `origin`), and whether each is sure.
-
-        A number is unsure if its place is nearer than `tolerance` to the surface along the ray, or if the work ran out.
-        """
+        """Return (k,) winding numbers of components around places, and whether each is sure."""
         winding = np.zeros(len(query_points), np.intp)
         sure = np.ones(len(query_points), bool)
         query = np.ascontiguousarray(query_points.T)
@@ -262,10 +259,7 @@ class Bvh:
 def intersecting_pairs(
     tree: Bvh, first: NDArray, second: NDArray, tolerance: float, vertex: NDArray | None = None
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return (k,) masks of pairs in which an edge pierces the other component by the tolerance, and of undecided pairs.
-
-    first, second: (k,) components. vertex: (n,) the vertex of each point; triangles that share one are not compared.
-    """
+    """Return (k,) masks of pairs in which an edge pierces the other by the tolerance, and of undecided pairs."""
     intersects, unfinished = np.zeros((2, len(first)), bool)
     pieces = _batches(np.arange(len(first)), tree.root[first], tree.root[second])
     work = 0
@@ -324,11 +318,7 @@ def _intersect_leaves(
 def _edges_cross_triangles(
     corner: NDArray[np.float64], plane: NDArray[np.float64], tolerance: float
 ) -> NDArray[np.intp]:
-    """Return the indices of triangles `corner`, (3, k, 3), with an edge that goes through their partner in `plane`.
-
-    The edge goes through farther than the tolerance from the partner's edges. Over the partner it reaches farther than
-    the tolerance to both sides, because the plane of a sliver is not known far from the sliver.
-    """
+    """Return the indices of triangles (3, k, 3) with an edge through their partner by over the tolerance."""
     normal = np.cross(plane[1] - plane[0], plane[2] - plane[0])
     length = np.linalg.norm(normal, axis=1)[:, None]
     normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0.0)

@@ -26,10 +26,7 @@ HASH_FACTOR = np.uint32(0x9E3779B1)  # a prime of xxHash, by Yann Collet
 
 
 def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
-    """Return the (2, e) mesh faces beside the used edges, or None unless the mesh's corners prove that it is closed.
-
-    They prove it if every edge with faces has two, in opposite directions. The edge indices at the corners are trusted.
-    """
+    """Return the (2, e) mesh faces beside the used edges if each has two, run in opposite directions; else None."""
     corners, edges = surface.corner_vertices, surface.corner_edges
     if corners is None or edges is None or not len(corners) == len(edges) > 0:
         return None
@@ -55,10 +52,7 @@ def closed_side_faces(surface: Surface) -> NDArray[np.int32] | None:
 def _sides_at(
     surface: Surface, corners: NDArray[np.integer]
 ) -> Callable[[int], tuple[NDArray[np.int32], NDArray[np.bool_]]] | None:
-    """Return a function of the first corner of a block, or None if faces and corners do not fit.
-
-    The function returns the face of each corner in the block, and whether the corner's side runs to a higher vertex.
-    """
+    """Return a function from a block's first corner to faces and directions of its corners; None if they do not fit."""
     quads, triangles = len(surface.quads), len(surface.triangles)
     if not triangles and surface.quad_faces is None:
         size = 4
@@ -151,10 +145,7 @@ class Edges:
 
 
 def find_edges(triangles: NDArray[np.integer], quads: int = 0) -> Edges:
-    """Return the edges of (m, 3) triangles with three different vertices each.
-
-    quads: the last 2 * `quads` triangles are halves a, b, c and a, c, d of quads, and diagonals are edges of their own.
-    """
+    """Return the edges of (m, 3) triangles; the last 2 * `quads` are halves with diagonals of their own."""
     start, stop = triangles.ravel(), triangles.take(NEXT_AXIS, 1).ravel()
     low, high = np.minimum(start, stop), np.maximum(start, stop)
     width = int(high.max(initial=0)) + 1
@@ -178,11 +169,7 @@ def consistent_orientation(
     misoriented: NDArray[np.bool_],
     weight: NDArray[np.float64],
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return (count,) masks of the faces to turn so that linked faces agree, and of faces that cannot be made to agree.
-
-    a, b: linked faces; misoriented: if they disagree now; weight: (count,) areas: in each part the smaller area is
-    turned.
-    """
+    """Return (count,) masks of faces to turn, the smaller area (weight), and of faces that cannot agree."""
     flipped, twisted = np.zeros((2, count), bool)
     if not misoriented.any():
         return flipped, twisted

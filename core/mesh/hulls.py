@@ -169,10 +169,7 @@ class _GrowingHull:
     def _highest(
         self, points: NDArray[np.intp], counts: NDArray[np.intp], firsts: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-        """Return the points still outside, the face that each is highest above, and the heights.
-
-        The faces of a point are `counts` consecutive faces from `firsts` on.
-        """
+        """Return outside points, the faces they are highest above (`counts` from `firsts` on), and the heights."""
         parts = []
         for block in batches(counts, PAIRS_PER_BLOCK):
             number = counts[block]

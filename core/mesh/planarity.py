@@ -212,10 +212,7 @@ def stack_planarity(stack: SurfaceStack) -> StackPlanarity:
 def _classify_rows(
     points: NDArray, corners: NDArray, pairs: tuple, error: float | NDArray, exponent: int | NDArray
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return the (m,) sixfold tetrahedra of faces' corners, scaled, 0 if flat, and an (m,) mask of faces without area.
-
-    pairs: QUAD, or TRIANGLE for no tetrahedra. error, exponent: of the surface, or (m,) of each row.
-    """
+    """Return (m,) sixfold tetrahedra of faces' corners, scaled, 0 if flat, and a mask of faces without area."""
     volumes, bare = [np.empty(0)], [np.empty(0, bool)]
     for start in range(0, len(corners), FACES_PER_BLOCK):
         part = slice(start, start + FACES_PER_BLOCK)

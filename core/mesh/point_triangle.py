@@ -21,10 +21,7 @@ TRIANGLES_PER_BLOCK = 1 << 15  # triangles at a time
 
 
 def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float64]:
-    """Return the (m,) distances of (m, 3) points, or of a single one, from (m, 3, 3) triangles, each from its own.
-
-    Triangles without area are their edges.
-    """
+    """Return the (m,) distances of (m, 3) points, or of one, from (m, 3, 3) triangles, each from its own."""
     point, ends = np.asarray(points, np.float64).T, np.ascontiguousarray(corners.transpose(1, 2, 0))
     if point.ndim == 1:
         point = point[:, None]
@@ -46,10 +43,7 @@ def triangle_distances(points: ArrayLike, corners: NDArray) -> NDArray[np.float6
 
 
 def winding_number(points: NDArray[np.floating], triangles: NDArray[np.integer], point: NDArray) -> float:
-    """Return how often (m, 3) triangles over (n, 3) points surround a point: their solid angles divided by 4 π.
-
-    A. van Oosterom and J. Strackee, IEEE Trans. Biomed. Eng. 30, 1983. The triangles need not close.
-    """
+    """Return how often triangles (m, 3), closed or open, surround a point (van Oosterom and Strackee 1983)."""
     total = 0.0
     for start in range(0, len(triangles), TRIANGLES_PER_BLOCK):
         a, b, c = (points[triangles[start : start + TRIANGLES_PER_BLOCK, k]] - point for k in range(3))

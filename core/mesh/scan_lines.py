@@ -224,11 +224,7 @@ def _cross_row(
     higher: NDArray[np.bool_],
     row: NDArray[np.intp],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.intp]]:
-    """Return the points, (2, k), at which a row enters and leaves each triangle, and the sign of the crossings between.
-
-    places, corners: (3, 3t) and (3t,) of all first corners, all second and all third ones; which: (k,) the triangles;
-    higher: (3, k) mask of their corners above the row.
-    """
+    """Return the points, (2, k), at which a row enters and leaves triangles, and the sign of the crossings."""
     first, second, third = higher
     single = (first ^ second ^ third) & ~(first & second & third)
     lone = np.where(first == second, 2, first == third)  # the corner on a side of its own

@@ -27,10 +27,7 @@ Sides = tuple[NDArray[np.int32], NDArray[np.integer], NDArray[np.integer]]
 
 
 def faces_across_sides(faces: NDArray[np.integer], vertex_count: int) -> NDArray[np.int32] | None:
-    """Return the (n, k) faces across the sides of (n, k) faces, or None unless every edge has two opposite sides.
-
-    None also if the sides are too many for 32 bits. Faces must use all of the vertices.
-    """
+    """Return the (n, k) faces across the sides of (n, k) faces; None unless every edge has two opposite sides."""
     if 2 * vertex_count > faces.size or faces.size % 2:  # a vertex has one face
         return None
     bits = int(2 * faces.size // vertex_count).bit_length()

@@ -187,11 +187,7 @@ def turned_quads(points: NDArray, quads: NDArray) -> NDArray:
 
 
 def flipped_quads(points: NDArray, quads: NDArray) -> NDArray[np.bool_]:
-    """Return a (q,) mask of quads that Blender cuts from the second corner to the fourth, not from first to third.
-
-    By Blender's rule, in its float32 operation order (mesh_tessellate.cc, is_quad_flip_v3_first_third_fast): the
-    normals of the two triangles at the first diagonal face away from each other.
-    """
+    """Return a (q,) mask of quads that Blender (is_quad_flip_v3_first_third_fast) cuts from the second corner on."""
     with np.errstate(over="ignore", invalid="ignore"):
         points = points.astype(np.float32, copy=False)
         a, b, c, d = (points[quads[:, i]] for i in range(4))

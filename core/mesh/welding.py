@@ -46,11 +46,7 @@ def may_have_neighbor(
 
 
 def first_at_near_position(points: NDArray[np.floating], tolerance: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return (n,) indices: for each point the first of its cluster of points nearer to each other than (n,) tolerances.
-
-    Clusters that stand apart by over `CELL_DIAGONAL` of the largest tolerance are found whole; of a row of points, each
-    near to the next, some may be left out.
-    """
+    """Return (n,) for each point the first of its cluster of points nearer to each other than (n,) tolerances."""
     place = points.astype(np.float64)
     place = place - place.min(axis=0)
     cell = 2.0 * tolerance.max()

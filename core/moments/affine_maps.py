@@ -178,11 +178,7 @@ def are_singular(linear: NDArray) -> NDArray[np.bool_]:
 
 
 def absolute_moments(raw: NDArray, order: int) -> NDArray[np.float64]:
-    """Return (..., K) upper bounds of ∫ |x^p y^q z^r| of functionals (..., K) without negative density.
-
-    An even degree n is bounded by the largest of ∫ x^n, ∫ y^n, ∫ z^n (arithmetic and geometric mean), an odd one by the
-    root of the product of its neighbors' bounds (Cauchy and Schwarz). An odd highest one is estimated from lower ones.
-    """
+    """Return (..., K) upper bounds of ∫ |x^p y^q z^r|; of odd highest order they are estimates."""
     out = np.abs(raw)
     largest = [
         out[..., [monomial_index(n, 0, 0), monomial_index(0, n, 0), monomial_index(0, 0, n)]].max(axis=-1)

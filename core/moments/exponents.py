@@ -42,10 +42,7 @@ def check_exponents(exponents: object, dimension: int, order: int) -> tuple[int,
 
 
 def monomial_index(p: Index, q: Index, r: Index) -> Index:
-    """Return the index of the monomial x^p y^q z^r: sorted by degree, within a degree by (q + r, r).
-
-    IndexError if an exponent is negative.
-    """
+    """Return the index of the monomial x^p y^q z^r, sorted by degree, within a degree by (q + r, r)."""
     negative = (p | q | r) < 0
     if negative if isinstance(negative, bool) else negative.any():
         raise IndexError("negative exponents: {}".format((p, q, r)))

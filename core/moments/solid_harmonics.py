@@ -23,10 +23,7 @@ Multiplets = dict[tuple[int, int], NDArray[np.complex128]]
 
 
 def harmonic_moments(raw: NDArray, order: int) -> Multiplets:
-    """Return {(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for m = -l..l and every l ≤ n ≤ order with n-l even.
-
-    raw: (K, …) moments to that order about the point that the harmonics are about.
-    """
+    """Return {(n, l): (2l+1, …)} ∫ r^(n-l) conj(r^l Y_lm) for l ≤ n ≤ order, n-l even, from raw (K, …) moments."""
     result = {}
     for j in range(order // 2 + 1):
         for l in range(order - 2 * j + 1):

@@ -96,11 +96,7 @@ def following_pairs(
 
 
 def first_occurrence(*columns: NDArray, slots: NDArray[np.integer] | None = None) -> NDArray[np.intp]:
-    """Return (n,) for each row the first row that equals it in all columns: 64-bit values, compared by their bits.
-
-    The rows are hashed into a table in which the lowest row of a slot wins. Rows equal to the winner are done; the
-    others go into the next round. slots: (n,) for the first round, the same for equal rows.
-    """
+    """Return (n,) for each row the first row with the same bits; slots: (n,) for the first round."""
     bits_of, salt = [column.view(np.uint64) for column in columns], 0
     first = rest = np.arange(len(columns[0]), dtype=np.min_scalar_type(-len(columns[0])))
     while len(rest):

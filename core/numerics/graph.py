@@ -71,10 +71,7 @@ def _zeros(count: int, dtype: DTypeLike) -> NDArray:
 
 
 def _trees(parent: NDArray[np.integer]) -> tuple[NDArray[np.integer], int]:
-    """Return the tree of each node, by its root, and the number of trees. parent: no higher than the node; overwritten.
-
-    Paths are halved by pointer jumping, block by block: a path out of a block ends at a root at once.
-    """
+    """Return the root of each node's tree, and the number of trees. parent: no higher than the node; overwritten."""
     roots = np.flatnonzero(parent == np.arange(len(parent), dtype=parent.dtype))
     if len(roots) == 1:  # all paths downward end there
         return _zeros(len(parent), parent.dtype), 1

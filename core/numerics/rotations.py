@@ -73,11 +73,7 @@ MAX_AXIS_COSINE = 1e-5  # float32 rotations never have axes with a larger cosine
 
 
 def polar_rotation(matrices: NDArray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return (k, 3, 3) right-angled unit axes, as columns, of (k, 4, 4) maps, and (k,) whether a map shears.
-
-    The axes are the polar factor of the map with columns of length 1 (Higham, SIAM J. Sci. Stat. Comput. 7, 1986);
-    they are left-handed if the map mirrors.
-    """
+    """Return (k, 3, 3) polar axes (Higham 1986) of (k, 4, 4) maps, left-handed if mirrored, and (k,) who shears."""
     linear = np.asarray(matrices, np.float64)[:, :3, :3]
     length = np.sqrt(np.add.reduce(linear * linear, axis=1, keepdims=True))
     columns = np.divide(linear, length, out=np.zeros_like(linear), where=length > 0.0)

@@ -65,11 +65,7 @@ def display_parameters(space: SplineSpace, resolution: int) -> NDArray[np.float6
 
 
 def display_table(space: SplineSpace, parameters: NDArray) -> NDArray[np.float64]:
-    """Return (n, count) weights of the control points in Blender's display mesh at n parameters.
-
-    The last parameters may drift past the domain's end, into a span without its next basis function: there the
-    weights add up to less than one, in Blender's displayed surface too.
-    """
+    """Return (n, count) weights of the control points in Blender's display mesh at n parameters."""
     table = space.collocation_matrix(np.minimum(parameters, space.domain[1]))
     past = (parameters > space.domain[1]) & (space.knots[-1] > space.domain[1])
     if past.any():

@@ -18,10 +18,7 @@ from .findings import NON_FINITE_CONTROL_POINTS, NON_POSITIVE_WEIGHTS
 def checked_points(
     points: ArrayLike, weights: ArrayLike | None, shape: tuple[int, ...]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Return read-only copies of control points (*shape, 3) and weights (*shape), float64; equal weights become None.
-
-    ValueError for another shape; MeasureError for points that are not finite, and weights that are not positive.
-    """
+    """Return read-only float64 copies of points (*shape, 3) and weights (*shape), None if equal."""
     points = _frozen_copy(float_array("points", points, *shape, 3))
     if not np.isfinite(points).all():
         raise MeasureError(NON_FINITE_CONTROL_POINTS)

@@ -77,11 +77,7 @@ def length_moments(curves: Sequence[Curve], order: int = 3) -> Moments:
 
 
 def plane_moments(curves: Sequence[Curve], normal: NDArray, order: int = 3, about: NDArray | None = None) -> Moments:
-    """Return the area moments of the plane region between closed curves that run counter-clockwise about the normal.
-
-    A curve that runs clockwise bounds a hole. normal: (3,) unit. about: (3,) a point of the plane, by default the mean
-    of the control points. For polynomial curves the moments are exact and `rounding_error` is rounding.
-    """
+    """Return the area moments of the plane region between curves, counter-clockwise about the (3,) unit normal."""
     center: NDArray[np.float64] = (
         np.mean([curve.points.mean(axis=0) for curve in curves], axis=0) if about is None else np.asarray(about)
     )

@@ -38,10 +38,7 @@ class FlatFace:
 
     @classmethod
     def within(cls, loops: Sequence[Sequence[Curve]], toward: ArrayLike) -> FlatFace:
-        """Return the region between loops of any direction; its normal is on the side of the vector `toward`.
-
-        MeasureError if the loops are not closed, too small, not in one plane, or cross.
-        """
+        """Return the region between loops of any direction, its normal towards `toward`, or raise MeasureError."""
         oriented, normal = planar_loops(loops)
         face = cls(tuple(map(tuple, oriented)), normal)
         return face.reverse_orientation() if float(normal @ np.asarray(toward)) < 0.0 else face
@@ -115,10 +112,7 @@ class FlatFace:
         return Moments(np.asarray(raw), about, Measure.VOLUME, np.asarray(error))
 
     def quads(self, each: int) -> NDArray[np.float64]:
-        """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per span of its curves.
-
-        They are the pieces of rows between successive heights of corners, counter-clockwise about the normal.
-        """
+        """Return (n, 4, 3) corners of trapezoids that fill the polygon through `each` samples per span."""
         loops = [np.concatenate([curve.samples(each)[:-1] for curve in loop]) for loop in self.loops]
         begin = (np.concatenate(loops) - self.center) @ self._frame
         grain = SAME_HEIGHT_RTOL * float(np.ptp(begin, axis=0).max())

@@ -66,11 +66,7 @@ class Integral:
 def volume_moments(
     faces: Sequence[Face], order: int = 3, about: NDArray | None = None, tolerance: float = VOLUME_RTOL
 ) -> tuple[Moments, bool]:
-    """Return the volume moments of the body that closed, outward patches bound, and whether they converged.
-
-    about: (3,), by default the middle of the control points' box. Patches that do not close are closed by a cone to it.
-    `rounding_error` holds an estimate of truncation (zero for polynomial patches) and rounding.
-    """
+    """Return the volume moments, about the box's middle, of the body in outward patches, and whether they converged."""
     about = patches_center(faces) if about is None else np.asarray(about, np.float64)
     patches, flat = split_faces(faces)
     degree, flux = _degrees(order), partial(flux_sums, order=order)
@@ -278,10 +274,7 @@ def vector_area(patches: Sequence[Patch]) -> NDArray[np.float64]:
 
 
 def with_swept_error(moments: Moments, swept: float, reach: float) -> Moments:
-    """Return moments with the input error of a change that sweeps the volume `swept` within `reach` of their origin.
-
-    A skin that moves sweeps a volume, and so do gaps along seams; a monomial of degree d is at most reach^d in it.
-    """
+    """Return moments with the input error of a change that sweeps the volume `swept` within `reach` of their origin."""
     return replace(moments, input_error=swept * reach ** monomials(moments.order).sum(axis=1))
 
 
@@ -367,10 +360,7 @@ def integrate_adaptively(
 
 
 def _undersampled_areas(cells: BezierCells, steep: float) -> NDArray[np.float64]:
-    """Return (c,) areas that all rules may miss, of cells with weights that differ by a factor above `steep`; else 0.
-
-    Each area is the squared diagonal of the box around the cell's control points.
-    """
+    """Return (c,) squared diagonals of cells whose weights differ by a factor above `steep`, else 0."""
     lost = np.zeros(len(cells))
     if len(cells.net) == 4:
         weights = cells.net[3]

@@ -166,11 +166,7 @@ def assess(
     stored: float,
     findings: Sequence[Finding] = (),
 ) -> PatchIntegrals:
-    """Combine the moments of parts, turned or left out as needed, into the measurement with its findings.
-
-    parts: from `oriented_parts`. measured: the result of `volume_moments` for each part. area: moments of all patches.
-    slope: from `area_slope`. stored: as for `measure_patches`. findings: further findings to include.
-    """
+    """Combine moments `measured` by `volume_moments` of `oriented_parts`, turned or left out, with findings."""
     size = patches_size(patches)
     verdict = _judge_parts(parts, topology, measured, area.total, size, stored)
     turned_parts = [
@@ -263,12 +259,7 @@ def _health(topology: PatchTopology, verdict: _PatchVerdict, area: float) -> Mes
 def measure_sheet(
     patches: Sequence[Face], inner: float, outer: float, *, stored: float = 0.0
 ) -> tuple[Moments, Moments, bool]:
-    """Measure a sheet of real thickness along patches, about the middle of the control points' bounding box.
-
-    inner, outer: its least and largest height along the patches' normals. stored: as for `measure_patches`. Return
-    the moments of its volume and of the patches' area, to order 3, and whether both error estimates are below the
-    tolerance. MeasureError if the sheet would run through itself.
-    """
+    """Measure the sheet between two heights along patches: volume, area, and whether both converged."""
     about = patches_center(patches)
     area, fine = area_moments(patches, 3, about)
     sheet, converged = sheet_moments(patches, inner, outer, 3, about)
@@ -329,10 +320,7 @@ def _component_findings(comparison: ComponentComparison | None, size: float) -> 
 def _classify_parts(
     parts: Sequence[Sequence[Face]], solid: NDArray[np.bool_], each: int, tolerance: float
 ) -> tuple[SortedComponents, ComponentRelations]:
-    """Compare parts by `each` samples per span of their patches; return the sampled components and their relations.
-
-    Unless `each` is `SAMPLES_PER_SPAN`, crossings within the gap between samples and patches do not count.
-    """
+    """Return components sampled `each` times per span, and their relations."""
     points, triangles, component = [], [], []
     count, off = 0, 0.0
     for number, part in enumerate(parts):

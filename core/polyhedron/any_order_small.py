@@ -28,10 +28,7 @@ def extend_small_moments(
     counts: NDArray[np.integer],
     reach: NDArray,
 ) -> Moments:
-    """Return the moments of n bodies, `volume` (n, 20), each about a point in its body, to a higher order.
-
-    Triangles are sorted by body. reach: (n, 3) of its points from there, with their possible shifts by storing.
-    """
+    """Return the moments of n bodies, `volume` (n, 20), to a higher order; reach: (n, 3) of points from their point."""
     known, ends = volume.raw.shape[1], np.cumsum(counts)
     powers = monomials(order)[known:]
     degree = powers.sum(axis=1)

@@ -14,11 +14,7 @@ FACES_PER_BLOCK = 1 << 13  # faces whose intermediate arrays stay in the cache
 
 
 def volume_and_center(surface: Surface) -> tuple[float, NDArray[np.float64]]:
-    """Return the volume that a closed surface encloses, negative if inside out, and its (3,) centroid, if finite.
-
-    The tetrahedra have their apex near the middle (Zhang and Chen 2001, eq. 6 and 7). The two tetrahedra of a quad
-    abcd, cut along ac, share the face of a, c and the apex: with w = a × c, six times their volumes are -b·w and d·w.
-    """
+    """Return the volume that a closed surface encloses, negative if inside out, and its (3,) centroid, if finite."""
     points = np.ascontiguousarray(surface.points.T, np.float64)
     middle = points.mean(axis=1)
     points -= middle[:, None]

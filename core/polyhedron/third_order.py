@@ -81,10 +81,7 @@ def integrate(
     about: NDArray | None = None,
     planarity: PlanarityAccumulator | None = None,
 ) -> tuple[Moments, Moments]:
-    """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`.
-
-    exact: to rounding for every size of mesh. about: (3,), by default the box's center. planarity: gets faces' sizes.
-    """
+    """Return the moments of the volume to third order; and the area if `area`, its moments if `area_moments`."""
     count = len(surface.triangles) + 2 * len(surface.quads)
     if not count:
         return nothing(3, about)
@@ -267,10 +264,7 @@ class _Integration:
 
 
 def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDArray[np.float64], NDArray[np.float64]]:
-    """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20) `input_error`.
-
-    They are bounds from the largest edges of each chunk of triangles and the sums of sizes, for volume and area.
-    """
+    """Return the sums of |determinants| and doubled areas; (2, 20) errors of Σ w E[f]; (2, 20) `input_error`."""
     sizes, count = np.add.reduce(sums.sizes, axis=1), np.array([[np.add.reduce(sums.counts)]])
     # einsum instead of a matrix product, after which the threads of some BLAS keep a core busy for a while.
     products = np.einsum("in,jn,n->ij", sums.side, sums.base, sums.counts)
@@ -294,10 +288,7 @@ def _error_bounds(job: _Integration, sums: BlockSums) -> tuple[list[float], NDAr
 
 
 def quad_corners(triangles: NDArray) -> list[NDArray] | None:
-    """Return the four corners of quads, (k/2,) each, if triangles 2i and 2i+1 are always halves of a quad; else None.
-
-    Two triangles that share an edge cost less than two loose ones. The first pair shows their common corners.
-    """
+    """Return (k/2,) corners of quads, if triangles 2i and 2i+1 are always halves of a quad; else None."""
     return _quad_corners_of(triangles[0::2], triangles[1::2])
 
 

@@ -45,10 +45,7 @@ def bone_pieces(
     bone: NDArray[np.integer],
     displacement: NDArray | None = None,
 ) -> list[BonePiece]:
-    """Cut a closed surface, outward (t, 3) triangles with (t,) bones, into closed pieces, one for each bone.
-
-    displacement: (3,) largest displacement by storing the coordinates.
-    """
+    """Cut (t, 3) outward triangles with (t,) bones into closed pieces; displacement: (3,) by storing."""
     points = points.astype(np.float64)
     owner, start, stop = _cut_edges(len(points), triangles, bone)
     cut, apexes = _apexes(points, start, stop)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf, pi, radians
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +18,16 @@ from ..moments.exponents import KNOWN_ORDER
 from ..moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, monomial_count
 from ..solid.measure import measure_solid
 from ..verdict import internal_error
-from ..verdict.finding import Finding, MeasureError, finding
+from ..verdict.finding import Finding, MeasureError, Severity, finding
 from ..verdict.method import Verdict
-from .diagnosis import Reference, diagnose
+from ..verdict.sentences import sentence, severity
+from .diagnosis import Diagnosis, Reference, diagnose, diagnose_density
 from .findings import (
     AUDIT_ANGLES,
+    AUDIT_NOT_UNIFORM,
     AUDIT_UNIFORM_INSTEAD,
     AUDIT_UP_AXIS,
+    INERTIAL_CENTER_OUTSIDE,
     INERTIAL_MISSING,
     INERTIAL_NOT_FINITE,
     INERTIAL_OF_FRAME,
@@ -33,7 +37,7 @@ from .model import Pose, Shape
 from .plausibility import LEAST_MASS, Hull, impossible, spread_directions
 from .read.meshes import read_mesh
 from .read.paths import Roots
-from .stated import Description, StatedInertial, StatedLink, StatedShape, rotation_of_angles
+from .stated import Description, Place, StatedInertial, StatedLink, StatedShape, rotation_of_angles
 
 BALL = 2000  # points of a ball
 ROUND = 1.01  # Factor that encloses a round shape, of which only some points are known.
@@ -41,13 +45,51 @@ RELIABLE = (Verdict.EXACT, Verdict.REORIENTED, Verdict.CAPPED)
 
 
 @dataclass(frozen=True, eq=False)
+class Entry:
+    """One fault of a link, or a note about it.
+
+    finding: the fault; the change that corrects it, if there is one that explains it. reasons: why the stated inertial
+    is impossible, as far as the finding explains that. change: the change that corrects the fault, None if unknown.
+    certainty: "certain" if geometry and inertial then agree to the digits of files, "likely" if they do so after
+    several different changes, "guess" if the change merely makes the inertial possible.
+    place: of the element in the file. compares: True if the fault is one of the stated inertial.
+    """
+
+    finding: Finding
+    place: Place
+    reasons: tuple[Finding, ...] = ()
+    change: Finding | None = None
+    certainty: str = ""
+    compares: bool = False
+
+    @property
+    def severity(self) -> Severity:
+        """The severity of the finding, but an error if the inertial is impossible."""
+        return Severity.ERROR if self.reasons else severity(self.finding)
+
+    @property
+    def message(self) -> str:
+        """The sentences of the reasons and the finding."""
+        return " ".join(map(sentence, (*self.reasons, self.finding)))
+
+
+@dataclass(frozen=True, eq=False)
 class LinkAudit:
-    """Findings about one link. repaired: its corrected inertial, None if it stays. density: kg/m³, None if unknown."""
+    """Entries about one link. repaired: its corrected inertial, None if it stays. density: kg/m³, None if unknown.
+
+    geometry: the inertial of the evenly filled geometry with the stated mass, None if unknown.
+    """
 
     link: StatedLink
-    findings: tuple[Finding, ...]
+    entries: tuple[Entry, ...]
     repaired: StatedInertial | None = None
     density: float | None = None
+    geometry: StatedInertial | None = None
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """All findings, first the reasons of each entry."""
+        return tuple(found for entry in self.entries for found in (*entry.reasons, entry.finding))
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,11 +127,12 @@ Pieces = dict[str, list[tuple[StatedShape, _Piece]]]
 class _Judgment:
     """Comparison of an inertial with some geometry. apart: its relative difference from evenly filled geometry."""
 
-    findings: list[Finding]
+    entries: list[Entry]
     impossible: bool
     repaired: StatedInertial | None = None
     density: float | None = None
     apart: float = inf
+    geometry: StatedInertial | None = None
 
 
 @dataclass
@@ -108,38 +151,38 @@ class Auditor:
         try:
             return self._link(link)
         except Exception as error:
-            return LinkAudit(link, (*link.findings, internal_error.finding_of(error)))
+            return LinkAudit(link, (*_read_entries(link), Entry(internal_error.finding_of(error), link.place)))
 
     def _link(self, link: StatedLink) -> LinkAudit:
-        findings = list(link.findings)
+        entries, place = _read_entries(link), link.inertial_place
         if link.inertial is None:
-            if link.moves and not findings:
-                findings.append(finding(INERTIAL_MISSING))
-            return LinkAudit(link, tuple(findings))
+            if link.moves and not entries:
+                entries.append(Entry(finding(INERTIAL_MISSING), link.place))
+            return LinkAudit(link, tuple(entries))
         if not link.shapes and not link.inertial.mass and not link.inertial.tensor.any():
-            return LinkAudit(link, (*findings, finding(INERTIAL_OF_FRAME)))
+            return LinkAudit(link, (*entries, Entry(finding(INERTIAL_OF_FRAME), place)))
         pieces, unread = self._pieces(link.shapes)
-        incomplete = bool(unread or findings)  # findings of the reader: about shapes, as there is an inertial
-        findings += unread
-        found = _judge(link.inertial, pieces, incomplete)
+        incomplete = bool(unread or entries)  # entries of the reader: about shapes, as there is an inertial
+        entries += unread
+        found = _judge(link.inertial, place, pieces, incomplete)
         if any(piece.upright is not None for several in pieces.values() for _, piece in several):
             turned = {role: [(one, piece.turned()) for one, piece in several] for role, several in pieces.items()}
-            other = _judge(link.inertial, turned, incomplete)
+            other = _judge(link.inertial, place, turned, incomplete)
             if (other.impossible, 2.0 * other.apart) < (found.impossible, found.apart):
                 found = other
-                findings.append(finding(AUDIT_UP_AXIS))
-        return LinkAudit(link, (*findings, *found.findings), found.repaired, found.density)
+                entries.append(Entry(finding(AUDIT_UP_AXIS), place))
+        return LinkAudit(link, (*entries, *found.entries), found.repaired, found.density, found.geometry)
 
-    def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Finding]]:
-        """Return the measured shapes by role, and findings about shapes that cannot be measured."""
+    def _pieces(self, shapes: Iterable[StatedShape]) -> tuple[Pieces, list[Entry]]:
+        """Return the measured shapes by role, and entries about shapes that cannot be measured."""
         pieces: Pieces = {}
-        unread: list[Finding] = []
+        unread: list[Entry] = []
         for stated in shapes:
             try:
                 piece = self._piece(stated)
             except MeasureError as error:
-                if error.finding not in unread:
-                    unread.append(error.finding)
+                if error.finding not in [entry.finding for entry in unread]:
+                    unread.append(Entry(error.finding, stated.place))
                 continue
             pieces.setdefault(stated.role, []).append((stated, piece))
         return pieces, unread
@@ -151,37 +194,79 @@ class Auditor:
             return _primitive(shape)
         if stated.points is not None and stated.triangles is not None:
             return _measured(Surface.from_triangles(stated.points, stated.triangles))
-        key = shape.file, shape.size
+        # Meshes of an included SDF model are beside it, those of MJCF beside the file that includes.
+        roots = self.roots.at(Path(stated.place.file).parent) if stated.place.file else self.roots
+        key = shape.file, shape.size, roots.base
         if key not in self._meshes:
-            surface, upright = read_mesh(self.roots.find(shape.file))
+            surface, upright = read_mesh(roots.find(shape.file))
             self._meshes[key] = _measured(surface.transform(np.diag(shape.size)), upright)
         return self._meshes[key]
 
 
-def _judge(stated: StatedInertial, pieces: Pieces, incomplete: bool) -> _Judgment:
+def _read_entries(link: StatedLink) -> list[Entry]:
+    """Return the entries about content that the reader could not use."""
+    entries = []
+    for found in link.findings:
+        line, column = found.values.get("line", link.place.line), found.values.get("column", 1)
+        entries.append(Entry(found, Place(int(line), int(column), link.place.file)))
+    return entries
+
+
+def _judge(stated: StatedInertial, place: Place, pieces: Pieces, incomplete: bool) -> _Judgment:
     """Judge an inertial by its geometry. incomplete: True if some shapes could not be read; then none are compared."""
     points = [
         piece.points @ one.shape.pose.rotation.T + one.shape.pose.position
         for several in pieces.values()
         for one, piece in several
     ]
-    findings = impossible(stated, Hull(np.concatenate(points)) if points and not incomplete else None)
-    if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in findings):
-        return _Judgment(findings, True)
+    hull = Hull(np.concatenate(points)) if points and not incomplete else None
+    reasons = impossible(stated, hull)
+    if not stated.mass > LEAST_MASS or any(one.code == INERTIAL_NOT_FINITE for one in reasons):
+        return _Judgment([Entry(one, place, compares=True) for one in reasons], True)
+    wrong = [one for one in reasons if one.code != INERTIAL_TRIANGLE_SLIGHTLY]
     references = [] if incomplete else [made for several in pieces.values() if (made := _reference(several))]
-    diagnosis = diagnose(stated, references, [] if incomplete else _turned(pieces))
-    wrong = any(one.code != INERTIAL_TRIANGLE_SLIGHTLY for one in findings)
-    repaired = None
-    if diagnosis is not None:
-        findings.append(diagnosis.finding)
-        repaired = diagnosis.repaired
+    is_outside = any(one.code == INERTIAL_CENTER_OUTSIDE for one in wrong)
+    diagnoses = diagnose(stated, references, [] if incomplete else _turned(pieces), is_outside)
+    changes = [one for one in diagnoses if one.repaired is not None or one.is_of_geometry]
+    repaired = changes[-1].repaired if changes else None
+    left = wrong
+    if repaired is not None:
+        codes = {one.code for one in impossible(repaired, hull)}
+        left = [one for one in wrong if one.code in codes]
+    elif changes:
+        left = []
+    entries = [Entry(one, place, compares=True) for one in reasons if one not in wrong]
+    entries += _entries(place, diagnoses, [one for one in wrong if one not in left])
     if not references:
-        return _Judgment(findings, wrong, repaired)
-    if wrong and repaired is None and not (diagnosis and diagnosis.is_of_geometry):
-        repaired = references[0].uniform(stated.mass)
-        findings.append(finding(AUDIT_UNIFORM_INSTEAD))
-    apart = min(reference.compare(stated) for reference in references)
-    return _Judgment(findings, wrong, repaired, stated.mass / references[0].volume, apart)
+        return _Judgment([*entries, *(Entry(one, place, compares=True) for one in left)], bool(wrong), repaired)
+    reference = references[0]
+    geometry = reference.uniform(stated.mass)
+    if left:
+        entries = [one for one in entries if one.finding.code != AUDIT_NOT_UNIFORM]  # It adds nothing to errors.
+        # Geometry that cannot hold the mass shows nothing about its place.
+        light_or_heavy = diagnose_density(geometry, reference)
+        guess = None if light_or_heavy else finding(AUDIT_UNIFORM_INSTEAD)
+        repaired = None if light_or_heavy else geometry
+        entries += [Entry(one, place, (), guess, "guess" if guess else "", True) for one in left]
+        entries += [Entry(one.finding, place, compares=True) for one in light_or_heavy]
+    apart = min(one.compare(stated) for one in references)
+    return _Judgment(entries, bool(wrong), repaired, stated.mass / reference.volume, apart, geometry)
+
+
+def _entries(place: Place, diagnoses: Sequence[Diagnosis], explained: Sequence[Finding]) -> list[Entry]:
+    """Return one entry for each diagnosis, with the reasons that it explains: the center's, or all other ones."""
+    entries = []
+    for index, one in enumerate(diagnoses):
+        is_change = one.repaired is not None or one.is_of_geometry
+        reasons = [
+            reason
+            for reason in explained
+            if len(diagnoses) == 1 or (reason.code == INERTIAL_CENTER_OUTSIDE) == (index == 0)
+        ]
+        certainty = ("certain" if one.is_certain else "likely") if is_change else ""
+        change = one.finding if is_change else None
+        entries.append(Entry(one.finding, place, tuple(reasons), change, certainty, True))
+    return entries
 
 
 def _measured(surface: Surface, upright: NDArray | None = None) -> _Piece:

@@ -37,14 +37,20 @@ from .findings import (
 from .stated import StatedInertial, rotation_of_angles
 
 AGREES, DIFFERS = 5e-3, 1e-2  # Relative differences: below the first equal; above the second not by rounded digits.
-LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, 0.0254, 1.0 / 0.0254)
+INCH, POUND = 0.0254, 0.45359237
+LENGTH_UNITS = (1e-3, 1e-2, 1e3, 1e2, INCH, 1.0 / INCH)
+IMPERIAL_INERTIAS = (POUND * INCH**2, POUND * (12.0 * INCH) ** 2, POUND / 16.0 * INCH**2)  # lb·in², lb·ft², oz·in²
 INERTIA_UNITS = (1e-6, 1e-3, 1e-9, 1e-4, 1e-7, 1e6, 1e3, 1e9, 1e4, 1e7)
 DENSITIES = (10.0, 30_000.0)  # kg/m³, possible range of a robot: from foam to above the heaviest metal.
 USUAL_DENSITIES = (100.0, 12_000.0)  # Typical range; a change that only the density shows must lead into it.
 AXES = np.array(list(permutations(range(3))))[1:]
 PRODUCT_NAMES = ("xy", "xz", "yz")
 CENTER, PRODUCTS = "center of mass", "products of inertia"  # Parts of an inertial, as the findings name them.
+CENTER_AXES = "axes of the center of mass"
+CENTERS = (CENTER, CENTER_AXES)
 LENGTHS = "lengths of the inertial, the inertia twice,"
+IMPERIAL = "mass by 0.453592 and the inertia, in lb·in²,"
+WHOLE_IMPERIAL = "mass by 0.453592, the center by 0.0254 and the inertia, in lb·in²,"
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,10 +67,13 @@ class Reference:
 
     def compare(self, stated: StatedInertial) -> float:
         """Return the larger of the center's difference per radius of gyration and the inertia's relative difference."""
-        radius = np.sqrt(np.trace(self.inertia) / 2.0)
-        apart = float(np.linalg.norm(stated.center - self.center)) / radius
         turned = np.linalg.norm(stated.inertia / stated.mass - self.inertia) / np.linalg.norm(self.inertia)
-        return max(apart, float(turned))
+        return max(self.compare_centers(stated), float(turned))
+
+    def compare_centers(self, stated: StatedInertial) -> float:
+        """Return the center's difference per radius of gyration."""
+        radius = np.sqrt(np.trace(self.inertia) / 2.0)
+        return float(np.linalg.norm(stated.center - self.center) / radius)
 
     def uniform(self, mass: float) -> StatedInertial:
         """Return the inertial of this geometry, filled evenly with a mass in kg."""
@@ -75,56 +84,92 @@ class Reference:
 class Diagnosis:
     """Diagnosis of an inertial: a finding that names the change, and the corrected inertial, None if it stays.
 
-    is_of_geometry: True if the geometry has to change.
+    is_of_geometry: True if the geometry has to change. is_certain: False if another change would agree as well.
     """
 
     finding: Finding
     repaired: StatedInertial | None = None
     is_of_geometry: bool = False
+    is_certain: bool = True
 
 
 def diagnose(
-    stated: StatedInertial, references: Sequence[Reference], otherwise: Sequence[tuple[Finding, Reference]] = ()
-) -> Diagnosis | None:
-    """Return the one change that corrects an inertial, or a note about the place of the mass; None if it agrees.
+    stated: StatedInertial,
+    references: Sequence[Reference],
+    otherwise: Sequence[tuple[Finding, Reference]] = (),
+    center_is_wrong: bool = False,
+) -> list[Diagnosis]:
+    """Return the changes that correct an inertial, or a note about the place of the mass; empty if it agrees.
 
+    That is one change, or one of the center with one of the rest; each has the inertial corrected up to it.
     references: candidates for the geometry, such as visual and collision shapes. otherwise: geometries with a corrected
-    fault of the description, each with its finding.
+    fault of the description, each with its finding. center_is_wrong: True if a change of the center alone is certain.
     """
     if not references:
-        return None
+        return []
     nearest = min(references, key=lambda reference: reference.compare(stated))
     apart = nearest.compare(stated)
     if apart <= DIFFERS:
-        return _density(stated, nearest)
+        return diagnose_density(stated, nearest)
     for change, reference in otherwise:
         if reference.compare(stated) < AGREES:
-            return Diagnosis(change, is_of_geometry=True)
+            return [Diagnosis(change, is_of_geometry=True)]
+    best = _best_change(stated, references)
+    if best is not None:
+        return [best]
+    for first in _center_changes(stated, references):
+        assert first.repaired is not None
+        second = _best_change(first.repaired, references)
+        if second is not None:
+            return [first, second]
+        if center_is_wrong:
+            return [replace(first, is_certain=False)]
+    factor = float(np.trace(stated.inertia) / stated.mass / np.trace(nearest.inertia))
+    distance = float(np.linalg.norm(stated.center - nearest.center))
+    return [Diagnosis(finding(AUDIT_NOT_UNIFORM, factor=factor, distance=distance))]
+
+
+def _best_change(stated: StatedInertial, references: Sequence[Reference]) -> Diagnosis | None:
+    """Return the one change after which an inertial agrees with a reference, None if there is none."""
+    apart = min(reference.compare(stated) for reference in references)
     best: tuple[float, Diagnosis] | None = None
+    fits: list[StatedInertial] = []
     for reference in references:
         for code, values, repaired in _changes(stated, reference):
             now = reference.compare(repaired)
-            if now < AGREES and now < 0.1 * apart and (best is None or now < 0.1 * best[0]):
-                best = now, _with_density(Diagnosis(finding(code, **values), repaired), stated, reference)
-    if best is not None:
-        return best[1]
-    factor = float(np.trace(stated.inertia) / stated.mass / np.trace(nearest.inertia))
-    distance = float(np.linalg.norm(stated.center - nearest.center))
-    return Diagnosis(finding(AUDIT_NOT_UNIFORM, factor=factor, distance=distance))
+            if now < AGREES and now < 0.1 * apart:
+                fits.append(repaired)
+                if best is None or now < 0.1 * best[0]:
+                    best = now, _with_density(Diagnosis(finding(code, **values), repaired), stated, reference)
+    if best is None:
+        return None
+    masses = [one.mass for one in fits]  # Inertials per kg agree, but the masses need not.
+    return replace(best[1], is_certain=max(masses) <= (1.0 + DIFFERS) * min(masses))
 
 
-def _density(stated: StatedInertial, reference: Reference) -> Diagnosis | None:
-    """Diagnose an inertial that agrees with its geometry but has an unusual density, such as a wrong unit of mass."""
+def _center_changes(stated: StatedInertial, references: Sequence[Reference]) -> Iterator[Diagnosis]:
+    """Yield the first change for each reference that corrects a wrong center alone."""
+    for reference in references:
+        if reference.compare_centers(stated) <= DIFFERS:
+            continue
+        for code, values, repaired in _changes(stated, reference):
+            if values.get("part") in CENTERS and reference.compare_centers(repaired) < AGREES:
+                yield Diagnosis(finding(code, **values), repaired)
+                break
+
+
+def diagnose_density(stated: StatedInertial, reference: Reference) -> list[Diagnosis]:
+    """Diagnose an unusual density of an inertial, such as a wrong unit of the mass; empty if it is usual."""
     density = stated.mass / reference.volume
     if DENSITIES[0] <= density <= DENSITIES[1]:
-        return None
+        return []
     for factor in (1e-3, 1e3):
         if USUAL_DENSITIES[0] <= density * factor <= USUAL_DENSITIES[1]:
             mass, inertia = float(_times(stated.mass, factor)), _times(stated.inertia, factor)
             repaired = stated.along_link(inertia, mass=mass)
             change = finding(AUDIT_UNIT, part="mass and inertia", factor=factor, density=density)
-            return Diagnosis(change, repaired)
-    return Diagnosis(finding(AUDIT_DENSITY, density=density))
+            return [Diagnosis(change, repaired, is_certain=False)]
+    return [Diagnosis(finding(AUDIT_DENSITY, density=density))]
 
 
 def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference) -> Diagnosis:
@@ -135,6 +180,10 @@ def _with_density(found: Diagnosis, stated: StatedInertial, reference: Reference
     other = density * factor**3  # were the mesh scaled by 1/factor
     if DENSITIES[0] <= other <= DENSITIES[1]:  # Both cannot be in the range: a cube of a factor exceeds it.
         return Diagnosis(finding(AUDIT_UNIT, part="lengths of the mesh", factor=1.0 / factor), is_of_geometry=True)
+    if factor == INCH:  # Programs that state inches state pounds.
+        values = {"part": WHOLE_IMPERIAL, "factor": IMPERIAL_INERTIAS[0]}
+        *_, repaired = (one for _, some, one in _pounds(stated) if some == values)
+        return Diagnosis(finding(AUDIT_UNIT, **values), repaired)
     return found
 
 
@@ -172,8 +221,22 @@ def _units(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
     for factor in LENGTH_UNITS:
         whole = stated.along_link(_times(_times(inertia, factor), factor), center=_times(center, factor))
         yield AUDIT_UNIT, {"part": LENGTHS, "factor": factor}, whole
+    yield from _pounds(stated)
     for part, factor in (("mass", mass), ("density", density)):
         yield AUDIT_INERTIA_OF_UNIT, {"part": part, "factor": factor}, stated.along_link(inertia * factor)
+
+
+def _pounds(stated: StatedInertial) -> Iterator[Change]:
+    """Yield changes of pounds, and of inertias in them, to SI units."""
+    mass = stated.mass * POUND
+    yield AUDIT_UNIT, {"part": "mass, which is in pounds,", "factor": POUND}, replace(stated, mass=mass)
+    for factor in IMPERIAL_INERTIAS:
+        tensor = stated.along_link(stated.inertia * factor)
+        yield AUDIT_UNIT, {"part": "inertia", "factor": factor}, tensor
+        if factor == IMPERIAL_INERTIAS[0]:  # It comes with a mass in pounds, and often with a center in inches.
+            yield AUDIT_UNIT, {"part": IMPERIAL, "factor": factor}, replace(tensor, mass=mass)
+            whole = replace(tensor, mass=mass, center=stated.center * INCH)
+            yield AUDIT_UNIT, {"part": WHOLE_IMPERIAL, "factor": factor}, whole
 
 
 def _points(stated: StatedInertial, reference: Reference) -> Iterator[Change]:
@@ -239,7 +302,7 @@ def _orders(stated: StatedInertial) -> Iterator[Change]:
         pairs = " ".join("".join(sorted(axes[i] + axes[j])) for i, j in ((0, 1), (0, 2), (1, 2)))
         for part, text, changed in (
             ("axes of the inertia", axes, stated.along_link(swapped)),
-            ("axes of the center of mass", axes, replace(stated, center=center)),
+            (CENTER_AXES, axes, replace(stated, center=center)),
             ("axes of the inertial", axes, stated.along_link(swapped, center=center)),
             ("diagonal of the inertia", axes, stated.along_link(stated.inertia - diagonal + other_diagonal)),
             (PRODUCTS, pairs, stated.along_link(diagonal + (swapped - other_diagonal))),

@@ -71,18 +71,17 @@ GLTF_UNIT_SCALE = note(
 ROBOT_LINKS_BARE = note(
     "robot_links_bare", "{count} link has no geometry: {links}.", "{count} links have no geometry: {links}."
 )
+SDF_FRAMES_ADDED = note(
+    "sdf_frames_added",
+    "SDF has no joint along such axes: {joints}. Added links, with {part:.3g} of the mass, stand between its axes.",
+    "SDF has no joints along such axes: {joints}. Added links, with {part:.3g} of the mass, stand between their axes.",
+)
 MJCF_INERTIA_TOO_SMALL = warning(
     "mjcf_inertia_too_small",
-    "MuJoCo refuses a moving body with a mass or principal moment below {limit:g} kg or kg·m²: {links}, with "
-    "{least:.3g}. Set boundmass and boundinertia of the compiler, fix it to its parent, or model in larger units.",
-    "MuJoCo refuses moving bodies with a mass or principal moment below {limit:g} kg or kg·m²: {count} of them, "
-    "{links}, down to {least:.3g}. Set boundmass and boundinertia of the compiler, fix them to their parents, or "
-    "model in larger units.",
-)
-MJCF_MESH_TOO_LARGE = warning(
-    "mjcf_mesh_too_large",
-    "MuJoCo refuses meshes of more than {limit} triangles: {links}. Reduce them with a Decimate modifier, or leave "
-    "geometry out.",
+    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises that of {links}, {least:.3g}. "
+    "Fix it to its parent, or model in larger units.",
+    "MuJoCo takes no mass or principal moment below {limit:g} kg or kg·m², and raises those of {count} links: {links}, "
+    "down to {least:.3g}. Fix them to their parents, or model in larger units.",
 )
 USD_INERTIA_TOO_SMALL = warning(
     "usd_inertia_too_small",
@@ -95,10 +94,7 @@ XML_ENTITIES = error(
 DESCRIPTION_INVALID = error("description_invalid", "The file is not {format}: line {line}, {error}.")
 USD_NOT_TEXT = error("usd_not_text", "Only the text form of USD is read. Convert the file to .usda with usdcat.")
 DESCRIPTION_UNKNOWN = error("description_unknown", "The file is no robot description. Its first element is {tag}.")
-INCLUDE_UNREADABLE = error(
-    "include_unreadable",
-    "A file that it includes cannot be read: {name}. Name its folder with --root, or allow all with --allow-outside.",
-)
+INCLUDE_UNREADABLE = error("include_unreadable", "A file that it includes cannot be read: {name}. {cause}")
 INCLUDE_TWICE = error("include_twice", "It includes a file twice: {name}.")
 DESCRIPTION_NUMBER = warning(
     "description_number", "Line {line}: <{element}> has “{text}”, which is no usable number. Correct it."
@@ -106,8 +102,12 @@ DESCRIPTION_NUMBER = warning(
 MESH_ON_NETWORK = warning("mesh_on_network", "A mesh is on a network, and was not loaded: {name}. Download it.")
 MESH_MISSING = warning(
     "mesh_missing",
-    "A mesh was not found in the folders that may be read: {name}. Name the folder of it, or of its package, with "
-    "--root, or allow all with --allow-outside.",
+    "A mesh is missing: {name}. If it is in another package, name the folder of the package with --package-path.",
+)
+MESH_OUTSIDE = warning(
+    "mesh_outside",
+    "A mesh is outside of the folders that may be read: {name}. Name its folder with --package-path, or allow all "
+    "with --allow-outside.",
 )
 MESH_UNREADABLE = warning("mesh_unreadable", "A mesh cannot be read: {name}. {cause}")
 INERTIAL_MISSING = warning(
@@ -134,7 +134,7 @@ INERTIAL_SPREAD_OUTSIDE = error(
     "Impossible: with this inertia, mass lies outside of the geometry (variance {factor:.3g} times too large).",
 )
 AUDIT_UNIFORM_INSTEAD = warning(
-    "audit_uniform_instead", "Repaired as an even filling of the geometry with the stated mass."
+    "audit_uniform_instead", "State the inertial of the geometry, filled evenly with the stated mass."
 )
 AUDIT_NOT_UNIFORM = note(
     "audit_not_uniform",

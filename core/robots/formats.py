@@ -15,7 +15,7 @@ from typing import NamedTuple
 class RobotFormat(NamedTuple):
     """A format. Names and endings are contracts; labels and tooltips are texts of the interface.
 
-    short, copy_tip: name and tooltip in Copy Inertial. export_label, export_tip: name and tooltip of the exporter.
+    short, copy_tip: name and tooltip in the menu Copy. export_label, export_tip: name and tooltip of the exporter.
     writer: module of `write/` with `check(robot)` and `write(robot, remarks, inertial_only=...)`; for formats that the
     audit repairs also `inertial_text`. holds_meshes: False if meshes are files of their own.
     binary_suffixes: endings of the format's binary files, which must not hold text.

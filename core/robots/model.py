@@ -73,6 +73,10 @@ class Inertial:
             moments[2] = min(moments[2], moments[0] + moments[1])
         return cls(float(mass), center, inertia, moments, axes)
 
+    def share(self, part: float) -> Inertial:
+        """Return the inertial of a body with a part of this one's density."""
+        return replace(self, mass=part * self.mass, inertia=part * self.inertia, moments=part * self.moments)
+
     def place(self, pose: Pose) -> Inertial:
         """Return the inertial in another frame, in which the link has the given pose."""
         turn = pose.rotation
@@ -234,7 +238,10 @@ class Robot:
     def pose_in_parent(self, link: Link) -> Pose:
         """Return the pose of a link in its parent's frame; of a root, in the world's."""
         joint = self.joint_of(link.name)
-        return link.pose if joint is None else self.link(joint.parent).pose.inverse() @ link.pose
+        if joint is None:
+            return link.pose
+        outer = self.link(joint.parent).pose
+        return Pose() if outer is link.pose else outer.inverse() @ link.pose  # Equal frames without rounding.
 
     def with_fixed_roots(self) -> Robot:
         """Return the robot with all its roots fixed to the world."""

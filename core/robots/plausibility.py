@@ -75,21 +75,36 @@ class Hull:
 
 
 def impossible(stated: StatedInertial, hull: Hull | None) -> list[Finding]:
-    """Return the reasons why no body, or no body within a known hull, has an inertial; empty if it is possible."""
+    """Return all reasons why no body, or no body within a known hull, has an inertial; empty if it is possible."""
     numbers = np.concatenate([[stated.mass], stated.center, stated.inertia.ravel()])
     if not (np.abs(numbers) <= LARGEST).all():
         return [finding(INERTIAL_NOT_FINITE)]
+    findings = []
     if not stated.mass > LEAST_MASS:
-        return [finding(INERTIAL_NOT_POSITIVE, part="mass", value=float(stated.mass), unit="kg")]
-    moments = np.linalg.eigvalsh(stated.inertia)
+        findings.append(finding(INERTIAL_NOT_POSITIVE, part="mass", value=float(stated.mass), unit="kg"))
+    if stated.mass or stated.inertia.any():  # A mere placeholder has one fault.
+        findings += _impossible_tensor(stated.inertia)
+    if hull is None:
+        return findings
+    distance = hull.distance(stated.center)
+    is_outside = distance > CENTER_RTOL * hull.size
+    if is_outside:
+        findings.append(finding(INERTIAL_CENTER_OUTSIDE, distance=distance))
+    if all(one.code in (INERTIAL_TRIANGLE_SLIGHTLY, INERTIAL_CENTER_OUTSIDE) for one in findings):
+        findings += _excess_spread(stated, hull, is_outside)
+    return findings
+
+
+def _impossible_tensor(inertia: NDArray) -> list[Finding]:
+    """Return the reason why no body has a (3, 3) tensor; empty if one may have it."""
+    moments = np.linalg.eigvalsh(inertia)
     if not moments[0] > ZERO_RTOL * moments[2]:
         moment = 0.0 if abs(moments[0]) <= ZERO_RTOL * abs(moments[2]) else float(moments[0])
         return [finding(INERTIAL_NOT_POSITIVE, part="least principal moment", value=moment, unit="kg·m²")]
     excess = float(moments[2] / (moments[0] + moments[1]) - 1.0)
     if excess > ROUNDING:
         return [finding(INERTIAL_TRIANGLE, moments=moments.tolist(), excess=excess)]
-    findings = [finding(INERTIAL_TRIANGLE_SLIGHTLY, excess=excess)] if excess > 1e-12 else []
-    return findings if hull is None else findings + _outside(stated, hull)
+    return [finding(INERTIAL_TRIANGLE_SLIGHTLY, excess=excess)] if excess > 1e-12 else []
 
 
 def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tuple[list[int], NDArray[np.float64]]:
@@ -110,16 +125,16 @@ def _nearest_shares(points: NDArray, chosen: list[int], shares: NDArray) -> tupl
         shares = shares[kept] / shares[kept].sum()
 
 
-def _outside(stated: StatedInertial, hull: Hull) -> list[Finding]:
-    """Return the reasons why no body within the hull has an otherwise possible inertial."""
-    distance = hull.distance(stated.center)
-    if distance > CENTER_RTOL * hull.size:
-        return [finding(INERTIAL_CENTER_OUTSIDE, distance=distance)]
+def _excess_spread(stated: StatedInertial, hull: Hull, is_outside: bool) -> list[Finding]:
+    """Return the reason why no body within the hull has a possible tensor. is_outside: of a center within the hull."""
     second = (np.trace(stated.inertia) / 2.0 * np.eye(3) - stated.inertia) / stated.mass
     directions = np.concatenate([np.linalg.eigh(second)[1].T, spread_directions(DIRECTIONS)])
     variance = np.einsum("ki,ij,kj->k", directions, second, directions)
     # The center may be off by its own tolerance.
-    limit = hull.spread_limit(stated.center, directions)
+    if is_outside:  # Half of the mass at either end has the largest variance about any center.
+        limit = (np.ptp(hull.points @ directions.T, axis=0) / 2.0) ** 2
+    else:
+        limit = hull.spread_limit(stated.center, directions)
     tolerance = SPREAD_RTOL * limit + CENTER_RTOL * hull.size**2
     worst = int(np.argmax((variance - limit) / (limit + tolerance)))
     if variance[worst] > limit[worst] + tolerance[worst]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,14 @@ from .model import Inertial, Shape
 ENTRIES = (("ixx", 0, 0), ("ixy", 0, 1), ("ixz", 0, 2), ("iyy", 1, 1), ("iyz", 1, 2), ("izz", 2, 2))
 Angles = tuple[float, float, float]
 LEAST, MOST = 1e-30, 1e30  # of lengths in m and scales: fifth powers and their products stay in the range of float64
+
+
+class Place(NamedTuple):
+    """A place in a file, from 1. file: a file that the description includes, "" for the description itself."""
+
+    line: int = 1
+    column: int = 1
+    file: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +83,7 @@ class StatedShape:
     angles: Angles | None = None
     points: NDArray[np.float64] | None = None
     triangles: NDArray[np.integer] | None = None
+    place: Place = Place()
 
     def __post_init__(self) -> None:
         shape = self.shape
@@ -89,6 +99,7 @@ class StatedShape:
 class StatedLink:
     """One link as its file states it.
 
+    `place`, `inertial_place`: of the link and of its inertial, which is the link's if there is none.
     `span`: range of the inertial in the file, in bytes. `moves`: True if a missing inertial matters.
     `findings`: about content that the reader could not use.
     `local`: (4, 4) from the file's coordinates to the link's axes, in the file's unit; None if they are the same.
@@ -101,6 +112,8 @@ class StatedLink:
     moves: bool = True
     findings: tuple[Finding, ...] = ()
     local: NDArray[np.float64] | None = None
+    place: Place = Place()
+    inertial_place: Place = Place()
 
 
 @dataclass(frozen=True, eq=False)

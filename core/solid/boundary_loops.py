@@ -45,11 +45,7 @@ def join_sides(
     stop: NDArray[np.integer],
     directed: bool,
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.bool_]]:
-    """Return (k,) and (k,) sides of boundaries joined at their ends, and (k,) True for sides that run head to tail.
-
-    If an even number of sides meet (as many arriving as leaving), all are joined in pairs, the sharpest turns first.
-    begin, end: (r, 3). start, stop: (r,) the vertices there. directed: True to join only head to tail.
-    """
+    """Return (k,) and (k,) sides joined in pairs at equal vertices, sharpest turns first, and True for head to tail."""
     count = len(start)
     vertex = np.concatenate([start, stop])
     direction = end - begin
@@ -164,10 +160,7 @@ class OwnedLoops:
         return cls(points, start, stop, loops, loops.of_each(owner))
 
     def cones(self) -> tuple[NDArray[np.floating], NDArray[np.integer], NDArray[np.intp]]:
-        """Return the loops' centroids, in the points' own type; (k, 3) triangles to them from (k,) sides: the caps.
-
-        Centroids are numbered after the points. Three sides get a single triangle.
-        """
+        """Return the loops' centroids, and the caps: (k, 3) triangles to them from (k,) sides."""
         loops, centroids = self.loops, len(self.points) + np.arange(len(self.owner))
         apex = np.where(np.bincount(loops.of_side) == 3, loops.of_each(self.start), centroids)
         triangles = np.stack([self.stop, self.start, apex[loops.of_side]], axis=1)

@@ -62,10 +62,7 @@ class GivenIntegrals:
 
 
 def check_surface(surface: Surface) -> CheckedSurface:
-    """Check that a surface can be measured, and leave out vertices that no face uses.
-
-    MeasureError if there are no faces, or they name no vertices, or positions are not finite, too large or too small.
-    """
+    """Check that a surface can be measured, or raise MeasureError; leave out vertices that no face uses."""
     check_type("surface", surface, Surface)
     faces = [corners for corners in (surface.quads, surface.triangles) if len(corners)]
     if not faces:
@@ -136,10 +133,7 @@ def same_sign(total: float | NDArray, signed: float | NDArray) -> bool | NDArray
 
 
 def prove_closed(surface: Surface) -> RepairedMesh | None:
-    """Return the mesh, in need of no repair, if its own edges prove it closed and oriented; else None.
-
-    The mesh has no triangles if there is a single component: they are not needed.
-    """
+    """Return the mesh, without triangles if one component, if its own edges prove it closed and oriented; else None."""
     found = _components_of_closed(surface)
     if found is None:
         return None

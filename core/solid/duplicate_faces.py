@@ -65,11 +65,7 @@ def drop_duplicate_faces(mesh: RepairedMesh, tolerance: float) -> RepairedMesh:
 
 
 def copied_faces(surface: Surface) -> NDArray[np.integer]:
-    """Return the (k,) mesh faces on the same vertices as an earlier one, sorted.
-
-    In a solid two such faces bound nothing, and their edges close, so that no repair looks for them; in a sheet their
-    area counts twice.
-    """
+    """Return the sorted (k,) mesh faces on the same vertices as an earlier one, which bound nothing."""
     triangles, face = surface.all_triangles()
     return np.unique(face[same_vertices_groups(triangles, face) != face])
 
@@ -103,10 +99,7 @@ def is_duplicated(group: NDArray[np.integer], face: NDArray[np.integer]) -> NDAr
 def _regions_of_one_layer(
     edges: Edges, later: NDArray[np.bool_], copied: NDArray[np.bool_], agree: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Return an (m,) mask of triangles in regions to be reduced to one layer.
-
-    later, copied: masks of later copies, and of faces with copies; agree: positive if a face runs as its first copy.
-    """
+    """Return an (m,) mask of triangles in regions to be reduced to one layer; later, copied: masks; agree: signs."""
     side = np.flatnonzero(np.repeat(copied, 3))
     edge, owner = edges.of_side[side], side // 3
     meet = np.empty(len(edges.count), np.intp)

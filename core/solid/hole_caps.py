@@ -202,10 +202,7 @@ def _find_folded_loops(
     unclosable: NDArray[np.bool_],
     tolerance: float,
 ) -> FoldedLoops:
-    """Find components that leave over only loops without area, as letters with an outline that turns back on itself do.
-
-    edges: of the components; signed_count: of these edges. unclosable: (c,) the components to look at.
-    """
+    """Find components (of `unclosable`) that leave over only loops without area, as outlines that turn back do."""
     edge = np.flatnonzero((signed_count != 0) & unclosable[mesh.component[edges.first // 3]])
     edge = np.repeat(edge, np.abs(signed_count[edge]).astype(np.intp))
     side = edges.first[edge]

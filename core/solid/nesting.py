@@ -95,11 +95,7 @@ def classify_pairs(
 def _breakthrough(
     components: SortedComponents, tree: Bvh, pairs: NDArray[np.intp], tolerance: float
 ) -> NDArray[np.float64]:
-    """Return (k,) how far the components of each pair (inner, outer) reach out of each other, at least `tolerance`.
-
-    The value is the largest distance from the other surface: of places on edges of the inner component that are outside
-    the outer one, and of places on edges of the outer component that are inside the inner one.
-    """
+    """Return (k,) how far inner and outer component reach out of each other, at least `tolerance`."""
     depth = np.full(len(pairs), tolerance)
     if not len(pairs):
         return depth
@@ -130,11 +126,7 @@ def surfaces_intersect(
     vertex: NDArray[np.integer],
     tolerance: float,
 ) -> bool:
-    """Return whether surfaces are found, in limited time, to go through each other or themselves by over `tolerance`.
-
-    component: (m,) surfaces of triangles, ascending; pairs: (k, 2); vertex: (n,) of each point: triangles that share
-    one do not count.
-    """
+    """Return whether surfaces are found to go through each other or themselves by over `tolerance`."""
     surfaces = sort_components(points, triangles, component, int(component[-1]) + 1)
     tree = Bvh(points, surfaces, np.ones(len(surfaces.volume), bool))
     return bool(intersecting_pairs(tree, pairs[:, 0], pairs[:, 1], tolerance, vertex)[0].any())
@@ -215,10 +207,7 @@ def _innermost_container(relations: ComponentRelations, number: int) -> NDArray[
 def _classify_by_samples(
     points: NDArray, components: SortedComponents, tree: Bvh, small: NDArray, large: NDArray, tolerance: float
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one.
-
-    Pairs of one orientation are counted until both kinds of points are found.
-    """
+    """Count, by pair, decidable points under the smaller component's skin inside and outside the larger one."""
     most, least, together = SAMPLES_PER_PAIR
     number = max(least, min(together // len(small), most))
     samples, counts = np.arange(number), np.zeros((2, len(small)), np.intp)

@@ -146,10 +146,7 @@ class OrientedSolid:
 def orient_components(
     checked: CheckedSurface, given: GivenIntegrals, mesh: RepairedMesh, threads: int
 ) -> OrientedSolid:
-    """Compare the components of a body, turn components that are inside out, and integrate the result.
-
-    given: reused if only caps were added. mesh: ``given.proven``, or the surface repaired.
-    """
+    """Compare the components of a body, turn components that are inside out, and integrate the result."""
     is_proven, comparison, flipped = mesh is given.proven, None, np.zeros(mesh.number, bool)
     surface, volume = checked.surface, given.volume
     if mesh.number > 1:

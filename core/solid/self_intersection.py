@@ -128,10 +128,7 @@ class Excess:
 def measure_excess(
     crossings: Crossings, grids: LineGrids, tolerance: NDArray[np.float64], part: NDArray[np.integer] | None = None
 ) -> Excess:
-    """Measure along lines the volume that a closed part counts more than once, or as negative.
-
-    tolerance: (b,) lengths below which nothing counts (unit). part: (t,) parts of the triangles, by default one a body.
-    """
+    """Measure along lines the volume that a closed part counts more than once, or as negative."""
     bodies = len(grids.cell)
     if not len(crossings.row):
         return Excess(np.zeros(bodies), np.zeros(bodies), np.ones(bodies))

@@ -4,18 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.surface import Surface, normals
-from ..verdict.finding import FileError
-from .findings import PLY_CONCAVE_POLYGONS
-
-CONCAVE_RTOL = 1e-6  # Relative to a polygon's normal; triangles less against it are rounding.
+from ..mesh.surface import Surface
+from ..mesh.tessellation import tessellate
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +30,32 @@ class FileMesh:
     edges: NDArray[np.integer] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
     values: Mapping[str, NDArray[np.float32]] = field(default_factory=dict)
 
-    def surfaces(self) -> Iterator[Surface]:
-        """Yield the faces with the same number of corners as a surface. FileError if a polygon is concave."""
-        starts = np.cumsum(self.sides) - self.sides
+    def surface(self) -> Surface:
+        """Return the faces as a surface of triangles, quads, and the triangles of larger polygons."""
+        starts, faces = np.cumsum(self.sides) - self.sides, np.arange(len(self.sides))
+        triangles, owners, quads, quad_faces = (
+            [np.zeros((0, 3), np.int32)],
+            [faces[:0]],
+            np.zeros((0, 4), np.int32),
+            faces[:0],
+        )
         for count in np.unique(self.sides).tolist():
-            yield polygon_surface(self.points, self.corners[starts[self.sides == count, None] + np.arange(count)])
+            these = faces[self.sides == count]
+            corners = self.corners[starts[these, None] + np.arange(count)].astype(np.int32)
+            if count == 4:
+                quads, quad_faces = corners, these
+                continue
+            cut = tessellate(self.points, corners) if count > 3 else corners[:, None]
+            triangles.append(cut.reshape(-1, 3))
+            owners.append(np.repeat(these, count - 2))
+        return Surface(
+            self.points,
+            np.concatenate(triangles),
+            quads,
+            np.concatenate(owners).astype(np.int32),
+            quad_faces.astype(np.int32),
+            self.corners.astype(np.int32),
+        )
 
 
 def name_of_file(path: Path) -> str:
@@ -123,17 +141,7 @@ def strip_triangles(strip: NDArray[np.integer]) -> NDArray[np.integer]:
 
 
 def polygon_surface(points: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return a surface of (n, k) faces: triangles, quads, or fans of convex polygons. FileError if one is concave."""
-    sides = faces.shape[1]
-    if sides == 3:
-        return Surface(points, faces)
-    if sides == 4:
+    """Return a surface of (n, k) faces: triangles, quads, or the triangles of larger polygons."""
+    if faces.shape[1] == 4:
         return Surface(points, quads=faces)
-    fans = np.stack([faces[:, [0, k, k + 1]] for k in range(1, sides - 1)])
-    vectors = normals(points, fans.reshape(-1, 3)).reshape(*fans.shape[:2], 3)
-    whole = vectors.sum(axis=0)
-    along = np.einsum("kmi,mi->km", vectors, whole)
-    concave = int((along < -CONCAVE_RTOL * np.einsum("mi,mi->m", whole, whole)).any(axis=0).sum())
-    if concave:
-        raise FileError(PLY_CONCAVE_POLYGONS, count=concave)
-    return Surface(points, fans.reshape(-1, 3))
+    return Surface(points, faces if faces.shape[1] == 3 else tessellate(points, faces).reshape(-1, 3))

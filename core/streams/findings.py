@@ -25,11 +25,6 @@ DAMAGE_PLY_ROWS = error(
     "damage_ply_rows", "it ends, or has something else than numbers, before its {count} rows of “{name}” do"
 )
 DAMAGE_INDEX = error("damage_index", "a face has a vertex that is not among its {vertices}")
-PLY_CONCAVE_POLYGONS = error(
-    "ply_concave_polygons",
-    "{count} polygon of the PLY file is concave. Triangulate it, or import it with --stream never.",
-    "{count} polygons of the PLY file are concave. Triangulate them, or import them with --stream never.",
-)
 STL_CUT_SHORT = error("stl_cut_short", "The STL file is cut short or damaged: it does not end {end:word}.")
 THREEMF_EXTENSION = error(
     "threemf_extension",

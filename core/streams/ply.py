@@ -76,7 +76,7 @@ class PlyFile:
     sampled_box = box
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield surfaces of the faces: triangles, quads, and polygons of more sides as fans."""
+        """Yield surfaces of the faces: triangles, quads, and those of larger polygons."""
         faces, column = self._faces
         for _, _, columns in self._blocks(faces):
             if columns[column].shape[1] >= 3:

@@ -64,10 +64,7 @@ class RowReader:
             done += count
 
     def _scan(self, properties: Sequence[Property], rows: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of their lists.
-
-        n: `rows`, or fewer that fill a block.
-        """
+        """Return (n + 1,) offsets of the next rows in the buffer, and the (n, lists) lengths of their lists."""
         gap, lists = 0, []
         for one in properties:
             if one.counter:

@@ -19,6 +19,7 @@ PACKAGES = (
     "blender.settings",
     "blender.write",
     "command",
+    "core.bodies",
     "core.cad",
     "core.density",
     "core.flat",

@@ -99,7 +99,8 @@ def sentence(
 ) -> str:
     """Return the sentence of a finding; templates are translated before they are filled, lengths are meters."""
     entry, values = declared(finding.code), finding.values
-    elements = truncate_list(finding.elements, values.get("count"), translate)
+    count = values.get("count")
+    elements = truncate_list(finding.elements, count, translate) if len(finding.elements) else "{}".format(count)
     text = fill(entry.text, entry.plural, {**values, "elements": elements}, translate, lengths)
     sources = values.get("sources")
     text = "{}: {}".format(truncate_list(sources, translate=translate), text) if sources else text

@@ -90,11 +90,7 @@ def offset_directions(
     thinnest = 1.0 / np.sqrt(np.maximum(-_group_maximum(-weight / total[corner], corner, count), np.finfo(float).tiny))
 
     def solved(least: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations, and sensitivities.
-
-        The deviation is of n·d from 1, the sensitivity d's movement per movement of the normals (Wedin, to first
-        order).
-        """
+        """Return (n, 3) directions across planes with eigenvalues above `least`, mean deviations, and sensitivities."""
         independent = values > least * values[:, 2:]
         inverse = np.where(independent, 1.0 / np.where(independent, values, 1.0), 0.0)
         vectors = np.einsum("nij,nj,nkj,nk->ni", axes, inverse, axes, right) + np.einsum(
@@ -125,10 +121,7 @@ def offset_directions(
 
 
 def _smooth_in_plane(points: NDArray, triangles: NDArray, vectors: NDArray, free: NDArray) -> NDArray[np.float64]:
-    """Return the vectors made even by conjugate gradients along projections `free`, (n, 3, 3); boundary vertices stay.
-
-    Any outcome gives a valid wall: stopping early only makes it fold at a smaller thickness.
-    """
+    """Return vectors made even by conjugate gradients along projections `free`, (n, 3, 3); boundaries stay."""
     edges = find_edges(triangles)
     free[triangles.ravel()[edges.boundary_sides()]] = 0.0  # closed loops: each end of a side is a start
     able = np.einsum("nii->n", free) > 0.5

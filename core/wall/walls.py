@@ -82,10 +82,7 @@ class OffsetSolid:
     degenerate_triangles: int
 
     def moments(self, inward: float, outward: float) -> Moments:
-        """Return a wall's volume moments to third order, about the middle of the surface's bounding box.
-
-        inward, outward: how far the wall reaches below the surface and above it. ValueError if it folds over.
-        """
+        """Return a wall's volume moments to third order, about the middle of the surface's bounding box."""
         if not (inward < self.inward or inward == 0.0) or not (outward < self.outward or outward == 0.0):
             raise ValueError("offset folds over")
         degree = np.arange(1, COEFFICIENT_COUNT + 1)
@@ -104,10 +101,7 @@ class OffsetSolid:
         return np.min(sides, axis=(0, 1)), np.max(sides, axis=(0, 1))
 
     def self_intersects(self, inward: float, outward: float) -> bool:
-        """Return whether the wall's sides go through each other or themselves, or walls of separate parts overlap.
-
-        Only a moved side is compared with itself. The work is limited: an intersection may be missed.
-        """
+        """Return whether the wall's sides go through each other or themselves, or walls of separate parts overlap."""
         count = len(self.points)
         points = np.concatenate([self.points - inward * self.vectors, self.points + outward * self.vectors])
         triangles = np.concatenate([self.triangles, self.triangles + count])
@@ -119,10 +113,7 @@ class OffsetSolid:
         ) or self._overlaps(points, tolerance)
 
     def _overlaps(self, points: NDArray, tolerance: float) -> bool:
-        """Return whether the walls of connected parts overlap each other or themselves, even if no edge pierces a face.
-
-        Skins may have moved past each other, or be flush: the walls are compared as closed bodies.
-        """
+        """Return whether walls of connected parts overlap each other or themselves, even without crossing edges."""
         part, number = connected_components(
             len(self.points), self.triangles.ravel(), np.roll(self.triangles, 1, axis=1).ravel()
         )

@@ -64,7 +64,7 @@ class IMPORT_SCENE_OT_body_moments_audit(Operator, ImportHelper):
             page = path.with_name(path.name + ".audit.html")
             selection.write_file(page, [write.audit_report.to_html([document])])
         text = bpy.data.texts.new("Audit of {}".format(path.name))
-        text.write(write.audit_report.to_text(document))
+        text.write(write.audit_report.to_text([document]))
         text.cursor_set(0)
         return document, text.name
 

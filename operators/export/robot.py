@@ -25,7 +25,7 @@ from ...core.verdict.finding import EditRefusedError, FileError, Finding, findin
 from ...core.verdict.sentences import sentence
 from .. import selection
 from ..findings import ROBOT_GEOMETRY_NOT_WRITTEN, ROBOT_NAMES_ALIKE
-from .copy_inertial import OBJECT_OT_body_moments_copy_inertial
+from ..measure.copy import VIEW3D_MT_body_moments_copy
 
 if TYPE_CHECKING:
     from ...blender.session.robots import SceneLinks
@@ -235,7 +235,7 @@ class TOPBAR_MT_body_moments_export(Menu):
             text = "{} ({})".format(form.label, form.suffix)
             self.layout.operator("export_scene.body_moments_" + form.name, text=text, translate=False)
         self.layout.separator()
-        self.layout.operator_menu_enum(OBJECT_OT_body_moments_copy_inertial.bl_idname, "format")
+        self.layout.menu(VIEW3D_MT_body_moments_copy.bl_idname)
 
 
 def _menu(menu: Menu, _context: Context) -> None:

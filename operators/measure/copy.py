@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Getting numbers out: one value to the last digit, the report as text, or a table; and the list of objects."""
+"""Getting numbers out: one value to the last digit, texts and tables, a file; and the list of objects."""
 
 from __future__ import annotations
 
@@ -9,27 +9,21 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, IntProperty, StringProperty
-from bpy.types import Context, Event, Operator, OperatorProperties, Scene
+from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
+from bpy.types import Context, Event, Menu, Operator, OperatorProperties, Scene
 
-from ...blender import read, write
-from ...blender.session.tracking import staleness
+from ...blender import read, session, write
+from ...blender.session import stored
+from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
 from ...blender.write.translations import localized
 from ...core import measurement
-from ...core.verdict.finding import Severity
+from ...core.measurement.trust import open_body_caveats
+from ...core.robots import write as robot_formats
+from ...core.robots.formats import FORMATS
+from ...core.verdict.finding import Finding, Severity
 from .. import selection
-
-
-class OnStored:
-    """Base of operators that need a selected object with stored results."""
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        if not selection.poll_selection(cls, context):
-            return False
-        stored = any(properties.is_stored(obj) for obj in context.view_layer.objects.selected)
-        return stored or reports.unavailable(cls, "Measure the selected objects first")
+from .reference import reference_text
 
 
 def copy_text(operator: Operator, context: Context, text: str, done: str) -> None:
@@ -71,50 +65,124 @@ def selected_document(context: Context) -> dict[str, Any]:
     objects = selection.selected_measurable(context)
     outdated = {obj.name for obj in objects if staleness.stale_reason(obj, context.scene)}
     counted = [obj for obj in objects if properties.is_stored(obj)]
-    caveats = read.total_caveats.open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
+    caveats = open_body_caveats((obj.name, properties.method(obj)) for obj in counted)
     caveats += read.total_caveats.total_caveats(counted, context.view_layer)
     version = ".".join(map(str, bpy.app.version))
     return write.text_report.stored_document(context, objects, outdated, caveats, bpy.data.filepath or None, version)
 
 
-class OBJECT_OT_body_moments_copy_report(OnStored, Operator):
-    """Copy the stored mass properties of the selected objects."""
+Copied = tuple[str, str]  # a text for the clipboard, and the sentence that says so
+MEASURE_FIRST = "Measure the selected objects first"
 
-    bl_idname = "object.body_moments_copy_report"
-    bl_label = "Copy Report"
-    bl_description = (
-        "Copy the stored mass properties of the selected objects and their total to the clipboard, as text in SI units"
-    )
+
+def has_stored(context: Context) -> bool:
+    """Return whether a selected object has stored results."""
+    return any(properties.is_stored(obj) for obj in context.view_layer.objects.selected)
+
+
+def _report(context: Context) -> Copied | str:
+    if not has_stored(context):
+        return MEASURE_FIRST
+    document = selected_document(context)
+    count = len(document["objects"]) + len(document["errors"])
+    done = "Copied the report of {count} object", "Copied the report of {count} objects"
+    return write.text_report.text(document), reports.phrase(*done, count=count)
+
+
+def _table(context: Context) -> Copied | str:
+    if not has_stored(context):
+        return MEASURE_FIRST
+    document = selected_document(context)
+    done = reports.phrase("Copied {count} row.", "Copied {count} rows.", count=len(document["objects"]))
+    return "".join(measurement.FORMATS["csv"]([document])), done
+
+
+def _reference(context: Context) -> Copied | str | Finding:
+    obj, scene = context.object, context.scene
+    result = None if obj is None or not properties.is_stored(obj) else stored.reference.referred(obj, scene)
+    if result is None or isinstance(result, Finding):
+        return result or MEASURE_FIRST
+    choice = read.reference.ReferenceChoice.from_settings(scene.body_moments_reference)
+    return reference_text(obj.name, choice, result), reports.phrase("Copied the report of {count} object", count=1)
+
+
+def _section(context: Context) -> Copied | str:
+    obj = context.object
+    section = None if obj is None else write.section.stored(obj)
+    if section is None:
+        return "Measure a section first"
+    text = write.section.text(obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section))
+    return text, reports.phrase("Copied the section of {object}", object=obj.name)
+
+
+def _moments(context: Context) -> Copied | str:
+    obj, scene = context.object, context.scene
+    computed = None if obj is None else stored.moments.computed_moments(obj)
+    if computed is None:
+        return "Compute the moments first"
+    settings, about = scene.body_moments, scene.body_moments.moments_about
+    reference = stored.moments.reference_of(obj, computed, scene) if about == "REFERENCE" else None
+    text = stored.moments.as_csv(computed, settings.moments_of, about, settings.frame, reference)
+    return text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2)
+
+
+# What is copied: its name, its tooltip, and the function that returns it or the reason why there is nothing to copy.
+COPIES = {
+    "REPORT": ("Report", "The stored mass properties of the selected objects and their total, as text", _report),
+    "TABLE": ("Table (CSV)", "The stored mass properties of the selected objects, as comma-separated values", _table),
+    "REFERENCE": ("Inertia about Reference", "The inertia of the active object about the reference", _reference),
+    "SECTION": ("Section", "The stored section properties of the active object, as text", _section),
+    "MOMENTS": ("Moments (CSV)", "All computed moments of the active object and their error bounds", _moments),
+}
+ITEMS = (
+    *((name, label, tip) for name, (label, tip, _) in COPIES.items()),
+    *((form.name, "Inertial as {:s}".format(form.short), form.copy_tip) for form in FORMATS.values()),
+)
+
+
+class OBJECT_OT_body_moments_copy(Operator):
+    """Copy numbers to the clipboard as text in SI units, with all digits"""
+
+    bl_idname = "object.body_moments_copy"
+    bl_label = "Copy"
     bl_options = {"REGISTER"}
 
+    what: EnumProperty(name="Numbers", description="What is copied", items=ITEMS)
+
+    @selection.report_refusals
     def execute(self, context: Context) -> set[str]:
-        document = selected_document(context)
-        count = len(document["objects"]) + len(document["errors"])
-        done = reports.phrase(
-            "Copied the report of {count} object", "Copied the report of {count} objects", count=count
-        )
-        copy_text(self, context, write.text_report.text(document), done)
+        findings: list[Finding] = []
+        if self.what in COPIES:
+            copied = COPIES[self.what][2](context)
+        elif not (objects := selection.selected_measurable(context)) or context.mode != "OBJECT":
+            copied = "Select objects in Object Mode"
+        else:
+            made = session.robots.object_links(context, "robot", objects)
+            text, _ = robot_formats.texts.robot_text(made.robot, self.what, made.findings, inertial_only=True)
+            done = "Inertial of {count} link copied.", "Inertials of {count} links copied."
+            copied, findings = (text, reports.phrase(*done, count=len(made.robot.links))), made.findings
+        if not isinstance(copied, tuple):
+            return selection.refuse(self, copied)
+        copy_text(self, context, *copied)
+        if findings:
+            selection.report(self, *findings)
         return {"FINISHED"}
+
+
+class VIEW3D_MT_body_moments_copy(Menu):
+    """Numbers as text on the clipboard"""
+
+    bl_idname = "VIEW3D_MT_body_moments_copy"
+    bl_label = "Copy"
+
+    def draw(self, _context: Context) -> None:
+        self.layout.operator_enum(OBJECT_OT_body_moments_copy.bl_idname, "what")
 
 
 SUFFIXES = {".csv": "csv", ".json": "json", ".jsonl": "jsonl"}
 
 
-class OBJECT_OT_body_moments_copy_csv(OnStored, Operator):
-    """Copy the stored mass properties of the selected objects to the clipboard as a table, in SI units"""
-
-    bl_idname = "object.body_moments_copy_csv"
-    bl_label = "Copy as CSV"
-    bl_options = {"REGISTER"}
-
-    def execute(self, context: Context) -> set[str]:
-        document = selected_document(context)
-        done = reports.phrase("Copied {count} row.", "Copied {count} rows.", count=len(document["objects"]))
-        copy_text(self, context, "".join(measurement.FORMATS["csv"]([document])), done)
-        return {"FINISHED"}
-
-
-class OBJECT_OT_body_moments_save_numbers(OnStored, Operator):
+class OBJECT_OT_body_moments_save_numbers(Operator):
     """Save the stored mass properties of the selected objects and their total, in SI units, as .csv, .json or .jsonl"""
 
     bl_idname = "object.body_moments_save_numbers"
@@ -124,6 +192,10 @@ class OBJECT_OT_body_moments_save_numbers(OnStored, Operator):
     filepath: StringProperty(name="File Path", description="File to write", subtype="FILE_PATH")
     check_existing: BoolProperty(name="Check Existing", default=True, options={"HIDDEN"})
     filter_glob: StringProperty(default="*.csv;*.json;*.jsonl", options={"HIDDEN"})
+
+    @classmethod
+    def poll(cls, context: Context) -> bool:
+        return has_stored(context) or reports.unavailable(cls, MEASURE_FIRST)
 
     def invoke(self, context: Context, _event: Event) -> set[str]:
         return selection.ask_for_table(self, context)
@@ -181,7 +253,7 @@ def unregister() -> None:
 
 CLASSES = (
     OBJECT_OT_body_moments_copy_value,
-    OBJECT_OT_body_moments_copy_report,
-    OBJECT_OT_body_moments_copy_csv,
+    OBJECT_OT_body_moments_copy,
+    VIEW3D_MT_body_moments_copy,
     OBJECT_OT_body_moments_save_numbers,
 )

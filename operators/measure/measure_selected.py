@@ -11,8 +11,8 @@ import bpy
 from bpy.props import EnumProperty
 
 from ...blender import bodies, session
-from ...blender.session import displayed
 from ...blender.session.stored import outcome
+from ...blender.session.tracking import armatures
 from ...blender.settings.preferences import MATERIAL_ITEMS, copy_defaults
 from ...blender.write import reports
 from ...core.density.materials import BY_NAME
@@ -72,7 +72,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     def _begin(self, context: bpy.types.Context) -> int:
         """Apply the settings of the redo panel and prepare the steps; return the number of selected objects."""
         copy_defaults(context.scene)
-        self._objects = objects = list(context.selected_objects)
+        self._objects = objects = armatures.subjects(context.selected_objects)
         for obj in objects:
             self._change_settings(obj)
         self._results: list[tuple[bpy.types.Object, Any]] = []
@@ -107,10 +107,6 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
     def _finish(self, context: bpy.types.Context) -> set[str]:
         """Store the results of all objects at the end, so that a canceled run leaves none behind."""
         failed = session.store_measured(context, self._results)
-        for obj, _ in self._results:
-            displayed.remember_failure(obj, None)
-        for obj, refusal in self._refusals.items():
-            displayed.remember_failure(obj, refusal)
         refusals = {**self._refusals, **failed}
         self._failures = [reports.failure(obj.name_full, refusals[obj]) for obj in self._objects if obj in refusals]
         count = len(self._results) - len(failed)
@@ -135,7 +131,7 @@ class OBJECT_OT_body_moments_measure(ModalSteps, bpy.types.Operator):
             )
             if warnings:
                 done.append(reports.phrase("{count} with warnings: {objects}", count=len(names), objects=names))
-        outcome.remember(self.bl_label, [*self._failures, *warnings] if tried > 1 else [])
+        outcome.remember(self.bl_label, self._failures)
         level = Severity.WARNING if warnings else Severity.NOTE
         reports.report(self, *done, *reports.first(self._failures), level=level)
 

@@ -1,25 +1,16 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Moments to a chosen order, computed by a button, and copied to the clipboard."""
+"""Moments to a chosen order, computed by a button."""
 
 from __future__ import annotations
 
-from bpy.types import Context, Object, Operator
+from bpy.types import Context, Operator
 
 from ...blender.read.visibility import measurable
 from ...blender.session import stored
 from ...blender.write import reports
 from ...core.verdict.finding import MeasureError, Severity
 from .. import selection
-from .copy import copy_text
-
-
-def _active(cls: type[Operator], context: Context) -> Object | None:
-    obj = context.object
-    if obj is None or not measurable(obj):
-        reports.unavailable(cls, "Make a measurable object active")
-        return None
-    return obj
 
 
 class OBJECT_OT_body_moments_compute_moments(Operator):
@@ -35,7 +26,8 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        return _active(cls, context) is not None
+        is_measurable = context.object is not None and measurable(context.object)
+        return is_measurable or reports.unavailable(cls, "Make a measurable object active")
 
     def execute(self, context: Context) -> set[str]:
         obj = context.object
@@ -58,34 +50,4 @@ class OBJECT_OT_body_moments_compute_moments(Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_body_moments_copy_moments(Operator):
-    """Copy all computed moments and their error bounds to the clipboard as CSV"""
-
-    bl_idname = "object.body_moments_copy_moments"
-    bl_label = "Copy Moments as CSV"
-    bl_options = {"REGISTER"}
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        obj = _active(cls, context)
-        if obj is None:
-            return False
-        computed = stored.moments.computed_moments(obj)
-        return computed is not None or reports.unavailable(cls, "Compute the moments first")
-
-    def execute(self, context: Context) -> set[str]:
-        settings, computed = context.scene.body_moments, stored.moments.computed_moments(context.object)
-        assert computed is not None
-        try:
-            about = settings.moments_about
-            reference = (
-                stored.moments.reference_of(context.object, computed, context.scene) if about == "REFERENCE" else None
-            )
-            text = stored.moments.as_csv(computed, settings.moments_of, about, settings.frame, reference)
-        except MeasureError as error:
-            return selection.refuse(self, reports.failure(computed.name, error))
-        copy_text(self, context, text, reports.phrase("Copied {count} moments", count=text.count("\n") - 2))
-        return {"FINISHED"}
-
-
-CLASSES = (OBJECT_OT_body_moments_compute_moments, OBJECT_OT_body_moments_copy_moments)
+CLASSES = (OBJECT_OT_body_moments_compute_moments,)

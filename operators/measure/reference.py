@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inertia about a reference: store it, copy it, and take an axis' points from the selection."""
+"""Inertia about a reference: store it, write it, and take an axis' points from the selection."""
 
 from __future__ import annotations
 
@@ -10,14 +10,10 @@ import bmesh
 from bpy.types import Context, Object, Operator
 from mathutils import Vector
 
-from ...blender import read
 from ...blender.session import stored
 from ...blender.write import properties, reports
-from ...blender.write.findings import NO_STORED_RESULTS
 from ...core.inertia.plain_body import tensor_rows
-from ...core.verdict.finding import Finding, finding
 from .. import selection
-from .copy import copy_text
 
 if TYPE_CHECKING:
     from ...blender.read.reference import ReferenceChoice
@@ -50,33 +46,8 @@ class OBJECT_OT_body_moments_store_reference(selection.OnSelection, Operator):
         return selection.summarize(self, len(changed), len(objects), done, failures, nothing=nothing)
 
 
-class OBJECT_OT_body_moments_copy_reference(Operator):
-    """Copy the inertia of the active object about the chosen reference, with its bounds, as text in SI units"""
-
-    bl_idname = "object.body_moments_copy_reference"
-    bl_label = "Copy Inertia about Reference"
-    bl_options = {"REGISTER"}
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        if context.object is None or not properties.is_stored(context.object):
-            return reports.unavailable(cls, "Measure the selected objects first")
-        return True
-
-    def execute(self, context: Context) -> set[str]:
-        result = stored.reference.referred(context.object, context.scene)
-        if result is None or isinstance(result, Finding):
-            return selection.refuse(self, result or finding(NO_STORED_RESULTS))
-        text = _text(
-            context.object.name,
-            read.reference.ReferenceChoice.from_settings(context.scene.body_moments_reference),
-            result,
-        )
-        copy_text(self, context, text, reports.phrase("Copied the report of {count} object", count=1))
-        return {"FINISHED"}
-
-
-def _text(name: str, choice: ReferenceChoice, result: ReferredInertia) -> str:
+def reference_text(name: str, choice: ReferenceChoice, result: ReferredInertia) -> str:
+    """Return the text of an object's inertia about a reference, with its bounds."""
     axes, inertia = (list(map(list, rows)) for rows in (zip(*result.reference.axes), tensor_rows(result.inertia)))
     lines = [
         "{:s}, about {:s}".format(name, choice.text),
@@ -132,6 +103,5 @@ def _selected_points(context: Context) -> list[Vector]:
 
 CLASSES = (
     OBJECT_OT_body_moments_store_reference,
-    OBJECT_OT_body_moments_copy_reference,
     OBJECT_OT_body_moments_axis_from_selection,
 )

@@ -6,16 +6,13 @@ from __future__ import annotations
 
 from bpy.types import Context, Object, Operator
 
-from ...blender import write
 from ...blender.read.visibility import SECTION_TYPES
 from ...blender.session import stored
 from ...blender.session.stored import outcome
-from ...blender.session.tracking import staleness, stamps
 from ...blender.write import properties, reports
 from ...core.verdict.finding import Severity
 from ...core.verdict.sentences import of_severity
 from .. import selection
-from .copy import copy_text
 
 
 class OBJECT_OT_body_moments_measure_section(Operator):
@@ -60,27 +57,6 @@ class OBJECT_OT_body_moments_measure_section(Operator):
         return {"FINISHED"} if measured else {"CANCELLED"}
 
 
-class OBJECT_OT_body_moments_copy_section(Operator):
-    """Copy the stored section properties of the active object to the clipboard, as text in SI units"""
-
-    bl_idname = "object.body_moments_copy_section"
-    bl_label = "Copy Section Report"
-    bl_options = {"REGISTER"}
-
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        is_stored = context.object is not None and write.section.stored(context.object) is not None
-        return is_stored or reports.unavailable(cls, "Measure a section first")
-
-    def execute(self, context: Context) -> set[str]:
-        obj = context.object
-        section = write.section.stored(obj)
-        assert section is not None
-        text = write.section.text(obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section))
-        copy_text(self, context, text, reports.phrase("Copied the section of {object}", object=obj.name))
-        return {"FINISHED"}
-
-
 def _objects_with_sections(context: Context) -> list[Object]:
     """Return edited meshes with selected faces (all if none has), else selected objects that may have a section."""
     if context.mode != "EDIT_MESH":
@@ -90,4 +66,4 @@ def _objects_with_sections(context: Context) -> list[Object]:
     return [obj for obj in edited if obj.data.total_face_sel] or edited
 
 
-CLASSES = (OBJECT_OT_body_moments_measure_section, OBJECT_OT_body_moments_copy_section)
+CLASSES = (OBJECT_OT_body_moments_measure_section,)

@@ -3,19 +3,23 @@
 """Operators of the buttons beside warnings: each applies a remedy, and most measure the objects again."""
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy.types import Context, Object, Operator
 
 from ...blender import bodies, scene
 from ...blender.read.visibility import measurable
 from ...blender.scene.changes import require_storable_data
+from ...blender.session import displayed
 from ...blender.session.stored import outcome
 from ...blender.settings.accepted import accepted_codes, set_accepted, with_acceptance
 from ...blender.settings.preferences import copy_defaults
 from ...blender.write import properties, reports
+from ...blender.write.remedies import DUPLICATES, EDITS, FILL, MERGE, REMEDIES, REPAIR, SELECT, SHELL, UNION
+from ...blender.write.translations import localized
 from ...core.solid.findings import INVERTED_COMPONENTS
-from ...core.verdict.finding import MeasureError
+from ...core.verdict.finding import MeasureError, Severity
 from ...core.verdict.findings import FLIPPED_FACES
+from ...core.verdict.sentences import of_severity
 from .. import selection
 
 # Findings that list the reversed faces; an empty list means all faces.
@@ -51,71 +55,76 @@ class _OnActive:
         raise NotImplementedError
 
 
-class OBJECT_OT_body_moments_count_as_union(_OnActive, Operator):
-    """Unite the overlapping components of the active object before it is measured, and measure it again"""
+class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
+    """Repair the active object and measure it again."""
 
-    bl_idname = "object.body_moments_count_as_union"
-    bl_label = "Count as Union"
+    bl_idname = REPAIR
+    bl_label = "Repair"
 
-    def _change(self, context: Context, obj: Object) -> set[str]:
-        require_storable_data(obj)
-        obj.body_moments.overlap = "UNION"
-        measure_anew(context, [obj])
-        return {"FINISHED"}
-
-
-class OBJECT_OT_body_moments_measure_as_shell(_OnActive, Operator):
-    """Measure the active object as a sheet of the given thickness"""
-
-    bl_idname = "object.body_moments_measure_as_shell"
-    bl_label = "Measure as Shell"
-
+    remedy: EnumProperty(
+        name="Remedy",
+        description="What is changed before the object is measured again",
+        items=[(key, remedy.name, remedy.description) for key, remedy in REMEDIES.items()],
+        options={"SKIP_SAVE"},
+    )
     thickness: FloatProperty(
         name="Thickness",
-        description="Thickness of the sheet. At 0, that of the object's settings",
+        description="Thickness of the shell. At 0, that of the object's settings",
         default=0.0,
         min=0.0,
         precision=6,
         unit="LENGTH",
-    )
-
-    def _change(self, context: Context, obj: Object) -> set[str]:
-        require_storable_data(obj)
-        obj.body_moments.kind = "SHELL"
-        if self.thickness:
-            obj.body_moments.thickness = self.thickness
-        measure_anew(context, [obj])
-        return {"FINISHED"}
-
-
-class OBJECT_OT_body_moments_recalculate_outside(_OnActive, Operator):
-    """Reverse the faces of the active mesh that were measured as reversed, and measure it again."""
-
-    bl_idname = "object.body_moments_recalculate_outside"
-    bl_label = "Recalculate Outside"
-    bl_description = (
-        "Reverse the faces of the active mesh that were measured as reversed: flipped ones, and those of components "
-        "that are inside out. Cavities keep facing inward. Other objects that use the mesh change too"
+        options={"SKIP_SAVE"},
     )
 
     @classmethod
-    def poll(cls, context: Context) -> bool:
-        if context.object is not None and context.object.type != "MESH":
-            return reports.unavailable(cls, "Make a mesh object active")
-        return super().poll(context) and selection.poll_object_mode(cls, context)
+    def description(cls, _context: Context, values) -> str:
+        text = localized("{:s}, and measure the object again").format(localized(REMEDIES[values.remedy].description))
+        return (
+            text
+            if values.remedy not in EDITS
+            else text + ". " + localized("Other objects that use the mesh change too")
+        )
+
+    def draw(self, _context: Context) -> None:
+        if self.remedy == SHELL:
+            self.layout.prop(self, "thickness")
 
     def _change(self, context: Context, obj: Object) -> set[str]:
+        text = reports.phrase(REMEDIES[self.remedy].name)
+        if self.remedy in EDITS:
+            if obj.type != "MESH":
+                return selection.refuse(self, "Make a mesh object active")
+            if context.mode != "OBJECT":
+                return selection.refuse(self, "Switch to Object Mode")
+            count = self._edit(context, obj)
+            if not count:
+                cause = reports.phrase("the mesh has nothing to repair in this way")
+                reports.report(self, reports.phrase("Nothing to do: {cause}", cause=cause))
+                return {"CANCELLED"}
+            text = "{:s}: {:d}".format(text, count)
+        else:
+            require_storable_data(obj)
+            if self.remedy == UNION:
+                obj.body_moments.overlap = "UNION"
+            else:
+                obj.body_moments.kind = "SHELL"
+                obj.body_moments.thickness = self.thickness or obj.body_moments.thickness
+        measure_anew(context, [obj])
+        reports.report(self, text)
+        return {"FINISHED"}
+
+    def _edit(self, context: Context, obj: Object) -> int:
+        """Edit the mesh of an object; return the number of changed elements."""
+        if self.remedy in (FILL, MERGE):  # also of a mesh whose modifiers change its elements
+            return scene.fill_holes(obj.data) if self.remedy == FILL else scene.merge_by_distance(obj.data)
         scene.require_editable_mesh(obj)
         measurement = bodies.measure_body(obj, context.evaluated_depsgraph_get()).measurement
-        found = [shown.elements for shown in measurement.findings if shown.code in REVERSED]
-        count = scene.reverse_faces(obj.data, found)
-        if not count:
-            cause = reports.phrase("no faces were measured as reversed")
-            reports.report(self, reports.phrase("Nothing to do: {cause}", cause=cause))
-            return {"CANCELLED"}
-        measure_anew(context, [obj])
-        reports.report(self, reports.phrase("Reversed {count} face", "Reversed {count} faces", count=count))
-        return {"FINISHED"}
+        if self.remedy == DUPLICATES:
+            return scene.delete_faces(obj.data, scene.defects_by_kind(measurement).get("duplicate_faces", ()))
+        return scene.reverse_faces(
+            obj.data, [shown.elements for shown in measurement.findings if shown.code in REVERSED]
+        )
 
 
 class SCENE_OT_body_moments_set_millimeters(Operator):
@@ -155,7 +164,7 @@ class SCENE_OT_body_moments_keep_units(Operator):
 
 
 class OBJECT_OT_body_moments_accept(_OnActive, Operator):
-    """Accept this warning for the active object: it becomes a note, also when the object is measured again"""
+    """Accept this warning: it becomes a note, also when the object is measured again"""
 
     bl_idname = "object.body_moments_accept"
     bl_label = "Accept Warning"
@@ -171,29 +180,38 @@ class OBJECT_OT_body_moments_accept(_OnActive, Operator):
         return "Show this note as a warning again"
 
     def _change(self, context: Context, obj: Object) -> set[str]:
-        require_storable_data(obj)
-        if not self.code or not set_accepted(obj, self.code, self.accepted):
-            return {"CANCELLED"}
-        if properties.is_stored(obj):
-            properties.store_findings(obj, with_acceptance(properties.findings(obj), accepted_codes(obj)))
-        return {"FINISHED"}
+        """Accept a code, or every warning without one, on the objects that the panel is about."""
+        changed = False
+        for subject in displayed.shown_objects(context):
+            own = of_severity(properties.findings(subject), Severity.WARNING)
+            codes = {self.code} if self.code else {found.code for found in own}
+            if subject != obj and not codes & {found.code for found in properties.findings(subject)}:
+                continue
+            require_storable_data(subject)
+            if not any([set_accepted(subject, code, self.accepted) for code in codes]):
+                continue
+            changed = True
+            if properties.is_stored(subject):
+                kept = with_acceptance(properties.findings(subject), accepted_codes(subject))
+                properties.store_findings(subject, kept)
+        return {"FINISHED"} if changed else {"CANCELLED"}
 
 
-class OBJECT_OT_body_moments_select_refused(Operator):
-    """Select the objects that the last action refused or warned of"""
+class OBJECT_OT_body_moments_select_refused(selection.InObjectMode, Operator):
+    """Select the objects that this line is about; by default, those that the last action refused"""
 
-    bl_idname = "object.body_moments_select_refused"
+    bl_idname = SELECT
     bl_label = "Select These Objects"
     bl_options = {"INTERNAL", "UNDO"}
 
-    @classmethod
-    def poll(cls, context: Context) -> bool:
-        return selection.poll_object_mode(cls, context) and outcome.last() is not None
+    code: StringProperty(name="Code", options={"HIDDEN", "SKIP_SAVE"})
 
     def execute(self, context: Context) -> set[str]:
         last = outcome.last()
-        assert last is not None
-        objects = [obj for obj in context.view_layer.objects if obj.name_full in last.objects]
+        refused = last.groups if last is not None else ()
+        groups = (*displayed.total(context).groups, *refused) if self.code else refused
+        names = {name for group in groups if self.code in ("", group.finding.code) for name in group.objects}
+        objects = [obj for obj in context.view_layer.objects if obj.name_full in names]
         if not objects:
             return {"CANCELLED"}
         for obj in context.view_layer.objects:
@@ -203,7 +221,7 @@ class OBJECT_OT_body_moments_select_refused(Operator):
 
 
 class WM_OT_body_moments_dismiss(Operator):
-    """Hide what the last action refused or warned of"""
+    """Hide what the last action refused"""
 
     bl_idname = "wm.body_moments_dismiss"
     bl_label = "Dismiss"
@@ -215,9 +233,7 @@ class WM_OT_body_moments_dismiss(Operator):
 
 
 CLASSES = (
-    OBJECT_OT_body_moments_count_as_union,
-    OBJECT_OT_body_moments_measure_as_shell,
-    OBJECT_OT_body_moments_recalculate_outside,
+    OBJECT_OT_body_moments_remedy,
     SCENE_OT_body_moments_set_millimeters,
     SCENE_OT_body_moments_keep_units,
     OBJECT_OT_body_moments_accept,

@@ -41,10 +41,12 @@ class _Drawn:
     """The batches of a region; `key`: everything that they depend on besides the view, first the generation.
 
     `segments`: (n, k, 2, 3) lines of the bodies, `entries` as arrays. While these are the same, their rows stay.
+    `active`: the row with labels, or -1.
     """
 
     key: tuple
     entries: list[Entry]
+    active: int
     bodies: Bodies
     segments: NDArray[np.float64]
     lines: tuple[Batch, ...]  # faint, full
@@ -68,7 +70,7 @@ def draw_region(context: Context) -> None:
         return
     view_key = gpu.matrix.get_model_view_matrix(), gpu.matrix.get_projection_matrix(), gpu.state.viewport_get()[2:]
     if drawn.view_key != view_key:
-        drawn.discs = _discs(drawn.bodies, _view(*view_key), settings.show_axes)
+        drawn.discs = _discs(drawn.bodies, _view(*view_key), drawn.active if settings.show_axes else -1)
         drawn.view_key = view_key
     with _restored_state():
         _draw_batches(drawn, view_key[2])
@@ -78,7 +80,7 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
     """Return current batches; rows of bodies that are the same as before are not computed again."""
     scene, settings = context.scene, context.scene.body_moments.overlay
     objects = drawn_objects(context, settings.show_all)
-    entries, details = collect(context, objects), list_details(context, objects)
+    (entries, active), details = collect(context, objects), list_details(context, objects)
     rows = list(range(len(entries)))
     if before is not None and before.key[1:] == key[1:] and len(before.entries) == len(entries):
         rows = [row for row in rows if entries[row] is not before.entries[row]]
@@ -88,10 +90,12 @@ def _rebuild(context: Context, key: tuple, before: _Drawn | None) -> _Drawn:
         before.bodies.put(rows, bodies)
         before.segments[rows] = segments
         bodies, segments = before.bodies, before.segments
-    colors = look.COLORS[bodies.verdicts].repeat(segments.shape[1], axis=0)
-    parts = [(segments.reshape(-1, 2, 3), colors), *(detail.segments for detail in details)]
+    colors = look.COLORS[bodies.verdicts][:, None].repeat(segments.shape[1], axis=1)
+    if settings.show_axes:
+        colors[:, :3, :3] = _axis_colors()
+    parts = [(segments.reshape(-1, 2, 3), colors.reshape(-1, 4)), *(detail.segments for detail in details)]
     fills = _fill_batches([detail.triangles for detail in details])
-    return _Drawn(key, entries, bodies, segments, _line_batches(parts), fills)
+    return _Drawn(key, entries, active, bodies, segments, _line_batches(parts), fills)
 
 
 def forget_regions() -> None:
@@ -108,6 +112,8 @@ def _key(context: Context) -> tuple:
         context.view_layer.name,
         context.space_data.local_view is not None,
         tuple(bone.name for bone in context.selected_pose_bones or ()),
+        tuple(active and active.name for active in (context.object, context.active_pose_bone)),
+        _axis_colors(),
         *(getattr(settings, name) for name in SETTINGS),
         _scale(),
     )
@@ -115,6 +121,12 @@ def _key(context: Context) -> tuple:
 
 def _scale() -> float:
     return bpy.context.preferences.system.ui_scale
+
+
+def _axis_colors() -> tuple[tuple[float, float, float], ...]:
+    """Return the theme's colors of X, Y and Z, which the principal axes 1, 2 and 3 have."""
+    theme = bpy.context.preferences.themes[0].user_interface
+    return tuple(tuple(color) for color in (theme.axis_x, theme.axis_y, theme.axis_z))
 
 
 def _view(view: Matrix, projection: Matrix, size: tuple[int, int]) -> lines.View:
@@ -144,10 +156,10 @@ def _line_batches(parts: list[tuple[NDArray, NDArray]]) -> tuple[Batch, ...]:
     return tuple(batch_for_shader(shader, "LINES", {"pos": points, "color": tint}) for tint in (faint, colors))
 
 
-def _discs(bodies: Bodies, view: lines.View, with_digits: bool) -> tuple[Batch, ...]:
+def _discs(bodies: Bodies, view: lines.View, labeled: int) -> tuple[Batch, ...]:
     if not len(bodies.centers):
         return ()
-    discs = lines.disc_triangles(bodies, view, _scale(), with_digits)
+    discs = lines.disc_triangles(bodies, view, _scale(), labeled)
     if discs is None:
         return ()
     points, colors, triangles = discs

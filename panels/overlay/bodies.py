@@ -11,10 +11,13 @@ import numpy as np
 from bpy.types import Context, Object
 from numpy.typing import NDArray
 
-from ...blender.session.displayed import Displayed, Total, all_drawn, drawn_bone, total
+from ...blender.session.displayed import ASSEMBLY, Displayed, all_drawn, drawn_bone, total
+from ...core.inertia.plain_body import PlainBody, add_bodies
+from ...core.measurement.trust import Trust
 from . import appearance as look
 
-Entry = Displayed | Total  # one body, or the selection as one
+Entry = Displayed | PlainBody  # one body, or several as one
+MANY = 20  # from this number of bodies on, their sum is drawn, and only doubtful ones beside it
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +35,7 @@ class Bodies:
     @classmethod
     def of(cls, entries: Sequence[Entry], unit: float) -> Bodies:
         """Return the bodies as arrays; unit: meters per Blender unit."""
-        bodies = [(one.world, one.trust) if isinstance(one, Displayed) else (one.numbers, "sum") for one in entries]
+        bodies = [(one.world, one.trust) if isinstance(one, Displayed) else (one, "sum") for one in entries]
         return cls(
             np.array([numbers.center for numbers, _ in bodies]).reshape(-1, 3) / unit,
             np.array([numbers.axes for numbers, _ in bodies]).reshape(-1, 3, 3).transpose(0, 2, 1),
@@ -46,14 +49,26 @@ class Bodies:
             getattr(self, name)[rows] = values
 
 
-def collect(context: Context, objects: list[Object]) -> list[Entry]:
-    """Return the displayed bodies of these objects, of selected pose bones and, if enabled, of the whole selection."""
-    scene = context.scene
-    shown = all_drawn(objects, scene)
-    shown += [drawn_bone(bone, scene) for bone in context.selected_pose_bones or ()]
-    entries: list[Entry] = [body for body in shown if body is not None]
-    if scene.body_moments.overlay.show_sum:
-        whole = total(context)
-        if whole.count > 1 and whole.numbers is not None:
-            entries.append(whole)
-    return entries
+def collect(context: Context, objects: list[Object]) -> tuple[list[Entry], int]:
+    """Return the drawn bodies, and the index of the active one, or -1.
+
+    They are those of the objects, of selected pose bones and, if enabled, the whole selection as one body. Of many
+    objects, only the active one, the doubtful ones and the sum are drawn.
+    """
+    scene, bones = context.scene, context.selected_pose_bones or ()
+    shown = list(zip([*objects, *bones], [*all_drawn(objects, scene), *(drawn_bone(bone, scene) for bone in bones)]))
+    bodies = [(subject, body) for subject, body in shown if body is not None]
+    actives, settings = (context.object, context.active_pose_bone), scene.body_moments.overlay
+    are_many, whole = len(bodies) >= MANY, None
+    if are_many and settings.show_all:
+        # an assembly or a character is made of bodies that are drawn by themselves
+        parts = [body.world for obj, body in bodies if body.method != ASSEMBLY and obj.type != "ARMATURE"]
+        whole = add_bodies(parts)
+    elif are_many or settings.show_sum:
+        selected = total(context)
+        whole = selected.numbers if selected.count > 1 else None
+    if are_many:
+        bodies = [(obj, body) for obj, body in bodies if obj in actives or body.trust == Trust.DOUBTFUL]
+    entries: list[Entry] = [body for _, body in bodies]
+    active = next((row for row, (subject, _) in enumerate(bodies) if subject in actives), -1)
+    return entries + ([] if whole is None else [whole]), active

@@ -2,16 +2,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The overlay's draw handler, which loads its engine and numpy when there is something to draw, and its switches.
 
-The switches are a section of the Overlays popover, and the button in the panel's header.
+The switches are a section of the Overlays popover, and the button in the panel's header. Like Blender's own overlay
+settings they make no undo step, and undo leaves them as they are: they are drawn from a mirror of the scene's settings
+in the window manager, whose changes Blender does not record.
 """
 
 from __future__ import annotations
 
 import bpy
-from bpy.types import Context, Menu, Object, Panel, SpaceView3D, UILayout
+from bpy.props import BoolProperty, EnumProperty, PointerProperty
+from bpy.types import Context, Menu, Object, Panel, PropertyGroup, SpaceView3D, UILayout, WindowManager
 
 from ...blender.session.live.following import is_live
+from ...blender.session.tracking import handlers
 from ...blender.session.tracking.armatures import stands_for_meshes
+from ...blender.settings.scene import BodyMomentsOverlaySettings
 from ...blender.write.properties import BALANCE_GROUP
 from .. import overlay
 
@@ -25,8 +30,46 @@ SWITCHES = {
     "show_faults": "Faults",
     "show_path": "Paths",
 }
+SETTINGS = BodyMomentsOverlaySettings.__annotations__
+EQUIVALENTS = [item[0] for item in SETTINGS["equivalent"].keywords["items"]]
 _handle: object = None
+_kept: dict[str, dict[str, bool | str]] = {}  # by scene, the settings before an undo
 _has_drawn = False
+
+
+def _mirrored(name: str) -> object:
+    """Return a property that reads and sets the active scene's setting of this name."""
+    keywords = {key: value for key, value in SETTINGS[name].keywords.items() if key != "default"}
+
+    def get(_mirror: PropertyGroup) -> bool | int:
+        value = getattr(bpy.context.scene.body_moments.overlay, name)
+        return EQUIVALENTS.index(value) if name == "equivalent" else value
+
+    def put(_mirror: PropertyGroup, value: bool | int) -> None:
+        chosen = EQUIVALENTS[value] if name == "equivalent" else value
+        setattr(bpy.context.scene.body_moments.overlay, name, chosen)
+
+    return (EnumProperty if name == "equivalent" else BoolProperty)(**keywords, get=get, set=put)
+
+
+class BodyMomentsOverlayMirror(PropertyGroup):
+    """The overlay settings of the active scene."""
+
+    __annotations__ = {name: _mirrored(name) for name in SETTINGS}
+
+
+def _keep_settings() -> None:
+    for scene in bpy.data.scenes:
+        settings = scene.body_moments.overlay
+        _kept[scene.name_full] = {name: getattr(settings, name) for name in SETTINGS if settings.is_property_set(name)}
+
+
+def _restore_settings() -> None:
+    for scene in bpy.data.scenes:
+        settings = scene.body_moments.overlay
+        for name, value in _kept.get(scene.name_full, {}).items():
+            if getattr(settings, name) != value:
+                setattr(settings, name, value)
 
 
 def draw() -> None:
@@ -61,12 +104,12 @@ def drawn_objects(context: Context, show_all: bool) -> list[Object]:
 
 def header_switch(layout: UILayout, context: Context) -> None:
     """Draw the overlay's button, for the header of the panel."""
-    layout.prop(context.scene.body_moments.overlay, "show", text="", icon="OVERLAY")
+    layout.prop(context.window_manager.body_moments_overlay, "show", text="", icon="OVERLAY")
 
 
 def section(self: Panel | Menu, context: Context) -> None:
     """Draw the overlay's settings, at the end of Blender's Object section of the Overlays popover."""
-    settings = context.scene.body_moments.overlay
+    settings = context.window_manager.body_moments_overlay
     layout = self.layout
     layout.separator()
     column = layout.column()
@@ -84,6 +127,10 @@ def section(self: Panel | Menu, context: Context) -> None:
 def register() -> None:
     """Add the section to Blender's popover, and the draw handler if there are windows."""
     global _handle
+    bpy.utils.register_class(BodyMomentsOverlayMirror)
+    WindowManager.body_moments_overlay = PointerProperty(type=BodyMomentsOverlayMirror)
+    handlers.before_undo.append(_keep_settings)
+    handlers.on_undo.append(_restore_settings)
     bpy.types.VIEW3D_PT_overlay_object.append(section)
     if not bpy.app.background:
         _handle = SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
@@ -94,6 +141,10 @@ def unregister() -> None:
     """Remove the section and the draw handler, and free the batches."""
     global _handle
     bpy.types.VIEW3D_PT_overlay_object.remove(section)
+    handlers.before_undo.remove(_keep_settings)
+    handlers.on_undo.remove(_restore_settings)
+    del WindowManager.body_moments_overlay
+    bpy.utils.unregister_class(BodyMomentsOverlayMirror)
     if _handle is not None:
         SpaceView3D.draw_handler_remove(_handle, "WINDOW")
         _handle = None

@@ -39,8 +39,8 @@ def body_lines(bodies: Bodies, settings: BodyMomentsOverlaySettings) -> NDArray[
 
 
 def axis_lines(centers: NDArray, axes: NDArray, gyration: NDArray) -> NDArray[np.float64]:
-    """Return (n, 3, 2, 3) segments of the axes through each center, a radius of gyration long to both sides."""
-    arms = (axes * gyration[:, None, :]).transpose(0, 2, 1)
+    """Return (n, 3, 2, 3) segments of the axes through each center, to both sides the largest radius of gyration."""
+    arms = axes.transpose(0, 2, 1) * gyration.max(axis=1)[:, None, None]
     return np.stack([centers[:, None] - arms, centers[:, None] + arms], axis=2)
 
 
@@ -132,9 +132,11 @@ class View:
 
 
 def disc_triangles(
-    bodies: Bodies, view: View, scale: float, with_digits: bool
+    bodies: Bodies, view: View, scale: float, labeled: int
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]] | None:
-    """Make the discs at the centers, and the digits at the ends of the axes if `with_digits`.
+    """Make the discs at the centers, and the digits at the ends of the axes of the `labeled` body, -1 for none.
+
+    No disc is larger than its body: the largest radius of gyration is at most the distance of the farthest point.
 
     Return (k, 3) points, (2, k, 4) colors, hidden by something in front and visible, and (l, 3) triangles, the nearest
     bodies last; None if no body is in view. scale: pixels of the screen per pixel of `appearance`.
@@ -145,9 +147,9 @@ def disc_triangles(
     away = np.abs(pixels - view.size / 2.0) - view.size / 2.0
     seen = np.flatnonzero((sizes > 0.0) & (away <= (reach + scale * MARGIN)[:, None]).all(axis=1))
     seen = seen[np.argsort(-view.depths(bodies.centers[seen]), kind="stable")]
-    named = with_digits & (reach[seen] >= scale * MIN_NAMED)
+    named = (seen == labeled) & (reach[seen] >= scale * MIN_NAMED)
     parts = [
-        _glyphs(bodies, group, view, scale, pixels if has_digits else None)
+        _glyphs(bodies, group, view, scale, reach, pixels if has_digits else None)
         for group, has_digits in ((seen[~named], False), (seen[named], True))
         if len(group)
     ]
@@ -160,17 +162,22 @@ def disc_triangles(
 
 
 def _glyphs(
-    bodies: Bodies, group: NDArray[np.intp], view: View, scale: float, pixels: NDArray | None
+    bodies: Bodies, group: NDArray[np.intp], view: View, scale: float, reach: NDArray, pixels: NDArray | None
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.int32]]:
-    """Make the `disc_triangles` of some bodies, in this order; digits if the `pixels` of all centers are given."""
+    """Make the `disc_triangles` of some bodies, in this order; digits if the `pixels` of all centers are given.
+
+    reach: of all bodies, their sizes in pixels; 0 for points.
+    """
     count, centers, verdicts = len(group), bodies.centers[group], bodies.verdicts[group]
     discs = glyphs.discs()
-    points, colors = [view.place(centers, scale * discs.corners[verdicts])], [discs.colors[:, verdicts]]
+    radii = scale * np.linalg.norm(discs.corners, axis=2).max(axis=1)[verdicts]
+    sizes = np.where(reach[group] > 0.0, np.minimum(reach[group] / radii, 1.0), 1.0).astype(np.float32)
+    corners = scale * sizes[:, None, None] * discs.corners[verdicts]
+    points, colors = [view.place(centers, corners)], [discs.colors[:, verdicts]]
     triangles = [discs.triangles[verdicts]]
     if pixels is not None:
         digits = glyphs.digits()
-        arms = bodies.axes[group] * bodies.gyration[group][:, None, :]
-        tips = (centers[:, None] + arms.transpose(0, 2, 1)).reshape(-1, 3)
+        tips = axis_lines(centers, bodies.axes[group], bodies.gyration[group])[:, :, 1].reshape(-1, 3)
         away = _digit_offsets(pixels[group], view.pixels(tips).reshape(-1, 3, 2), scale).astype(np.float32)
         offsets = (scale * digits.corners + away[:, :, None]).reshape(3 * count, digits.corners.shape[1], 2)
         points.append(view.place(tips, offsets).reshape(count, 3 * digits.corners.shape[1], 3))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files for the tests of the command line, and its run inside this process."""
 
+import sys
 from pathlib import Path
 
 import bpy
@@ -110,7 +111,8 @@ def parsed(*words):
     from body_moments.command.options import arguments, checks
 
     options = arguments.parse([*map(str, words)])
-    checks.check(options)
+    bpy = sys.modules.get("bpy")
+    checks.check(options, bpy.data.filepath if bpy else None)
     return options
 
 
@@ -173,5 +175,5 @@ def values(entry, code):
 
 def measure_with(monkeypatch, measure):
     """Let the command line measure each object by itself, by this in place of `measure_object`."""
-    monkeypatch.setattr("body_moments.command.measure.run.measured_together", lambda *_: None)
+    monkeypatch.setattr("body_moments.command.measure.scene.measured_together", lambda *_: None)
     monkeypatch.setattr("body_moments.command.measure.measuring.measure_object", measure)

@@ -3,9 +3,12 @@
 """`audit` on the command line: reports, repaired copies, exit codes."""
 
 import csv
+import gzip
 import io
 import json
+from pathlib import Path
 
+import fastjsonschema
 import pytest
 
 pytest.importorskip("bpy")
@@ -13,6 +16,7 @@ from body_moments.command import audit
 from body_moments.core.robots.write import audit_report
 from body_moments.operators import batch
 
+SARIF_SCHEMA = Path(__file__).with_name("sarif-2.1.0.json.gz")
 BOX = (
     '<link name="{}"><inertial><mass value="{}"/><inertia ixx="{}" iyy="{}" izz="{}" ixy="0" ixz="0" iyz="0"/>'
     '</inertial><collision><geometry><box size="2 2 2"/></geometry></collision></link>'
@@ -39,7 +43,9 @@ def test_a_report_lists_links_with_findings_and_the_repair(tmp_path):
     right, wrong = found["links"]
     assert right["findings"] == [] and right["repaired"] is None
     codes = [entry["code"] for entry in wrong["findings"]]
-    assert codes == ["inertial_spread_outside", "audit_unit"]
+    assert codes == ["audit_unit"] and [one["code"] for one in wrong["findings"][0]["reasons"]] == [
+        "inertial_spread_outside"
+    ]
     assert abs(wrong["repaired"]["inertia"][0][0] / 5333.3333 - 1.0) < 1e-6
     assert answer(description(tmp_path / "s.urdf", RIGHT))[1] == 0
 
@@ -56,7 +62,7 @@ def test_several_files_are_a_list_with_unreadable_ones(tmp_path):
 def test_tables_and_pages_carry_nothing_out_of_the_file_as_code(tmp_path):
     path = description(tmp_path / "r.urdf", RIGHT, WRONG)
     rows = list(csv.DictReader(io.StringIO(answer("--format", "csv", path)[0])))
-    assert [row["code"] for row in rows] == ["ok", "inertial_spread_outside", "audit_unit"]
+    assert [row["code"] for row in rows] == ["ok", "audit_unit"]
     assert rows[1]["link"] == "'=cmd|x<b>"
     page = answer("--format", "html", path)[0]
     assert "&lt;b&gt;" in page and "<b>" not in page and "<script" not in page and "audit_unit" in page
@@ -98,3 +104,68 @@ def test_no_file_of_a_user_is_replaced_without_being_asked_to(tmp_path, capfd):
     for words in (["--force"], []):  # and the same once more is no loss
         assert not json.loads(answer("--repair", tmp_path / "out", *words, path)[0])["errors"]
     assert "mine" not in copy.read_text(encoding="utf-8")
+
+
+def test_sarif_obeys_its_schema_and_names_the_places(tmp_path):
+    """The published schema, as the package of jest matchers for SARIF (MIT) carries it."""
+    validate = fastjsonschema.compile(json.loads(gzip.decompress(SARIF_SCHEMA.read_bytes())), use_default=False)
+    good, bad = description(tmp_path / "a b.urdf", "\n  " + RIGHT, "\n   " + WRONG), tmp_path / "b.urdf"
+    bad.write_text("<robot>\n<link", encoding="utf-8")
+    log = json.loads(answer("--format", "sarif", good, bad)[0])
+    validate(log)
+    wrong, broken = log["runs"][0]["results"]
+    place = wrong["locations"][0]["physicalLocation"]
+    assert place["region"] == {"startLine": 3, "startColumn": 4 + len('<link name="=cmd|x&lt;b&gt;">')}
+    assert place["artifactLocation"]["uri"].endswith("/a%20b.urdf")
+    assert (wrong["ruleId"], wrong["level"], wrong["properties"]["certainty"]) == ("audit_unit", "error", "certain")
+    assert broken["locations"][0]["physicalLocation"]["region"]["startLine"] == 2
+
+
+def test_github_annotations_escape_what_ends_them(tmp_path):
+    odd = description(tmp_path / "a,b:c%.urdf", BOX.format("x&#10;y", 8000, *["5333333.3"] * 3))
+    head, line, rest = answer("--format", "github", odd)[0].split("\n")
+    assert head.startswith("::debug::") and line.startswith("::error file=") and not rest
+    assert "a%2Cb%3Ac%25.urdf,line=1,col=" in line and "title=audit_unit (x y)::" in line.replace("%0A", " ")
+
+
+def test_text_and_table_state_the_assumption_once(tmp_path):
+    outside = WRONG.replace("<mass", '<origin xyz="9 0 0"/><mass')
+    paths = [description(tmp_path / name, outside) for name in ("a.urdf", "b.urdf")]
+    for form in ("text", "table", "html"):
+        text = answer("--format", form, *paths)[0]
+        assert text.count(audit_report.RESTS_ON) == 1 and "Repaired" not in text
+    rows = answer("--format", "table", *paths)[0].splitlines()
+    assert rows[2].split()[:5] == ["2", "0", "0", "1", "1"] and rows[4].split()[:5] == ["4", "0", "0", "2", "2"]
+
+
+def test_gate_counts_new_findings_of_its_level_alone(tmp_path):
+    path, baseline = description(tmp_path / "r.urdf", RIGHT, WRONG), tmp_path / "known.json"
+    assert [answer("--fail-on", level, path)[1] for level in ("error", "warning", "never")] == [1, 1, 0]
+    assert answer("--ignore", "audit_unit", path)[1] == 0
+    assert [answer("--light-links", mass, path)[1] for mass in (7999, 8000)] == [1, 0]
+    assert answer("--write-baseline", baseline, path)[1] == 1
+    found = json.loads(answer("--baseline", baseline, path)[0])
+    assert found["status"] == "ok" and found["links"][1]["findings"][0]["known"]
+    description(path, RIGHT, WRONG, WRONG.replace("=cmd", "new"))
+    text, code = answer("--baseline", baseline, path)
+    assert code == 1 and ["known" in one["findings"][0] for one in json.loads(text)["links"][1:]] == [True, False]
+    for words in (["--ignore", "none"], ["--baseline", path], ["--baseline", tmp_path / "none"], ["--jobs", "0"]):
+        with pytest.raises(SystemExit) as ended:
+            audit.parse(["audit", *map(str, words), str(path)])
+        assert ended.value.code == 2
+
+
+def test_folders_are_audited_several_files_at_a_time(tmp_path):
+    (tmp_path / "below").mkdir()
+    paths = [description(tmp_path / name, RIGHT) for name in ("a.urdf", "b.urdf", "below/c.urdf")]
+    (tmp_path / "package.xml").write_text("<package/>", encoding="utf-8")
+    text, code = answer("--jobs", "2", tmp_path)
+    assert [one["file"] for one in json.loads(text)] == list(map(str, paths)) and code == 0
+
+
+def test_all_faults_of_a_link_are_told_at_once(tmp_path):
+    """A tensor that breaks the triangle inequality does not hide a center outside."""
+    link = BOX.format("a", 8000, 1, 1, 9).replace("<mass", '<origin xyz="9 0 0"/><mass')
+    (found,) = json.loads(answer(description(tmp_path / "r.urdf", link))[0])["links"]
+    assert [one["code"] for one in found["findings"]] == ["inertial_triangle", "inertial_center_outside"]
+    assert all(one["certainty"] == "guess" and one["geometry"]["mass"] == 8000 for one in found["findings"])

@@ -60,7 +60,7 @@ def test_foreign_file_is_kept_before_measuring(tmp_path, main, no_measuring, opt
     part = files.box_file(tmp_path / "part.stl")
     target = tmp_path / "target"
     target.write_bytes(content)
-    code, said = main(part, option, target, *(WAVES if option == "--fourier" else ()))
+    code, said = main(part, option, target, *(WAVES if option == "--fourier" else ["--flat"]))
     assert code == 2 and str(target) in said and "--force" in said
     assert target.read_bytes() == content
 
@@ -111,7 +111,7 @@ def test_force_keeps_inputs(tmp_path, main, no_measuring, option):
     kept = Path(files.box_file(part)).read_bytes()
     os.link(part, link)
     for target in (part, link):
-        code, said = main("--force", part, option, target, *(WAVES if option == "--fourier" else ()))
+        code, said = main("--force", part, option, target, *(WAVES if option == "--fourier" else ["--flat"]))
         assert code == 2 and str(target) in said and "Use another name" in said and "--force" not in said
     assert part.read_bytes() == kept
 
@@ -127,7 +127,7 @@ def test_file_appearing_meanwhile_is_kept(tmp_path, main, monkeypatch, option):
         return real(*rest)
 
     files.measure_with(monkeypatch, measure)
-    code, said = main(part, option, target, *(WAVES if option == "--fourier" else ()))
+    code, said = main(part, option, target, *(WAVES if option == "--fourier" else ["--flat"]))
     assert code == 1 and target.read_text() == "somebody's" and str(target) in said
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.npz", "part.stl"]
 

@@ -104,6 +104,8 @@ def test_a_program_that_has_imported_bpy_may_run_the_script(folder):
     assert ended.returncode == 0 and json.loads(document)["file"] == "part.stl"
 
 
-def test_script_without_bpy_names_the_missing_module(folder):
-    ended = process(sys.executable, "-S", SCRIPT, "measure", folder / "part.stl")
-    assert ended.returncode == 2 and ended.stdout == b"" and b"'bpy'" in ended.stderr
+def test_script_without_bpy_names_what_needs_blender(folder):
+    for words, name in (([folder / "part.blend"], "part.blend"), ([folder / "part.stl", "--flat"], "--flat")):
+        ended = process(sys.executable, "-S", SCRIPT, "measure", *words)
+        said = ended.stderr.decode()
+        assert ended.returncode == 2 and ended.stdout == b"" and name in said and "--blender PATH" in said

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 import pytest
-from body_moments.command.files import bare_files
+from body_moments.command.measure import bare
 from body_moments.command.supervisor import processes
 from body_moments.core.streams.stl_text import BY_COUNT, BY_WORD
 from body_moments.operators import batch
@@ -91,7 +91,7 @@ def test_open_and_inside_out_meshes_are_said_to_be(tmp_path):
 
 def test_huge_file_is_read_in_blocks_unless_switched_off(tmp_path, monkeypatch):
     path = written(tmp_path)
-    needed = len(part()[1]) * bare_files.BYTES_PER_FACE
+    needed = len(part()[1]) * bare.BYTES_PER_FACE
     for memory, stream, expected in (
         (2 * needed, "auto", False),
         (needed // 2, "auto", True),

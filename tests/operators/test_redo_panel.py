@@ -222,7 +222,11 @@ REDONE = {
         {"filepath": "{}/surface.igs", "unit": 0.001},
     ),
     "object.body_moments_measure": (nothing, {"material": "PLA"}, {"material": "Copper", "kind": "SHELL"}),
-    "object.body_moments_measure_as_shell": (nothing, {"thickness": 0.01}, {"thickness": 0.02}),
+    "object.body_moments_remedy": (
+        nothing,
+        {"remedy": "SHELL", "thickness": 0.01},
+        {"remedy": "SHELL", "thickness": 0.02},
+    ),
     "object.body_moments_measure_assembly": (assembly, {"target": "COLLECTION"}, {"target": "OBJECT"}),
     "object.body_moments_rest_on_ground": (nothing, {"pose": 1}, {"pose": 2, "ground": "LOWEST"}),
     "object.body_moments_rigid_bodies": (nothing, {"type": "ACTIVE"}, {"type": "PASSIVE", "shape": "BOX"}),

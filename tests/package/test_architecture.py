@@ -22,6 +22,7 @@ ORDER = {
         ("density", "nurbs", "wall"),
         ("statics", "cad"),
         ("measurement",),
+        ("bodies",),
         ("robots",),
     ),
     "blender": (

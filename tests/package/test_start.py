@@ -47,7 +47,7 @@ os._exit(0)
 """
 LABELS = (  # a label of each kind of result
     *("Exact", "5 Objects", "Exact, from a Grid", "Centroid (World)", "Center of Mass from There", "Symmetry Cs"),
-    *("Robot", "hips", "Center of Mass at Rest (World)", "Sum of 1 mesh of the armature", "Principal Axes"),
+    *("Robot", "hips", "Rig: 1 Mesh", "Principal Axes"),
 )
 
 

@@ -44,6 +44,10 @@ class Layout:
     def panel(self, idname, default_closed=False):
         return self.inner(), None if idname in self.closed else self.inner()
 
+    def progress(self, **options):
+        check("progress", options)
+        self.record.append(("label", options["text"], False))
+
     def separator(self, **options):
         check("separator", options)
 
@@ -79,6 +83,10 @@ class Layout:
         category, name = idname.split(".")
         assert prop in getattr(getattr(bpy.ops, category), name).get_rna_type().properties
         self.record.append(("menu", idname))
+
+    def operator_enum(self, idname, prop, **options):
+        check("operator_enum", options)
+        self.operator_menu_enum(idname, prop)
 
     def menu(self, idname, **options):
         check("menu", options)

@@ -1,9 +1,14 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's menus come and go with the add-on."""
+"""The add-on's menus, and its entries in Blender's menus, which come and go with it."""
+
+from types import SimpleNamespace
 
 import bpy
 import pytest
+
+from tests.blender.objects import add, mesh_body
+from tests.panels.drawing import Layout
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -18,3 +23,34 @@ def test_entries_are_in_the_menus_as_long_as_the_add_on_is():
             assert draw not in getattr(bpy.types, name).draw._draw_funcs
     finally:
         menus.register()
+
+
+def drawn(menu):
+    layout = Layout()
+    menu.draw(SimpleNamespace(layout=layout, GROUPS=menu.GROUPS), bpy.context)
+    return [entry[:2] for entry in layout.record if entry[0] in ("operator", "menu")]
+
+
+def test_main_menu_has_eight_entries_and_two_menus(monkeypatch):
+    from body_moments.panels import menus
+
+    for shows in (False, True):
+        monkeypatch.setattr(menus, "shows_advanced", lambda shows=shows: shows)
+        entries = drawn(menus.VIEW3D_MT_body_moments)
+        assert len(entries) <= 8 + 1 + shows
+        assert (("menu", "VIEW3D_MT_body_moments_advanced") in entries) == shows
+
+
+def test_no_operator_stands_in_two_menus():
+    from body_moments.panels import menus
+
+    entries = [entry for menu in menus.CLASSES for entry in drawn(menu) if entry[0] == "operator"]
+    assert len(entries) == len(set(entries)) > 20
+
+
+@pytest.mark.parametrize("what", ["REPORT", "TABLE", "REFERENCE", "SECTION", "MOMENTS", "urdf"])
+def test_copy_without_numbers_is_refused(what):
+    add(mesh_body(), "Body").select_set(False)
+    bpy.context.view_layer.objects.active = None
+    with pytest.raises(RuntimeError, match="first|Select objects"):
+        bpy.ops.object.body_moments_copy(what=what)

@@ -64,11 +64,29 @@ def test_an_equal_ellipsoid_has_the_inertia_of_the_body(registered):
     assert close(np.abs(points @ turn).max(axis=0), half, 1e-12)
 
 
-def test_axes_are_as_long_as_the_radii_of_gyration(registered):
+def test_axes_are_as_long_as_the_largest_gyration(registered):
     from body_moments.panels.overlay import lines
 
     gyration = np.array([[1.0, 2.0, 3.0]])
     turn = np.linalg.qr(np.random.default_rng(2).standard_normal((3, 3)))[0]
     segments = lines.axis_lines(np.ones((1, 3)), turn[None], gyration)[0]
     assert close(segments.mean(axis=1), 1.0, 1e-12)
-    assert close(segments[:, 1] - segments[:, 0], 2.0 * (turn * gyration).T, 1e-12)
+    assert close(segments[:, 1] - segments[:, 0], 2.0 * 3.0 * turn.T, 1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-4, 0.01, 0.3, 3.0])
+def test_disc_is_never_larger_than_its_ball(view, size):
+    from body_moments.panels.overlay import lines
+    from body_moments.panels.overlay.bodies import Bodies
+
+    centers = in_front(view)
+    count = len(centers)
+    gyration = np.full((count, 3), size * np.sqrt(0.4))
+    for verdict in range(5):
+        bodies = Bodies(centers, np.tile(np.eye(3), (count, 1, 1)), gyration, np.full(count, verdict))
+        points, _, _ = lines.disc_triangles(bodies, view, 1.0, -1)
+        order = np.argsort(-view.depths(centers), kind="stable")
+        pixels = view.pixels(points.astype(float)).reshape(count, -1, 2) - view.pixels(centers)[order][:, None]
+        ball = size / view.pixel_sizes(centers)[order].max(axis=1)
+        radii = np.linalg.norm(pixels, axis=2).max(axis=1)
+        assert (radii <= np.minimum(ball, 30.0) + 1e-3).all() and (radii > 0.5 * np.minimum(ball, 12.0)).all()

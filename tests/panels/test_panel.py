@@ -12,16 +12,41 @@ from tests.panels.drawing import copied, findings_of, labels, shown, shows
 pytestmark = pytest.mark.usefixtures("scene")
 
 
-def test_a_refusal_is_not_held_against_other_settings():
-    obj = add(mesh_body())
+def test_a_refusal_goes_with_undo_selection_and_success():
+    from body_moments.blender.session.stored import outcome
+
+    obj, other = add(mesh_body()), add(mesh_body(), "Other", select=False)
+    only(obj)
     settings = obj.body_moments
-    settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000+"
+    for end in ("success", "selection", "dismissal"):
+        settings.density_from, settings.density_polynomial = "POLYNOMIAL", "1000+"
+        bpy.ops.object.body_moments_measure()
+        (group,) = outcome.last().groups
+        assert group.finding.code == "polynomial_syntax" and group.objects == (obj.name,)
+        assert "Write products" in " ".join(labels(shown())) and "Not Measured" in labels(shown())
+        if end == "success":
+            settings.density_from = "VALUE"
+            bpy.ops.object.body_moments_measure()
+            bpy.ops.object.body_moments_clear()
+        elif end == "selection":
+            only(other)
+            assert outcome.last() is None
+            only(obj)
+        else:
+            outcome.forget()
+        assert outcome.last() is None and "Write products" not in " ".join(labels(shown()))
+
+
+def test_equal_findings_of_objects_are_one_line():
+    closed, mesh = mesh_body(), bpy.data.meshes.new("Open")
+    mesh.from_pydata([v.co for v in closed.vertices], [], [tuple(f.vertices) for f in closed.polygons][1:])
+    objects = [add(mesh if i < 3 else closed, str(i), location=(10 * i, 0, 0)) for i in range(5)]
+    only(*objects)
     bpy.ops.object.body_moments_measure()
-    assert shows(shown(), "polynomial_syntax", part="1000+")
-    settings.density_from = "VALUE"
-    assert "Not Measured" in labels(shown()) and not shows(shown(), "polynomial_syntax", part="1000+")
-    settings.density_from = "POLYNOMIAL"
-    assert shows(shown(), "polynomial_syntax", part="1000+")
+    assert "5 Objects" in labels(shown()) and "Repaired" in labels(shown())
+    assert sum("3 objects: holes capped" in label for label in labels(shown())) == 1
+    assert bpy.ops.object.body_moments_select_refused(code="holes_capped") == {"FINISHED"}
+    assert [obj.name for obj in bpy.context.selected_objects] == ["0", "1", "2"]
 
 
 def test_values_are_shown_with_units_and_copied_with_all_digits():
@@ -67,7 +92,7 @@ def test_total_names_boolean_operands(capfd):
     (caveat,) = displayed.total(bpy.context).findings
     assert caveat.code == "total_doubtful_parts" and "“Cutter” of “Body”" in str(caveat)
     assert shows(shown(), caveat.code, **caveat.values)
-    bpy.ops.object.body_moments_copy_report()
+    bpy.ops.object.body_moments_copy(what="REPORT")
     assert str(caveat) in capfd.readouterr().out
     body.modifiers.clear()
     bpy.context.view_layer.update()

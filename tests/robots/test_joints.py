@@ -264,17 +264,25 @@ def test_missing_efforts_are_placeholders_with_a_note():
     assert (limit.effort, limit.velocity) == (1.0, urdf.VELOCITY)
 
 
-def test_sdf_names_the_joints_that_it_cannot_hold():
+def test_sdf_has_a_joint_and_a_light_link_for_each_axis():
     x, y, z = np.eye(3)
     piston = (FreeAxis("translate", x, 0.0, 1.0), FreeAxis("rotate", x))
     socket = (FreeAxis("rotate", z, -1.0, 1.0), FreeAxis("rotate", y), FreeAxis("rotate", x))
-    for free, kind, lost in ((piston, "prismatic", "axes"), (socket, "ball", "limits")):
+    for free in (piston, socket):
         robot = arm(free=free)
         root = ElementTree.fromstring(sdf.write(robot))
         sdf_schema.validate(root)
         (found,) = sdf.check(robot)
-        assert found.values == {"format": "SDF", "values": [lost], "joints": ["hinge"]}
-        assert next(root.iter("joint")).get("type") == kind
+        assert found.code == "sdf_frames_added" and found.values["joints"] == ["hinge"]
+        joints = {joint.get("name"): joint for joint in root.iter("joint")}
+        below, kinds = "base", {"translate": "prismatic", "rotate": "revolute"}
+        for count, one in enumerate(free, start=1):
+            joint = joints["hinge" if count == len(free) else "hinge_axis_{}".format(count)]
+            assert joint.findtext("parent") == below and joint.get("type") == kinds[one.kind]
+            assert np.array_equal(np.array(joint.findtext("axis/xyz").split(), float), one.axis)
+            below = joint.findtext("child")
+        masses = {link.get("name"): float(link.findtext("inertial/mass")) for link in root.iter("link")}
+        assert below == "arm" and masses["arm_axis_1"] == masses["arm"] * 2.0**-20
 
 
 def test_links_on_fixed_joints_alone_have_a_note():
@@ -299,11 +307,17 @@ def test_usd_breaks_no_rule_of_its_own_validators():
     """Articulations, joints, bodies and colliders, among others."""
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     assert len(validators) > 20
-    for robot in (arm(VALUES, is_fixed=True), arm(), assembly(3), Robot("one", arm().links[:1])):
+    pair = Robot("pair", (*assembly(3).links, Link("apart", arm().links[0].inertial)), assembly(3).joints)
+    for robot in (arm(VALUES, is_fixed=True), arm(), assembly(3), pair, Robot("one", arm().links[:1])):
         layer = Sdf.Layer.CreateAnonymous(".usda")
         assert layer.ImportFromString(usd.write(with_primitives(robot, "box")))
-        errors = UsdValidation.ValidationContext(validators).Validate(Usd.Stage.Open(layer))
+        stage = Usd.Stage.Open(layer)
+        errors = UsdValidation.ValidationContext(validators).Validate(stage)
         assert not [error.GetMessage() for error in errors]
+        # Newton refuses an articulation of several trees.
+        roots = [prim.GetName() for prim in stage.Traverse() if prim.HasAPI(UsdPhysics.ArticulationRootAPI)]
+        trees = ["Robot"] if robot.joints else []
+        assert roots == ([usd.identifier(pair.roots[0].name)] if robot is pair else trees)
 
 
 @pytest.mark.parametrize("unit", [1.0, 0.001])

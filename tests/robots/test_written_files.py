@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files as they are written by default, with their meshes, opened by the programs that read them."""
 
+from pathlib import Path
+
 import mujoco
 import numpy as np
 import pytest
 from body_moments.core.mesh.surface import Surface
 from body_moments.core.robots.model import FreeAxis, Joint, Link, Pose, Robot, Shape
-from body_moments.core.robots.write import mjcf
+from body_moments.core.robots.write.stl import MOST_TRIANGLES
 from body_moments.core.robots.write.texts import robot_text, with_geometry
 
 from tests.core.bodies import box
@@ -71,17 +73,15 @@ def test_mujoco_takes_thin_plates_from_urdf():
         )
 
 
-@pytest.mark.parametrize("count", [mjcf.MOST_TRIANGLES, mjcf.MOST_TRIANGLES + 2])
-def test_mujoco_refuses_the_meshes_that_have_a_warning(tmp_path, count):
+@pytest.mark.parametrize(("count", "suffix"), [(MOST_TRIANGLES, ".stl"), (MOST_TRIANGLES + 2, ".obj")])
+def test_mujoco_loads_meshes_of_any_size(tmp_path, count, suffix):
     points, triangles = box((0, 0, 0), (1, 2, 3))
     surface = Surface.from_triangles(points, np.resize(triangles, (count, 3)))
     link = Link("large", inertial(points, triangles), shapes=(Shape("mesh"),))
-    robot, _ = with_geometry(Robot("large", (link,)), "mjcf", lambda _: surface, tmp_path / "large.xml")
+    for _ in range(2):  # The second replaces the files of the first.
+        robot, _ = with_geometry(Robot("large", (link,)), "mjcf", lambda _: surface, tmp_path / "large.xml")
+    assert Path(robot.links[0].shapes[0].file).suffix == suffix
     text, findings = robot_text(robot, "mjcf")
     (tmp_path / "large.xml").write_text(text, encoding="utf-8")
-    if not findings:
-        assert mujoco.MjModel.from_xml_path(str(tmp_path / "large.xml")).nmesh == 1
-        return
-    assert [found.code for found in findings] == ["mjcf_mesh_too_large"] and count > mjcf.MOST_TRIANGLES
-    with pytest.raises(ValueError, match="number of faces"):
-        mujoco.MjModel.from_xml_path(str(tmp_path / "large.xml"))
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "large.xml"))
+    assert not findings and model.nmesh == 1 and model.nmeshface == count

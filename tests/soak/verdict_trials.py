@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 TRIALS = 3000
-COLUMNS = ("right", "up to 1 % off", "more", "no volume is true")
+COLUMNS = ("right", "up to 1 % off", "more than 1 % off", "no true volume")
 
 
 def collect(seed, trials, budget_seconds=float("inf")):
@@ -36,11 +36,11 @@ def collect(seed, trials, budget_seconds=float("inf")):
 def markdown(table):
     """The table of label against truth, and of breakage against label."""
     labels = importlib.import_module("tests.core.solid.breakages").LABELS
-    lines = ["| the label | " + " | ".join(COLUMNS) + " |", "|---|" + "---:|" * len(COLUMNS)]
+    lines = ["| verdict | " + " | ".join(COLUMNS) + " |", "|---|" + "---:|" * len(COLUMNS)]
     for label in labels:
         counts = [sum(n for (_, of, k), n in table.items() if (of, k) == (label, column)) for column in range(4)]
         lines.append("| {} | {} |".format(label, " | ".join(map(str, counts))))
-    lines += ["", "| what was done | " + " | ".join(labels) + " |", "|---|" + "---:|" * len(labels)]
+    lines += ["", "| damage | " + " | ".join(labels) + " |", "|---|" + "---:|" * len(labels)]
     for name in dict.fromkeys(name for name, *_ in table):
         counts = [sum(n for (of, at, _), n in table.items() if (of, at) == (name, label)) for label in labels]
         lines.append("| {} | {} |".format(name.replace("_", " "), " | ".join(map(str, counts))))

@@ -250,7 +250,7 @@ class Window:
         self.buttons.clear()
         for page in range(PAGES):
             for down in range(30 if page == 0 else 8, height, 14):
-                for share in (0.25, 0.75, 0.9):
+                for share in (0.25, 0.84, 0.9):
                     place = (x + column * share, y + height - down)
                     found = self._button_at(*place)
                     if found == operator:

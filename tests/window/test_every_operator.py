@@ -52,10 +52,10 @@ def click_material(window, name):
     """Two clicks: the menu of materials, which is above the Measure button, and its entry; returns their count."""
     x, y, width, height = window.region("UI")
     left, measure = window.place("object.body_moments_measure")
-    window.click(x + (width - 28) * 0.6, measure + 30)
+    window.click(x + (width - 28) * 0.6, measure + 22)
     for down in range(0, 400, 9):
         for way in (-down, down):
-            command = window._command_at(x + (width - 28) * 0.6, measure + 30 + way)
+            command = window._command_at(x + (width - 28) * 0.6, measure + 22 + way)
             if (
                 command
                 and command.startswith("bpy.ops.object.body_moments_set_material")
@@ -120,14 +120,14 @@ def test_the_rows_of_the_panel_are_the_stored_numbers(window):
 
 
 def test_each_remedy_works_as_labeled(window):
-    window.press("object.body_moments_recalculate_outside")
+    window.press("object.body_moments_remedy")
     window.wait(f"'flipped_faces' not in {PART}['body_findings']")
     window.press("object.body_moments_accept")
     window.wait(f"not {PART}['body_warnings']")
     window.point_at_view()
     window.key("ctrl+z")
     window.wait(f"{PART}['body_warnings']")
-    window.press("object.body_moments_count_as_union")
+    window.press("object.body_moments_remedy")
     window.wait(f"{PART}['body_method'] == 'union'")
     assert window.get(f"{PART}['body_volume']") == pytest.approx(0.06**3, rel=1e-6)
     window.picture("operators-remedies")
@@ -147,7 +147,7 @@ def test_a_refusal_is_read_in_the_panel_and_dismissed(window):
     window.choose(MENU, "object.body_moments_origin_to_center")
     refused = f"__import__('sys').modules['{PACKAGE}.blender.session.stored.outcome'].last()"
     window.wait(f"{refused} is not None")
-    assert "“Cast”" in window.get(f"str({refused}.findings[0])")
+    assert "“Cast”" in window.get(f"str({refused}.groups[0].finding)")
     assert window.get(f"list({PART}.location)") == place
     window.redraw()
     window.picture("operators-refusal")
@@ -203,25 +203,14 @@ RIG_OBJECT = "bpy.data.objects['Rig']"
 # operator: options, what is there before, what must have happened
 CLICKED = {
     "object.body_moments_copy_value": ({"value": "7.5", "unit": "kg"}, "", f"{CLIPBOARD} == '7.5'"),
-    "object.body_moments_copy_inertial": ({}, MEASURED, f"'inertia' in {CLIPBOARD}"),
+    "object.body_moments_copy": ({"what": "REFERENCE"}, MEASURED, f"'Part, about' in {CLIPBOARD}"),
     "object.body_moments_store_reference": ({}, MEASURED, f"'body_reference' in {PART}"),
-    "object.body_moments_copy_reference": ({}, MEASURED, f"'Part, about' in {CLIPBOARD}"),
     "object.body_moments_axis_from_selection": (
         {},
         "bpy.ops.object.duplicate()\nbpy.context.object.location.x += 9.0\npart.select_set(True)",
         "bpy.context.scene.body_moments_reference.about == 'AXIS'",
     ),
-    "object.body_moments_copy_moments": (
-        {},
-        MEASURED + "bpy.ops.object.body_moments_compute_moments('EXEC_DEFAULT', True)",
-        f"len({CLIPBOARD}.splitlines()) > 20",
-    ),
-    "object.body_moments_copy_section": (
-        {},
-        ONE_FACE + "bpy.ops.object.body_moments_measure_section('EXEC_DEFAULT', True)",
-        f"'Part' in {CLIPBOARD}",
-    ),
-    "object.body_moments_measure_as_shell": ({}, "", f"{PART}.body_moments.kind == 'SHELL'"),
+    "object.body_moments_remedy": ({"remedy": "SHELL"}, "", f"{PART}.body_moments.kind == 'SHELL'"),
     "object.body_moments_equal_inertia": ({}, MEASURED, "len(bpy.data.objects) == 2"),
     "object.body_moments_rigid_bodies": ({}, "", f"{PART}.rigid_body is not None"),
     "object.body_moments_preset_add": (

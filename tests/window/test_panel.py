@@ -29,6 +29,14 @@ def test_measure_button_measures_the_selection(window):
     assert window.get(f"list({CUBE}['body_center_of_mass'])") == pytest.approx([0.0] * 3, abs=1e-12)
 
 
+def test_first_number_is_near_the_top_of_the_panel(window):
+    _, bottom, _, height = window.region("UI")
+    window.buttons.clear()
+    first = window.place("object.body_moments_copy_value")
+    assert "unit='kg'" in window._command_at(*first).replace('"', "'")
+    assert bottom + height - first[1] < 350 / 2  # so that volume and center are above 350, too
+
+
 def test_fresh_numbers_are_not_called_out_of_date(window):
     window.point_at_view()
     window.redraw()
@@ -45,7 +53,7 @@ def test_undo_takes_the_numbers_away_and_redo_brings_them_back(window):
 
 
 def test_the_report_is_copied(window):
-    window.press("object.body_moments_copy_report")
+    window.ask("bpy.ops.object.body_moments_copy(what='REPORT')")
     window.wait("'Cube' in bpy.context.window_manager.clipboard")
     assert "8000" in window.get("bpy.context.window_manager.clipboard")
 

@@ -71,7 +71,7 @@ def test_a_click_on_a_line_selects_that_object(listed):
     window = listed
     window.picture("list")
     assert window.get(SELECTED) == ["Large", "Open", "Small"]
-    window.press("object.body_moments_copy_csv")
+    window.press("object.body_moments_copy")
     window.wait("'Small' in bpy.context.window_manager.clipboard")
     rows = list(csv.DictReader(io.StringIO(window.get("bpy.context.window_manager.clipboard"))))
     assert [(row["name"], row["method"]) for row in rows] == [
@@ -79,7 +79,7 @@ def test_a_click_on_a_line_selects_that_object(listed):
         ("Open", "capped"),
         ("Small", "exact"),
     ]
-    x, y = window.buttons["object.body_moments_copy_csv"]
+    x, y = window.buttons["object.body_moments_copy"]
     found = set()
     for line in range(1, 9):
         window.click(x, y + 10 + line * LINE_HEIGHT)
@@ -128,7 +128,7 @@ def three(listed):
 
 
 def test_columns_sort_and_warnings_come_first_on_request(three):
-    window, button_name = three, "object.body_moments_copy_csv"
+    window, button_name = three, "object.body_moments_copy"
     window.ask("bpy.ops.object.select_all(action='DESELECT')\nbpy.data.objects['A'].select_set(True)")
     window.redraw()
     button = center(window, button_name)

@@ -15,9 +15,13 @@ import bpy
 import numpy as np
 from bpy.types import Depsgraph, Object
 
+from ....core.bodies.instances import merge_health
+from ....core.bodies.reading import to_si
 from ....core.measurement.builder import Extent, add_extents, extent_of, measure_total
 from ....core.measurement.findings import DENSITY_FROM_MEMBERS
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.measurement.settings import fingerprint
+from ....core.measurement.trust import open_body_caveats
 from ....core.moments.affine_maps import are_similarities
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import Measure, Moments, sum_moments
@@ -33,10 +37,8 @@ from ...read.findings import (
     NOT_RENDERED,
     SCALE_ZERO_AXIS,
 )
-from ...read.fingerprint import fingerprint, matrix_hash
+from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
-from ...read.reading import to_si
-from ...read.total_caveats import open_body_caveats
 from ...settings.density import unset_density
 from ...settings.given import GivenPart
 from ...settings.options import AS_SET, MeasureOptions
@@ -53,7 +55,6 @@ from ..findings import (
     MEMBERS_NOT_MEASURED,
 )
 from ..measure_object import Measured
-from ..mesh.instances import merge_health
 from ..stacks.many import measure_many
 from ..stacks.stack import Stacked
 from .given import given_moments

@@ -13,18 +13,19 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import Reading, to_si
 from ....core.measurement.body import Body
 from ....core.measurement.builder import find_extent, measure_total
 from ....core.measurement.findings import ZERO_QUANTITY
 from ....core.measurement.measurement import DENSITY_FROM_MASS, Measurement
+from ....core.measurement.settings import fingerprint
 from ....core.moments.exponents import KNOWN_ORDER
 from ....core.moments.moments import SECOND_MOMENT_INDEX, Measure, Moments, U, monomial_count
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import fingerprint, matrix_hash
+from ...read.fingerprint import matrix_hash
 from ...read.objects import locate
-from ...read.reading import Reading, to_si
 from ...settings.given import GivenPart, is_point_mass
 from ..findings import CENTER_GIVEN, GIVEN_CENTER_OUTSIDE, GIVEN_INERTIA_IMPOSSIBLE, INERTIA_GIVEN
 from ..request import Request
@@ -36,12 +37,7 @@ GIVEN_RTOL = 1e-6  # slack for values typed with few digits, relative to the tra
 def given_moments(
     mass: float, given: GivenPart, rotation: NDArray, location: NDArray, geometry: Moments | None
 ) -> tuple[Moments, list[Finding]]:
-    """Return the mass moments (SI, world axes, about the center) of a part with a given mass, and the findings.
-
-    `rotation` (3, 3), axes as columns, and `location` (3,), m, are the part's frame, in which `given` is stated.
-    A center that is not given comes from `geometry`, and so does the inertia, scaled to the mass; without `geometry`
-    the part is a point at the frame's origin. Raise ReadError if the mass or the tensor is impossible.
-    """
+    """Return mass moments (SI, world, about the center) of a part with given mass, center and inertia, and findings."""
     if not mass > 0.0:
         raise ReadError(ZERO_QUANTITY, quantity="mass")
     raw, rounding, inputs = np.zeros((3, COUNT))

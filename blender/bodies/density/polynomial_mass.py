@@ -15,6 +15,9 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.instances import group_by_similarity
+from ....core.bodies.mesh_body import MeshBody
+from ....core.bodies.reading import Reading, to_si
 from ....core.density.polynomial import Polynomial
 from ....core.density.polynomial_mass import local_coordinates, polynomial_mass_of_images
 from ....core.density.positivity import find_negative_point
@@ -25,11 +28,8 @@ from ....core.numerics.rotations import polar_rotation
 from ....core.polyhedron import polyhedron_moments
 from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.method import Verdict
-from ...read.reading import Reading, to_si
 from ...settings.density import DensityField
-from ..body import MeshBody
 from ..findings import DENSITY_NEGATIVE, DENSITY_POSSIBLY_NEGATIVE, SHEARED_DENSITY_AXES, UNION_LACKS
-from ..mesh.instances import group_by_similarity
 
 MAX_CHECKED_INSTANCES = 50  # different places of a surface in which the sign of the density is checked
 

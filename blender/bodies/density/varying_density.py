@@ -14,6 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import GRID_AS_SHELL, MASS_OVERFLOW
+from ....core.bodies.instances import area_of_instances, findings_by_part
+from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
+from ....core.bodies.reading import Reading, attribute_to_source, to_si
 from ....core.density.part_densities import PartDensities, part_densities
 from ....core.density.piecewise_mass import sheet_mass_moments, solid_mass_moments, to_mass_moments
 from ....core.measurement.builder import find_extent
@@ -28,10 +32,8 @@ from ....core.solid.orientation import ClosedParts
 from ....core.verdict.finding import Finding, ReadError, finding, truncate_findings
 from ....core.verdict.method import Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
-from ...read.reading import Reading, attribute_to_source, to_si
 from ...settings.density import DensityField, density_key, material_density
 from ...settings.findings import OBJECT_DENSITY_USED, OBJECT_DENSITY_USED_FOR_MATERIALS
-from ..body import MAX_MASS_MOMENT, MeshBody
 from ..findings import (
     ATTRIBUTE_VALUES,
     CAVITY_MATERIAL_IGNORED,
@@ -40,14 +42,11 @@ from ..findings import (
     DENSITY_FROM_MATERIALS,
     DENSITY_OF_MATERIAL,
     DENSITY_OF_OTHERS,
-    GRID_AS_SHELL,
-    MASS_OVERFLOW,
     MATERIAL_WITHOUT_DENSITY,
     MIXED_MATERIALS,
     OVERLAPPING_DENSITIES,
     UNION_LACKS,
 )
-from ..mesh.instances import area_of_instances, findings_by_part
 from ..request import Request
 from .polynomial_mass import polynomial_mass_result
 from .voxel_filled import filled_by_volume

@@ -9,29 +9,28 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import (
+    DENSITY_FROM_GRID,
+    GRID_DENSITY,
+    GRID_EMPTY,
+    GRID_IS_LEVEL_SET,
+    GRID_TOO_LARGE,
+    MASS_OVERFLOW,
+)
+from ....core.bodies.mesh_body import MAX_MASS_MOMENT, MeshBody
+from ....core.bodies.reading import attribute_to_source, to_si
+from ....core.density.grid_options import GridOptions
+from ....core.density.grid_values import density_function, empty_background_note
 from ....core.density.voxel_fill import MAX_VOXELS, inside_moments
 from ....core.moments.moments import Measure, Moments
 from ....core.solid.measure import SolidIntegrals
 from ....core.verdict.finding import MeasureError, ReadError, finding
 from ....core.verdict.method import Method, Source, Verdict
 from ....core.verdict.tolerances import NEGLIGIBLE
-from ...read.findings import GRID_TOO_LARGE, OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
+from ...read.findings import OBJECT_UNREADABLE, VOLUME_WITHOUT_GRIDS
 from ...read.grids.volume import VolumeReading, volume_reading
-from ...read.reading import attribute_to_source, to_si
 from ...read.tracking import tracking_paused
-from ...settings.grid import GridOptions
-from ...settings.grid_values import density_function, empty_background_note
-from ..body import MAX_MASS_MOMENT, MeshBody
-from ..findings import (
-    DENSITY_FROM_GRID,
-    DENSITY_GRID_ELSEWHERE,
-    GRID_DENSITY,
-    GRID_EMPTY,
-    GRID_IS_LEVEL_SET,
-    MASS_OVERFLOW,
-    OPEN_SURFACE_OF_GRID,
-    OUTSIDE_GRID,
-)
+from ..findings import DENSITY_GRID_ELSEWHERE, OPEN_SURFACE_OF_GRID, OUTSIDE_GRID
 from ..request import Request
 
 MAX_OUTSIDE_SHARE = 1e-9  # of the volume: a smaller share outside the grid is rounding

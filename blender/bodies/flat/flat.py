@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import DRAWN_AS_POLYGONS, NO_GEOMETRY, SHAPE_OF_OPEN_SURFACE
 from ....core.flat.findings import SECTION_NOT_FLAT
 from ....core.flat.polygon import find_defects, orient_loops
 from ....core.flat.regions import plane_positions, region_moments
@@ -30,13 +31,7 @@ from ....core.nurbs.curve_moments import plane_moments
 from ....core.nurbs.planar_regions import planar_region
 from ....core.verdict.finding import Finding, MeasureError, ReadError, finding
 from ....core.verdict.tolerances import NEGLIGIBLE
-from ...read.findings import (
-    DRAWN_AS_POLYGONS,
-    FLAT_OF_TYPE,
-    NO_GEOMETRY,
-    RENDER_DIFFERS,
-    SECTION_EXTRUDED,
-)
+from ...read.findings import FLAT_OF_TYPE, RENDER_DIFFERS, SECTION_EXTRUDED
 from ...read.section import SectionReading, read_outline_curves, read_section
 from ..findings import (
     OUTLINES_CROSS,
@@ -45,7 +40,6 @@ from ..findings import (
     SECTION_FILL_WRONG,
     SECTION_OVERLAP_UNCHECKED,
     SECTION_PROJECTED,
-    SHAPE_OF_OPEN_SURFACE,
 )
 from ..wire import curves_in_world
 
@@ -115,12 +109,7 @@ def flat_region(
     exact: bool = True,
     unit: float | None = None,
 ) -> FlatRegion:
-    """Return an object as a region of a plane, in SI units.
-
-    `selected` reads only the selected faces in Edit Mode; `resolution` replaces the resolution of curves and text;
-    `exact` reads the curves, too; `unit` is in meters per Blender unit, by default the scene's. Raise MeasureError if
-    the object is not flat, is extruded, or has outlines that cross.
-    """
+    """Return an object, or its selected faces, as a region of a plane, in SI units; MeasureError if it is not one."""
     reading = read_section(obj, depsgraph, selected=selected, resolution=resolution)
     unit = unit or shortest_decimal(depsgraph.scene.unit_settings.scale_length)
     try:

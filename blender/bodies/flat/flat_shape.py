@@ -17,7 +17,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import SHAPE_FAR_FROM_ORIGIN
 from ....core.inertia.canonical_frame import NOISE_LEVEL
+from ....core.measurement.settings import fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.exponents import monomials
 from ....core.moments.moments import Moments
@@ -28,8 +30,7 @@ from ....core.shape.registration import Residual, RigidMatch
 from ....core.shape.signatures import Signature
 from ....core.shape.symmetries import Symmetry
 from ....core.verdict.finding import MeasureError, ReadError
-from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
-from ..findings import SHAPE_FAR_FROM_ORIGIN
+from ...read.fingerprint import matrix_hash, settings_hash
 from ..shape.shape import Shape, surface_shape_of
 from ..shape.surface_distance import EXACT_DISTANCE, SURFACE_SAMPLES, SurfaceDistance
 from .flat import NO_BODY, FlatRegion, clearer_refusal, flat_region
@@ -103,10 +104,7 @@ class FlatShape:
         )
 
     def pieces(self) -> Iterator[Surface]:
-        """Yield one wall along the outline, at right angles to the plane, one `size` high on either side.
-
-        A point of the plane is as far from the wall as from the outline.
-        """
+        """Yield one wall along the outline, one `size` high on either side: as far from points as the outline."""
         ends = self.region.points[self.region.edges] - self.moments.about[:2]  # (m, 2 ends, 2)
         count, height = len(ends), self.size
         low, high = (np.insert(ends.reshape(-1, 2), 2, side * height, axis=1) for side in (-1.0, 1.0))

@@ -10,6 +10,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.mesh_body import extend_input_error
+from ....core.bodies.reading import Reading
 from ....core.measurement.body import Body
 from ....core.moments.moments import Measure, Moments, monomial_count
 from ....core.nurbs.curve import Curve
@@ -20,9 +22,7 @@ from ....core.verdict.health import MeshHealth
 from ....core.verdict.method import Method, Source, Verdict
 from ...read.findings import SECTION_NOT_FILLED
 from ...read.objects import read_lines
-from ...read.reading import Reading
 from ...read.visibility import shows_flat_region
-from ..body import extend_input_error
 from ..findings import CURVE_FILL_MEASURED
 from ..request import Request
 from ..wire import DEGREE, curves_in_world

@@ -17,6 +17,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import (
+    SHAPE_FAR_FROM_ORIGIN,
+    SHAPE_OF_GRID,
+    SHAPE_OF_OPEN_SURFACE,
+    SIGNATURE_NEEDS_POLYGONS,
+    WIRE_UNSUPPORTED,
+)
+from ....core.bodies.mesh_body import with_input_error
 from ....core.inertia.axial_harmonics import (
     MAX_AXIAL_ORDER,
     AxialHarmonics,
@@ -42,14 +50,6 @@ from ....core.verdict.finding import Finding, ReadError, finding
 from ....core.verdict.findings import OBJECT_TOO_LARGE
 from ....core.verdict.method import Source, Verdict
 from ...settings.options import MeasureOptions
-from ..body import with_input_error
-from ..findings import (
-    SHAPE_FAR_FROM_ORIGIN,
-    SHAPE_OF_GRID,
-    SHAPE_OF_OPEN_SURFACE,
-    SIGNATURE_NEEDS_POLYGONS,
-    WIRE_UNSUPPORTED,
-)
 from ..measure_object import THREADS, Measured, measure_body
 from .surface_distance import EXACT_DISTANCE, SurfaceDistance
 
@@ -132,11 +132,7 @@ class Shape:
         return self.body.surfaces(self._sheets)
 
     def pose(self) -> dict[str, Any]:
-        """Return the pose for a record (`docs/shape.md`): matrix, uniqueness, bounds and symmetry.
-
-        A varying density has mass moments to third order only, which cannot tell a symmetry. An apparent axis of
-        revolution is tested by harmonics to order 30; if the body is not round, they fix its turn about this axis.
-        """
+        """Return the pose for a record (`docs/shape.md`), with harmonics to order 30 if the body may be round."""
         body, constant = self.measurement.mass_properties, self.body.mass is None
         axes, unique = body.principal.axes, body.principal.is_unique
         moments = self.moments if constant else self.measurement.mass_moments[0]

@@ -74,10 +74,7 @@ class SurfaceDistance:
         return found * self._scale + self._center
 
     def distance(self, points: NDArray, within: float | None = None) -> NDArray[np.float64]:
-        """Return (n,) distances of (n, 3) points from the surface.
-
-        within: the limit, if only distances above or below it matter: clear cases are in single precision, or infinite.
-        """
+        """Return (n,) distances of (n, 3) points; within: a limit, of which clear cases are single precision."""
         scaled = (points - self._center) / self._scale
         nearest, queries = self._tree.find_nearest, scaled.tolist()
         reach = np.inf if within is None else 1.01 * max(NEAR_DISTANCE, within / self._scale)

@@ -15,13 +15,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.mesh_body import own_moments, with_known
 from ....core.inertia.canonical_frame import MAX_ORDER
 from ....core.inertia.mass_properties import MassProperties, has_certain_total
 from ....core.inertia.principal_frames import OwnMoments
 from ....core.inertia.third_moment_frames import third_moment_frames
 from ....core.measurement.builder import build_measurement, find_large_bounds
 from ....core.measurement.measurement import DENSITY_FROM_MASS, DENSITY_FROM_VALUE, Measurement
-from ....core.measurement.settings import Settings
+from ....core.measurement.settings import Settings, fingerprint
 from ....core.mesh.surface import Surface
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Moments, image, join_moments
@@ -33,10 +34,8 @@ from ....core.solid.solid_stack import SolidStack, can_be_stacked, is_small, mea
 from ....core.verdict.finding import Finding
 from ....core.verdict.health import DefectiveElements, MeshHealth
 from ....core.verdict.method import Method, Verdict
-from ...read.fingerprint import fingerprint
 from ...read.shapes import surface_digest, transform_keys
 from ...settings.accepted import accepted_codes, with_acceptance
-from ..body import own_moments, with_known
 
 METHODS = {verdict: Method(verdict) for verdict in Verdict}
 

@@ -17,11 +17,12 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import GRID_TOO_LARGE
+from ....core.bodies.reading import float64_matrix
 from ....core.density.findings import GRID_TRANSFORM_SINGULAR
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import ReadError
-from ..findings import GRID_NEEDS_OPENVDB, GRID_TOO_LARGE, GRID_UNREADABLE
-from ..reading import float64_matrix
+from ..findings import GRID_NEEDS_OPENVDB, GRID_UNREADABLE
 
 VOXELS_PER_BLOCK = 1 << 21  # voxels that are sampled at a time
 MAX_VOXELS = 1 << 29  # voxels that are sampled at all

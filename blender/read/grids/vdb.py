@@ -18,9 +18,15 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.findings import GRID_TOO_LARGE
 from ....core.mesh.surface import Surface
 from ....core.verdict.finding import ReadError
-from ..findings import GRID_FAR_FROM_ORIGIN, GRID_FRUSTUM, GRID_TOO_LARGE, GRID_TYPE, GRID_UNREADABLE
+from ..findings import (
+    GRID_FAR_FROM_ORIGIN,
+    GRID_FRUSTUM,
+    GRID_TYPE,
+    GRID_UNREADABLE,
+)
 
 NODE_VOXELS = 128  # voxels along a side of the blocks that are read
 ROOT_VOXELS = 4096  # along a side of the largest nodes

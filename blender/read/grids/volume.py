@@ -19,6 +19,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import Reading
 from ....core.mesh.surface import Surface
 from ....core.numerics.float32 import shortest_decimal
 from ....core.scans.findings import OTHERS_LEFT_OUT
@@ -38,7 +39,6 @@ from ..findings import (
     VOLUME_WITHOUT_GRIDS,
 )
 from ..objects import locate
-from ..reading import Reading
 from ..visibility import hidden_reason, why_not_evaluated
 from .sample_grid import SampledGrid
 from .vdb import VdbGrid, openvdb

@@ -12,9 +12,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import float64_matrix
 from ....core.verdict.finding import ReadError
 from ..findings import SCALE_ZERO_AXIS
-from ..reading import float64_matrix
 
 # These move control points whatever their switch says (curve_get_tessellate_point in displist.cc); other modifiers only
 # with `use_apply_on_spline`. None does after the first constructive modifier.

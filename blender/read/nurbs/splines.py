@@ -19,13 +19,13 @@ import numpy as np
 from bpy.types import Curve
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import SplineReading
 from ....core.moments.moments import FLOAT32_HALF_ULP
 from ....core.numerics.bspline import SplineSpace
 from ....core.nurbs.blender_knots import blender_space, display_parameters, display_table
 from ....core.nurbs.patch import Patch
 from ....core.verdict.finding import ReadError, finding
 from ..findings import CONTROL_POINTS_RECOVERED, SPLINES_LEFT_OUT
-from ..reading import SplineReading
 from .deformation import deform, is_deformed, spline_modifiers
 
 AGREEMENT_RTOL = 4e-6  # relative to the largest coordinate: error of float32 evaluation, up to order 6 by order 6

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Object
 
-from ...read.fingerprint import VERSION
+from ....core.measurement.settings import VERSION
 from .. import live
 from ..tracking.cache import SessionCache
 from ..tracking.stamps import Kind, Stamp

@@ -22,6 +22,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object, Scene
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import float64_matrix
 from ....core.inertia.mass_properties import affine_image
 from ....core.inertia.plain_body import PlainBody
 from ....core.measurement.body import Body
@@ -39,7 +40,6 @@ from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
 from ...read.fingerprint import has_transform, settings_hash, transform_key
 from ...read.objects import read_patches
-from ...read.reading import float64_matrix
 from ...settings.options import MeasureOptions
 from ...settings.preferences import preferences
 from ...settings.resolve import object_settings
@@ -74,10 +74,7 @@ def is_of_another_scale(obj: Object, current: Followed) -> bool:
 
 
 def _linear_map(obj: Object, current: Followed, measured: Measurement) -> NDArray | None:
-    """Return the linear map from the measured object to its current state.
-
-    Return None for shells and wires, or if one of the matrices is singular.
-    """
+    """Return the linear map from the measured object to its current state, or None without one."""
     assert current.matrix is not None
     before, now = current.matrix[:3, :3], float64_matrix(obj.matrix_world)[:3, :3]
     if measured.kind != "solid" or not np.isfinite(now).all() or are_singular(np.stack([before, now])).any():

@@ -15,6 +15,7 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import float64_matrix
 from ....core.mesh.hulls import ConvexHull
 from ....core.moments.affine_maps import are_similarities, are_singular
 from ....core.moments.moments import Measure, Moments
@@ -25,7 +26,6 @@ from ....core.verdict.method import Method, Verdict
 from ...bodies.measure_object import measure_body
 from ...bodies.mesh.hull import object_hull
 from ...read.objects import read_object
-from ...read.reading import float64_matrix
 from ...scene.findings import OPEN_OBJECT
 from ...settings.resolve import object_settings
 from ..tracking import updates
@@ -63,10 +63,7 @@ class Motion:
     _followed: dict[Object, _Followed] = field(default_factory=dict)
 
     def mass_and_center(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]]:
-        """Return an object's mass in kg and its (3,) center of mass, in Blender's units and world axes.
-
-        Raise MeasureError if there is no mass, or the center is not certain.
-        """
+        """Return an object's mass, kg, and (3,) center, Blender's units; MeasureError if there is no certain one."""
         unit = shortest_decimal(depsgraph.scene.unit_settings.scale_length)
         matrix = float64_matrix(obj.evaluated_get(depsgraph).matrix_world)
         followed = self._followed.setdefault(obj, _Followed())
@@ -136,11 +133,7 @@ def _coordinates(data) -> NDArray[np.float64]:
 def _mixed(
     obj: Object, followed: _Followed, depsgraph: Depsgraph, matrix: NDArray, unit: float
 ) -> tuple[float, NDArray[np.float64]] | None:
-    """Return mass and center by the mix of shape keys, or None if a measurement is needed.
-
-    It is needed if Blender cuts the faces into other triangles than in the mixes, or if keys or matrix make the mesh
-    flat or turn it inside out.
-    """
+    """Return mass and center by the mix of shape keys; None if triangles changed, or the mesh is flat or inside out."""
     assert followed.mixes is not None and followed.triangles is not None
     triangles, _ = read_object(obj, depsgraph, edges=False).parts[0].surface.all_triangles()
     if not np.array_equal(triangles, followed.triangles):

@@ -14,14 +14,14 @@ import numpy as np
 from bpy.types import Depsgraph, Object
 from numpy.typing import NDArray
 
+from ....core.bodies.mesh_body import MeshBody
+from ....core.bodies.reading import Reading
 from ....core.mesh.surface import Surface
 from ....core.polyhedron.first_order import volume_and_center
 from ....core.verdict.finding import ReadError
 from ....core.verdict.method import Source, Verdict
-from ...bodies.body import MeshBody
 from ...bodies.measure_object import Measured
 from ...read.mesh import mesh_points
-from ...read.reading import Reading
 from ...read.visibility import evaluated_geometry
 
 FOLLOWED = {Verdict.EXACT, Verdict.CAPPED, Verdict.REORIENTED}
@@ -66,11 +66,7 @@ class MovingSurface:
         return cls(surface, read.corner_vertices)
 
     def follow(self, obj: Object, depsgraph: Depsgraph) -> tuple[float, NDArray[np.float64]] | None:
-        """Return the object's current volume and (3,) center, in its own coordinates.
-
-        None if the evaluated `depsgraph` does not show these faces, or they enclose nothing.
-        obj: the original object that was measured.
-        """
+        """Return the object's current volume and (3,) center, in its own coordinates; None if it shows other faces."""
         if obj.type != "MESH" or obj.mode not in {"OBJECT", "POSE", "WEIGHT_PAINT"} or obj.data.is_editmode:
             return None
         try:

@@ -13,9 +13,11 @@ from contextlib import contextmanager
 from math import dist, hypot
 
 import bpy
-from bpy.types import Context, Object
+from bpy.types import Context, Object, PropertyGroup
+from mathutils import Matrix
 
-from ....core.inertia.plain_body import PlainBody
+from ....core.inertia.plain_body import PlainBody, add_bodies
+from ....core.measurement.settings import digest
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict import internal_error
 from ....core.verdict.finding import Finding, Severity
@@ -25,9 +27,7 @@ from ...bodies.findings import ASSEMBLY_MASS_GIVEN
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import Stacked
 from ...read.assembly import Member, MemberKind, Root, is_assembly, members_key, members_of, settings_of
-from ...read.fingerprint import digest
 from ...write import properties
-from .. import displayed
 from ..tracking import handlers, staleness, stamps
 from . import reference, results
 
@@ -35,10 +35,7 @@ SAME_RTOL = 1e-5  # relative to mass and radius of gyration: other coordinates o
 
 
 def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
-    """Store the results of an assembly and its members; return names of members that cannot hold them, and the reasons.
-
-    Raise EditRefusedError if the assembly itself cannot hold results.
-    """
+    """Store the results of an assembly and its members; return names of members that cannot hold them, and reasons."""
     scene, depsgraph = context.scene, context.evaluated_depsgraph_get()
     unit = shortest_decimal(scene.unit_settings.scale_length)
     root = assembly.root.member.data
@@ -55,8 +52,6 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
         done[data] = None
         if part.measured is not None:
             measured.append((data, part.measured))
-        elif part.refusal is not None and part.member.kind in (MemberKind.OBJECT, MemberKind.POINT):
-            displayed.remember_failure(data, part.refusal)
         elif part.member.kind in (MemberKind.COLLECTION, MemberKind.EMPTY) and part.masses:
             try:
                 properties.store(data, assembly_measurement(part, depsgraph, unit))
@@ -64,7 +59,6 @@ def store(context: Context, assembly: Assembly) -> list[tuple[str, Finding]]:
                 failures.append((data.name_full, internal_error.finding_of(error)))
     stored = []
     for obj, refusal in results.store_many(measured, scene):
-        displayed.remember_failure(obj, None)
         if refusal is None:
             stored.append(obj)
         else:
@@ -83,31 +77,63 @@ def clear(root: Root) -> bool:
 
 
 @contextmanager
-def kept_up_to_date(context: Context) -> Iterator[None]:
-    """Keep assemblies up to date while a block gives members other frames and stores their results anew.
+def kept_up_to_date(context: Context, member: Object | None = None) -> Iterator[None]:
+    """Keep assemblies up to date while a block gives members other frames, or stores other masses of them.
 
-    An assembly keeps its old stamp if a member's mass or center changes, or a member's results are out of date.
+    A total that is the plain sum of its members follows their masses. An assembly keeps its old stamp if a member's
+    results are out of date, or if instances or given masses are in its total. member: the only one that changes.
     """
-    scene = context.scene
+    scene, depsgraph = context.scene, context.view_layer.depsgraph
     roots = [scene.collection, *scene.collection.children_recursive, *scene.objects]
     stored = [root for root in roots if "body_fingerprint" in root and is_assembly(root)]
-    depsgraph = context.evaluated_depsgraph_get()
+    if depsgraph is None or not stored:
+        yield
+        return
+    if member is None:
+        depsgraph = context.evaluated_depsgraph_get()
     before = {
         root: _member_bodies(members_of(root, depsgraph)) for root in stored if not staleness.stale_reason(root, scene)
     }
+    if member is not None:
+        before = {root: bodies for root, bodies in before.items() if member in bodies}
     yield
-    depsgraph = context.evaluated_depsgraph_get()
+    if member is None:
+        depsgraph = context.evaluated_depsgraph_get()
     for root, bodies in before.items():
         handlers.count_change(root)
-        member, stamp = members_of(root, depsgraph), stamps.of_results(root)
-        now = _member_bodies(member)
-        if stamp is None or bodies.keys() != now.keys():
+        tree, stamp = members_of(root, depsgraph), stamps.of_results(root)
+        now = _member_bodies(tree)
+        if stamp is None or bodies.keys() != now.keys() or any(staleness.stale_reason(obj, scene) for obj in now):
             continue
-        if any(staleness.stale_reason(obj, scene) for obj in now):
-            continue
+        key = members_key(tree, {obj: properties.fingerprint(obj) for obj in now})
+        text = stamp._replace(geometry=digest(key.encode())).text
         if all(_is_same(bodies[obj], now[obj]) for obj in now):
-            key = members_key(member, {obj: properties.fingerprint(obj) for obj in now})
-            root["body_fingerprint"] = stamp._replace(geometry=digest(key.encode())).text
+            root["body_fingerprint"] = text
+        elif _is_sum(root, bodies) and (total := add_bodies([*now.values()])) is not None:
+            matrix, unit = getattr(root, "matrix_world", Matrix()), shortest_decimal(scene.unit_settings.scale_length)
+            properties.store_body(root, total.in_object(matrix, unit), text)
+            _scale_rows(root, {obj.name: now[obj].mass - bodies[obj].mass for obj in now}, total.mass)
+
+
+def _is_sum(root: Root, bodies: dict[Object, PlainBody]) -> bool:
+    """Return whether the stored total of an assembly is the sum of these bodies, in the world."""
+    total, own = add_bodies([*bodies.values()]), properties.stored(root)
+    if total is None or own is None:
+        return False
+    unit = shortest_decimal(bpy.context.scene.unit_settings.scale_length)
+    return _is_same(total, own.in_world(getattr(root, "matrix_world", Matrix()), unit))
+
+
+def _scale_rows(root: Root, gains: dict[str, float], mass: float) -> None:
+    """Add the gains of objects, by name, to their rows and to those of the assemblies that they are in."""
+    above: list[PropertyGroup] = []
+    for row in settings_of(root).rows:
+        above = [*(upper for upper in above if upper.depth < row.depth), row]
+        gain = gains.get(row.name, 0.0) if row.member == MemberKind.OBJECT.value else 0.0
+        for part in above if gain else ():
+            part.mass += gain
+    for row in settings_of(root).rows:
+        row.share = row.mass / mass if row.is_counted else 0.0
 
 
 def _member_bodies(root: Member) -> dict[Object, PlainBody]:

@@ -15,14 +15,16 @@ from typing import TYPE_CHECKING
 
 from bpy.types import Context, Object, PropertyGroup, Scene
 
+from ....core.bodies.findings import DENSITY_DEFAULTED
+from ....core.measurement.settings import VERSION
 from ....core.verdict.finding import EditRefusedError, Finding, finding
 from ...bodies.findings import INERTIA_GIVEN
-from ...read.fingerprint import VERSION, current_settings
+from ...read.fingerprint import current_settings
 from ...read.tracking import tracking_paused
 from ...settings.density import default_density, unset_density
 from ...write import properties
 from .. import stored
-from ..findings import DENSITY_DEFAULT_KEPT, DENSITY_DEFAULTED
+from ..findings import DENSITY_DEFAULT_KEPT
 from ..tracking import staleness, stamps
 
 if TYPE_CHECKING:
@@ -51,10 +53,7 @@ def with_default_note(findings: tuple[Finding, ...], unset: str) -> tuple[Findin
 
 
 def follow_density(obj: Object, scene: Scene) -> None:
-    """Update stored results if the object's settings change them by a factor alone; else leave them out of date.
-
-    The scene's unit scale and default density count.
-    """
+    """Update stored results if the settings change them by a factor alone; else leave them out of date."""
     stamp = stamps.of_results(obj)
     if stamp is None or stamp.version != VERSION or "body_density_from" in obj or not _can_store(obj):
         return
@@ -117,11 +116,13 @@ def _findings(obj: Object, scene: Scene) -> list[Finding]:
 def on_density(settings: PropertyGroup, context: Context) -> None:
     """Let stored results follow a density or mass."""
     if context.scene is not None and not tracking_paused.depth:
-        follow_density(settings.id_data, context.scene)
+        with stored.assembly.kept_up_to_date(context, settings.id_data):
+            follow_density(settings.id_data, context.scene)
 
 
-def on_default_density(settings: PropertyGroup, _context: Context) -> None:
+def on_default_density(settings: PropertyGroup, context: Context) -> None:
     """Let the results of objects without a density of their own follow their scene's default density."""
-    for obj in settings.id_data.objects:
-        if not obj.body_moments.is_property_set("density"):
-            follow_density(obj, settings.id_data)
+    with stored.assembly.kept_up_to_date(context):
+        for obj in settings.id_data.objects:
+            if not obj.body_moments.is_property_set("density"):
+                follow_density(obj, settings.id_data)

@@ -10,11 +10,11 @@ import numpy as np
 from bpy.types import Object
 from numpy.typing import NDArray
 
+from ....core.bodies.reading import Reading
 from ....core.mesh.surface import Surface
 from ....core.verdict.findings import FLIPPED_FACES
 from ....core.verdict.health import DefectiveElements
 from ...bodies.measure_object import Measured
-from ...read.reading import Reading
 from ..tracking import updates
 from ..tracking.cache import SessionCache
 

@@ -30,10 +30,7 @@ _listings: SessionCache[tuple[tuple, Listing]] = SessionCache()  # by scene: the
 
 
 def listing(scene: Scene, view_layer: ViewLayer, name: str, sort_by: SortBy, warnings_first: bool) -> Listing:
-    """Return two lists over the objects of a view layer: whether each is listed, and its line in sorted order.
-
-    name: a part of the names, in any case. warnings_first: put out-of-date and doubtful objects before all others.
-    """
+    """Return two lists over a view layer's objects: whether each is listed, and its line, warnings first on request."""
     key = (handlers.generation(), view_layer.name, name, sort_by, warnings_first)
     return current_value(
         _listings, scene, key, lambda: _listing(scene, view_layer, name.lower(), sort_by, warnings_first)

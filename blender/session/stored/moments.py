@@ -113,10 +113,7 @@ _computed: SessionCache[ComputedMoments] = SessionCache(MAX_CACHED_OBJECTS)
 
 
 def compute_moments(context: Context, obj: Object, order: int) -> tuple[ComputedMoments | None, tuple[Finding, ...]]:
-    """Return the moments of a body, a flat shape or both (None for a wire that bounds nothing), and findings.
-
-    Raises MeasureError if the object is neither.
-    """
+    """Return the moments of a body, a flat shape or both (None for a wire), and findings."""
     depsgraph = context.evaluated_depsgraph_get()
     region, flat, not_flat = None, None, None
     try:
@@ -214,10 +211,7 @@ def _displayed_invariants(found: list[Invariant], order: int) -> Iterator[Degree
 
 
 def invariants(computed: ComputedMoments, of: str, order: int) -> list[Invariant]:
-    """Return Hu's seven invariants and, from fourth order on, Flusser's.
-
-    Raises MeasureError if the object is not flat, or the order is below 3.
-    """
+    """Return Hu's seven invariants and, from fourth order on, Flusser's; MeasureError for bodies and lower orders."""
     if of != "FLAT":
         raise ReadError(MOMENTS_OF_AREA_ONLY)
     if order < HU_ORDER:

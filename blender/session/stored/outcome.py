@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Refusals and warnings of the last action, for panels to show until the next action.
+"""Refusals of the last action, for panels to show until the next selection, undo or successful action.
 
 A status line is cut off and gone with the next click.
 """
@@ -10,50 +10,56 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import bpy
+
 from ....core.verdict.finding import Finding, Severity
-from ....core.verdict.sentences import of_severity
+from ....core.verdict.groups import Group, grouped
+from ....core.verdict.sentences import severity
+from ...write.findings import FAILURE
 
 
 @dataclass(frozen=True, eq=False)
 class ActionOutcome:
-    """Messages of one action.
-
-    action: the operator's label, in English. findings: refusals and warnings, never empty.
-    objects: full names of the objects that they are about.
-    """
+    """Refusals of one action, never empty. action: the operator's label, in English."""
 
     action: str
-    findings: tuple[Finding, ...]
-    objects: tuple[str, ...]
+    groups: tuple[Group, ...]
 
 
 _last: ActionOutcome | None = None
+_shown_in: tuple[object, ...] = ()  # the selection and the last action when the outcome was first shown
 
 
 def remember(action: str, findings: Iterable[Finding]) -> None:
-    """Keep the refusals and warnings of an action, in place of the previous action's.
-
-    action: the operator's label. Mere notes are left out; if nothing remains, nothing is shown.
-    """
-    global _last
-    kept = of_severity(findings, Severity.ERROR, Severity.WARNING)
-    objects = dict.fromkeys(name for finding in kept for name in _objects_of(finding))
-    _last = ActionOutcome(action, tuple(kept), tuple(objects)) if kept else None
+    """Keep the refusals of an action, in place of the previous action's. action: the operator's label."""
+    global _last, _shown_in
+    groups = grouped(
+        _refused(found) for found in findings if found.code == FAILURE or severity(found) == Severity.ERROR
+    )
+    _last, _shown_in = ActionOutcome(action, tuple(groups)) if groups else None, ()
 
 
-def _objects_of(finding: Finding) -> list[str]:
-    """Return the names of the objects that a finding is about."""
-    values = finding.values
-    names = [values.get("object"), *values.get("objects", ()), *values.get("sources", ())]
-    return [name for name in names if isinstance(name, str)]
+def _refused(found: Finding) -> tuple[str, Finding]:
+    """Return the full name of the refused object, or "", and the reason."""
+    if found.code != FAILURE:
+        return "", found
+    return found.values["object"], Finding.from_record(found.values["cause"])
 
 
 def last() -> ActionOutcome | None:
-    """Return the refusals and warnings of the last action, None if there were none."""
+    """Return the refusals of the last action, None if there were none, or after another selection or action."""
+    global _shown_in
+    if _last is not None:
+        layer, actions = bpy.context.view_layer, bpy.context.window_manager.operators
+        selected = tuple(obj.session_uid for obj in layer.objects.selected)
+        state = getattr(layer.objects.active, "session_uid", 0), selected, actions[-1].as_pointer() if actions else 0
+        if _shown_in not in ((), state):
+            forget()
+        _shown_in = state
     return _last
 
 
 def forget() -> None:
-    """Forget the refusals and warnings of the last action."""
+    """Forget the refusals of the last action."""
     global _last
     _last = None

@@ -24,10 +24,7 @@ from ..tracking import staleness
 
 
 def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Finding | None:
-    """Return an owner's inertia about the scene's reference, from its stored results.
-
-    Return the reason if there is none, and None if nothing is stored.
-    """
+    """Return an owner's inertia about the scene's reference, from stored results; else the reason, or None if none."""
     choice = ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:
@@ -39,10 +36,7 @@ def referred(owner: Object | Collection, scene: Scene) -> ReferredInertia | Find
 
 
 def store(owner: Object | Collection, scene: Scene, choice: ReferenceChoice | None = None) -> None:
-    """Write the inertia about a reference, by default the scene's, beside the stored results.
-
-    Raise MeasureError if there are no results, no such reference, or the owner cannot hold it.
-    """
+    """Write the inertia about a reference, by default the scene's, beside stored results, or raise MeasureError."""
     choice = choice or ReferenceChoice.from_settings(scene.body_moments_reference)
     body = _stored_body(owner, scene)
     if body is None:

@@ -11,11 +11,11 @@ from typing import Any
 
 from bpy.types import Object, Scene
 
+from ....core.bodies.threshold import ThresholdGridBody
+from ....core.bodies.wall import WallBody
 from ....core.numerics.float32 import shortest_decimal
-from ...bodies.grids.threshold import ThresholdGridBody
 from ...bodies.measure_object import Measured
 from ...bodies.stacks.stack import MeasuredStack, Stacked
-from ...bodies.wall import WallBody
 from ...settings.density import is_density_unset
 from ...write import properties
 from ..tracking import staleness
@@ -23,10 +23,7 @@ from . import density, faults, reference, threshold, walls
 
 
 def store(obj: Object, measured: Measured, scene: Scene) -> None:
-    """Write a measurement on the object, and remember the data for its sliders.
-
-    Raises EditRefusedError if the object cannot hold results.
-    """
+    """Write a measurement on the object, and remember the data for its sliders, or raise EditRefusedError."""
     measured = replace(measured, measurement=density.noted(obj, measured.measurement, scene))
     staleness.note_edits(obj)
     about = reference.stored_choice(obj)

@@ -14,10 +14,7 @@ from ..tracking import armatures, staleness
 
 
 def store(rig: Rig) -> list[tuple[str, Finding]]:
-    """Store the results of all bones and of the whole; return names of bones without results, and the reasons.
-
-    Raise EditRefusedError if the armature object cannot hold results.
-    """
+    """Store the results of all bones and the whole, or raise EditRefusedError; return bones without, and reasons."""
     armature = rig.armature
     properties.store(armature, rig.measurement)
     parts = {part.name: part for part in rig.parts}
@@ -39,10 +36,7 @@ def store(rig: Rig) -> list[tuple[str, Finding]]:
 
 
 def clear(armature: Object) -> bool:
-    """Remove the results of all bones and of the whole; return whether there were any.
-
-    Raises EditRefusedError if the results cannot be changed.
-    """
+    """Remove the results of all bones and of the whole, or raise EditRefusedError; return whether there were any."""
     properties.require_storable(armature)
     cleared = [properties.clear(owner) for owner in (armature, *armature.pose.bones)]
     return any(cleared)

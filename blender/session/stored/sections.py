@@ -11,10 +11,11 @@ from bpy.types import Context, Depsgraph, Object
 
 from ....core.flat.section import measure_section
 from ....core.flat.section_properties import Section
+from ....core.measurement.settings import fingerprint
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import Finding
 from ...bodies.flat.flat import area_findings, flat_region
-from ...read.fingerprint import fingerprint, matrix_hash, settings_hash
+from ...read.fingerprint import matrix_hash, settings_hash
 from ...write import section as record
 from ..tracking import staleness, stamps
 
@@ -22,10 +23,7 @@ MeasuredSection = tuple[Section, str, tuple[Finding, ...]]
 
 
 def section_of(obj: Object, depsgraph: Depsgraph) -> MeasuredSection:
-    """Return an object's section in SI units and world axes, a description of the measured part, and the findings.
-
-    Raises MeasureError if there is no section.
-    """
+    """Return an object's section (SI, world axes), a description of the measured part, and the findings."""
     found = flat_region(obj, depsgraph, exact=False)
     section = measure_section(found.plane, found.spatial, found.edges, found.stored, found.shared)
     return section, found.description, (*found.findings, *area_findings(found, section.area))

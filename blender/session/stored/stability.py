@@ -74,11 +74,7 @@ def stamp_of(obj: Object) -> Stamp | None:
 
 
 def support(obj: Object, scene: Scene = None) -> Support | None:
-    """Return the current support of an original object, in Blender's units and the world.
-
-    None if its stability was not checked, its hull is out of date, or it has no numbers.
-    scene: sets the gravity; by default the context's.
-    """
+    """Return an object's current support, in Blender's units and the world; None if unchecked or out of date."""
     scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):
@@ -102,11 +98,7 @@ def _tolerance(points: NDArray, hull: ConvexHull, matrix: NDArray) -> float:
 
 
 def poses(obj: Object, scene: Scene | None = None) -> RestingPoses | Finding | None:
-    """Return the stable resting poses of an original object, or the reason if there are none; None as for `support`.
-
-    Lengths are in Blender's units, normals in the object's frame (location and rotation).
-    scene: sets the unit scale; by default the context's.
-    """
+    """Return stable resting poses (Blender's units, object frame), the reason if there are none, or None."""
     scene = scene or bpy.context.scene
     remembered = _remembered.get(obj)
     if remembered is None or staleness.stale_reason(obj, scene, stamp_of):

@@ -16,16 +16,16 @@ from dataclasses import dataclass, replace
 import bpy
 from bpy.types import Context, Object, PropertyGroup, Scene
 
+from ....core.bodies.threshold import ThresholdGrid, ThresholdGridBody, threshold_grid_body
+from ....core.density.grid_options import GridOptions
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import MeasureError
-from ...bodies.grids.threshold import ThresholdGrid, ThresholdGridBody, threshold_grid_body
 from ...bodies.measure_object import Measured
 from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
 from ...read.grids.volume import VolumeReading
 from ...settings import hooks
 from ...settings.density import grid_key
-from ...settings.grid import GridOptions
 from ...write import properties
 from ..tracking import staleness, stamps
 from ..tracking.cache import SessionCache

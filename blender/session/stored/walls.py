@@ -15,13 +15,13 @@ from dataclasses import dataclass, replace
 
 from bpy.types import Context, Object, PropertyGroup
 
+from ....core.bodies.reading import Reading
+from ....core.bodies.wall import WallBody, Walls
 from ....core.numerics.float32 import shortest_decimal
 from ....core.verdict.finding import MeasureError
 from ...bodies.measure_object import Measured
 from ...bodies.measurement import measurement_of
 from ...bodies.request import Request
-from ...bodies.wall import WallBody, Walls
-from ...read.reading import Reading
 from ...settings import hooks
 from ...write import properties
 from ..tracking import staleness, stamps

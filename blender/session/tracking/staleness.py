@@ -31,9 +31,15 @@ from typing import Any
 import bpy
 from bpy.types import Collection, Context, Depsgraph, Object, Scene
 
+from ....core.measurement.settings import VERSION, digest
 from ....core.numerics.float32 import shortest_decimal
 from ... import read
-from ...read.fingerprint import VERSION, digest, has_transform, matrix_hash, scale_hash, settings_hash
+from ...read.fingerprint import (
+    has_transform,
+    matrix_hash,
+    scale_hash,
+    settings_hash,
+)
 from ...read.tracking import tracking_paused
 from ...write import properties
 from . import handlers, stamps, updates
@@ -54,11 +60,7 @@ _parts: SessionCache[tuple[int, tuple[str, str] | None]] = SessionCache()
 def stale_reason(
     owner: Object | Collection, scene: Scene, stamp_of: Callable[[Any], Stamp | None] = stamps.of_results
 ) -> Stale | None:
-    """Return the reason why stored data of an original object or a collection are out of date.
-
-    None if they are up to date, or there are none. scene: sets the unit scale. stamp_of: finds the stamp of the data,
-    by default of the results.
-    """
+    """Return the reason why stored data (of results, or `stamp_of`) are out of date, or None."""
     stamp = stamp_of(owner)
     if stamp is None:
         return None
@@ -111,10 +113,7 @@ def _has_members(root: Object | Collection, stamp: Stamp, scene: Scene) -> bool:
 
 
 def _digests_of_parts(root: Object | Collection, scene: Scene) -> tuple[str, str] | None:
-    """Return the present digests of an assembly's structure and of its members' results, or of a character's bones.
-
-    The digest of results is empty if a member is out of date. None if Blender has evaluated nothing yet.
-    """
+    """Return present digests of structure and members' results ("" if one is stale); None if nothing is evaluated."""
     return current_value(_parts, root, handlers.generation(), lambda: _digest_parts(root, scene))
 
 
@@ -175,10 +174,7 @@ def mark_up_to_date(
 
 
 def mark_stamps(context: Context, fresh: Iterable[tuple[Object, Stamp]]) -> None:
-    """Mark other freshly stored data than results, such as sections, as up to date, if nothing else was changed.
-
-    fresh: objects of the context's view layer, and the stamps of the data.
-    """
+    """Mark fresh data (objects and stamps), such as sections, as up to date, if nothing else was changed."""
     with tracking_paused():
         depsgraph = context.evaluated_depsgraph_get()
     for obj, stamp in fresh:
@@ -200,10 +196,7 @@ def mark_object(obj: Object) -> None:
 
 
 def replace_stamp(obj: Object, before: str) -> None:
-    """Carry the notes on replaced results over, after numbers and settings were changed together but not the shape.
-
-    before: the text of the replaced stamp.
-    """
+    """Carry the notes on replaced results (`before`: their stamp) over, if the shape was not changed with them."""
     text = properties.fingerprint(obj)
     set_edited(obj, text, before in _edited_stamps(obj))
     if before in _shapes:
@@ -211,10 +204,7 @@ def replace_stamp(obj: Object, before: str) -> None:
 
 
 def pin(obj: Object) -> None:
-    """Bind the results of an object to its current place, after data that depend on the place were stored with them.
-
-    obj: an original object that can hold results.
-    """
+    """Bind an object's results to its current place, after data that depend on the place were stored with them."""
     stamp = stamps.of_results(obj)
     if stamp is not None and stamp.version and has_transform(obj, stamp.transform):
         obj["body_fingerprint"] = stamp._replace(transform=matrix_hash(obj)).text

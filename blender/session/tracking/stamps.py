@@ -15,8 +15,8 @@ from typing import NamedTuple
 
 from bpy.types import Collection, Object
 
+from ....core.measurement.settings import VERSION
 from ....core.verdict.method import Verdict
-from ...read.fingerprint import VERSION
 from ...write import properties, section
 from .cache import SessionCache
 

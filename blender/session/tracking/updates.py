@@ -47,10 +47,7 @@ def count() -> int:
 
 
 def shown_by(obj: Object) -> Iterator[ID]:
-    """Yield the objects and collections that an original object shows as instances: their shape and place matter.
-
-    For collections Blender reports changes of their members.
-    """
+    """Yield objects and collections that an original object shows as instances: their shape and place matter."""
     kind = obj.instance_type
     if kind == "COLLECTION":
         if obj.instance_collection is not None:
@@ -66,10 +63,7 @@ def shown_by(obj: Object) -> Iterator[ID]:
 
 
 def last_edit(obj: Object) -> Update:
-    """Return the last update of an original object, or of its instances, that may be an edit.
-
-    The shape of the Volume object that its density comes from matters, too; the place of that object is a setting.
-    """
+    """Return the last update of an object, its instances, or the shape of its density's Volume, that may be an edit."""
     last = _edits.get(obj.session_uid, NEVER)
     for shown in shown_by(obj):
         last = max(last, *[stamps.get(shown.session_uid, NEVER) for stamps in (_edits, _moves)])
@@ -80,10 +74,7 @@ def last_edit(obj: Object) -> Update:
 
 
 def last_since(obj: Object, since: int) -> tuple[Update, Update]:
-    """Return the last update of an object or its instances that may be an edit, and the last update of the geometry.
-
-    since: number of an update. The edit is `NEVER` if it did not come after this update.
-    """
+    """Return the last update after `since` that may be an edit, `NEVER` if none, and the last one of the geometry."""
     edit = last_edit(obj)
     return edit if edit.number > since else NEVER, max(edit, _returns.get(obj.session_uid, NEVER))
 

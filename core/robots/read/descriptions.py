@@ -12,17 +12,25 @@ from pathlib import Path
 from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
 from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
 from ...verdict.finding import FileError, system_reason
-from ..findings import DESCRIPTION_INVALID, DESCRIPTION_UNKNOWN, INCLUDE_TWICE, INCLUDE_UNREADABLE, USD_NOT_TEXT
+from ..findings import (
+    DESCRIPTION_INVALID,
+    DESCRIPTION_UNKNOWN,
+    INCLUDE_TWICE,
+    INCLUDE_UNREADABLE,
+    MESH_ON_NETWORK,
+    USD_NOT_TEXT,
+)
 from ..formats import AUDITED
 from ..stated import Description
 from .paths import Roots
-from .xml import NOWHERE, Node, parse
+from .xml import Node, parse
 
 _WIDE = {codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16", b"<\0": "utf-16-le", b"\0<": "utf-16-be"}
 _ENCODING = re.compile(r"""^(<\?xml\b[^>]*?)\s+encoding\s*=\s*["'][\w.-]*["']""")
 _USD = "#usda"
 MAX_DESCRIPTION = 64 << 20  # bytes
 MAX_LINKS = 100_000
+MAX_INCLUDES = 1000
 
 
 def read_description(path: Path, roots: Roots | None = None) -> Description:
@@ -65,7 +73,7 @@ def _xml(data: bytes, roots: Roots) -> Description:
     root = parse(data)
     if root.tag not in AUDITED:
         raise FileError(DESCRIPTION_UNKNOWN, tag=root.tag)
-    if root.tag == "mujoco":
+    if root.tag in ("mujoco", "sdf"):
         _include(root, roots)
     return AUDITED[root.tag].reader_module.read(root, data)
 
@@ -82,33 +90,58 @@ def _narrow(data: bytes) -> bytes:
 
 
 def _include(root: Node, roots: Roots) -> None:
-    """Replace each `include` of an MJCF model by the file's elements, which have no place in the model's own file."""
-    included, total = set(), 0
-    waiting = [root]
+    """Replace each `include` of MJCF or SDF by the file's elements, which have no place in the model's own file."""
+    is_mjcf = root.tag == "mujoco"
+    total = 0
+    waiting: list[tuple[Node, Roots, tuple[Path, ...]]] = [(root, roots, ())]
+    included: set[Path] = set()
     while waiting:
-        node = waiting.pop()
+        node, here, above = waiting.pop()
         children = []
         for child in node.children:
             if child.tag != "include":
                 children.append(child)
-                waiting.append(child)
+                waiting.append((child, here, above))
                 continue
-            name = child.get("file")
+            uri = child.find("uri")
+            name = child.get("file") if is_mjcf else uri.text.strip() if uri is not None else ""
+            if not is_mjcf and name.startswith(("http:", "https:")):
+                raise FileError(MESH_ON_NETWORK, name=name)
             try:
-                path = roots.find(name)
+                path = here.find(name) if is_mjcf else _model_file(name, here)
                 data = _bytes(path)
             except FileError as error:
-                raise FileError(INCLUDE_UNREADABLE, name=name) from error
+                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **_at(child)) from error
             total += len(data)
             _check_bytes(total)
-            if path in included:  # MuJoCo refuses that too; so includes cannot go round in a circle.
-                raise FileError(INCLUDE_TWICE, name=name)
+            # MuJoCo refuses a second time; models of SDF may repeat, but not include themselves.
+            if path in (included if is_mjcf else above) or len(included) > MAX_INCLUDES:
+                raise FileError(INCLUDE_TWICE, name=name, **_at(child))
             included.add(path)
-            found = parse(data)
-            for below in found.walk():
-                below.start = below.end = NOWHERE
+            try:
+                found = parse(_narrow(data), str(path))
+            except FileError as error:
+                raise FileError(INCLUDE_UNREADABLE, name=name, cause=error.finding.as_record(), **_at(child)) from error
+            there = here if is_mjcf else here.at(path.parent)
             children += found.children
-            waiting += found.children
+            waiting += [(below, there, (*above, path)) for below in found.children]
         node.children = children
         if any(child.tag == "include" for child in children):  # The included file includes more.
-            waiting.append(node)
+            waiting.append((node, here, above))
+
+
+def _at(node: Node) -> dict[str, int]:
+    return {"line": node.place.line, "column": node.place.column}
+
+
+def _model_file(name: str, roots: Roots) -> Path:
+    """Return the file of a model of SDF: the name's own, or the last one that the model.config of its folder names."""
+    try:
+        return roots.find(name)
+    except FileError as error:
+        try:
+            config = roots.find(name.rstrip("/") + "/model.config")
+        except FileError:
+            raise error from None
+    files = [node.text.strip() for node in parse(_bytes(config)).all("sdf")]
+    return roots.at(config.parent).find(files[-1] if files else "model.sdf")

@@ -85,7 +85,9 @@ def _link(body: Node, model: _Model, current: str, count: int) -> StatedLink:
     shapes = tuple(shape for shape in read if shape is not None)
     span = None if node is None or node.start == NOWHERE else (node.start, node.end)
     name = body.get("name") or "body {}".format(count + 1)
-    return StatedLink(name, inertial, shapes, span, False, tuple(findings))  # else MuJoCo takes it from geoms
+    places = body.place, (node or body).place
+    # Without an inertial MuJoCo takes it from geoms.
+    return StatedLink(name, inertial, shapes, span, False, tuple(findings), None, *places)
 
 
 def _inertial(node: Node, model: _Model) -> StatedInertial:

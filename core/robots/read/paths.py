@@ -7,33 +7,37 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...verdict.finding import FileError
-from ..findings import MESH_MISSING, MESH_ON_NETWORK
+from ..findings import MESH_MISSING, MESH_ON_NETWORK, MESH_OUTSIDE
 
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+):(?://)?(.*)", re.DOTALL)  # Schemes of one letter are drives.
-MAX_LEVELS = 4  # Folders, from the description's up, that are searched for a package.
+PATHS = "ROS_PACKAGE_PATH"
+MAX_DEPTH = 3  # Levels of folders below a root that are searched for a package.
 
 
 @dataclass(frozen=True)
 class Roots:
-    """Folders that files may be read from. anywhere: True if all folders are allowed."""
+    """Folders that files may be read from. base: that of the description. anywhere: True if all folders are allowed."""
 
     folders: tuple[Path, ...]
     anywhere: bool = False
+    base: Path | None = None
 
     @classmethod
     def for_file(cls, file: Path, more: Sequence[Path] = (), anywhere: bool = False) -> Roots:
-        """Return the roots of a description: its own folder, its package's folder, and `more`."""
+        """Return the roots of a description: its package's folder or else that above its own, `more`, and ROS's."""
         folder = Path(os.path.realpath(file)).parent
-        folders = [folder]
-        for above in [folder, *folder.parents][:MAX_LEVELS]:
-            if os.path.isfile(above / "package.xml"):
-                folders.append(above)
-                break
-        return cls((*folders, *(Path(os.path.realpath(path)) for path in more)), anywhere)
+        packages = (above for above in (folder, *folder.parents) if os.path.isfile(above / "package.xml"))
+        paths = [path for path in os.environ.get(PATHS, "").split(os.pathsep) if os.path.isabs(path)]
+        added = [Path(os.path.realpath(path)) for path in (*more, *paths)]
+        return cls((next(packages, folder.parent), *added), anywhere, folder)
+
+    def at(self, base: Path) -> Roots:
+        """Return the same roots for names in a file of another folder."""
+        return replace(self, base=base)
 
     def find(self, name: str) -> Path:
         """Return the file that a description names; raise FileError if it is missing, not allowed, or on a network."""
@@ -42,27 +46,54 @@ class Roots:
         scheme, rest = (match[1].lower(), match[2]) if match else ("", name)
         if scheme not in ("", "package", "model", "file"):
             raise FileError(MESH_ON_NETWORK, name=name)
+        is_outside = False
         for path in self._candidates(scheme, rest):
             try:
                 real = Path(os.path.realpath(path))
             except (OSError, ValueError):  # no name that the system knows
                 continue
-            is_allowed = self.anywhere or any(real.is_relative_to(folder) for folder in self.folders)
-            if is_allowed and os.path.isfile(real):  # False if the system refuses the name, as one that is too long
+            if not os.path.isfile(real):  # False if the system refuses the name, as one that is too long
+                continue
+            if self.anywhere or any(real.is_relative_to(folder) for folder in self.folders):
                 return real
-        raise FileError(MESH_MISSING, name=name)
+            is_outside = True
+        raise FileError(MESH_OUTSIDE if is_outside else MESH_MISSING, name=name)
 
     def _candidates(self, scheme: str, rest: str) -> Iterator[Path]:
         """Yield possible paths. A package's name may be that of a root, of a folder in it, or of neither."""
         if scheme in ("package", "model"):
             package, _, inside = rest.partition("/")
             for folder in self.folders:
-                if folder.name == package:
+                if folder.name == package or _package_name(folder) == package:
                     yield folder / inside
                 yield folder / rest
                 yield folder / inside
+            for folder in self.folders[1:]:
+                yield from (found / inside for found in _folders_named(folder, package))
+            if self.base is not None:
+                yield from (above.parent / rest for above in (self.base, *self.base.parents))
         elif os.path.isabs(rest):
             yield Path(rest)
         else:
-            for folder in self.folders:
-                yield folder / rest
+            for folder in (self.base, *self.folders):
+                if folder is not None:
+                    yield folder / rest
+
+
+def _package_name(folder: Path) -> str:
+    """Return the name that the package.xml of a folder states, "" if it has none."""
+    try:
+        with open(folder / "package.xml", encoding="utf-8", errors="replace") as file:
+            match = re.search(r"<name>\s*([\w.-]+)\s*</name>", file.read(1 << 16))
+    except (OSError, ValueError):
+        return ""
+    return match[1] if match else ""
+
+
+def _folders_named(root: Path, name: str) -> Iterator[Path]:
+    """Yield the folders with a name, a few levels below a root."""
+    for folder, folders, _ in os.walk(root):
+        if name in folders:
+            yield Path(folder, name)
+        if len(Path(folder).relative_to(root).parts) >= MAX_DEPTH:
+            folders.clear()

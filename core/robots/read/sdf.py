@@ -12,7 +12,7 @@ from ...numerics.rotations import rotation_matrix
 from ...verdict.finding import Finding
 from ..model import Pose
 from ..stated import ENTRIES, Angles, Description, StatedInertial, StatedLink, rotation_of_angles
-from .xml import Node, Placed, attempt, number, numbers, read_shape, read_shapes
+from .xml import NOWHERE, Node, Placed, attempt, number, numbers, read_shape, read_shapes
 
 
 def read(root: Node, data: bytes) -> Description:
@@ -27,11 +27,13 @@ def _link(node: Node, model: Node, several: bool) -> StatedLink:
     element = node.find("inertial")
     is_auto = element is not None and element.get("auto") in ("true", "1")
     inertial = None if is_auto else attempt(findings, element, _inertial)
-    span = None if element is None or inertial is None else (element.start, element.end)
+    span = None if element is None or inertial is None or element.start == NOWHERE else (element.start, element.end)
     shapes = read_shapes(findings, node, _shape)
     static = _text(model, "static") in ("true", "1")
     name = "{}::{}".format(model.get("name"), node.get("name")) if several else node.get("name")
-    return StatedLink(name, inertial, shapes, span, bool(shapes) and not static and element is None, tuple(findings))
+    moves = bool(shapes) and not static and element is None
+    places = node.place, (element or node).place
+    return StatedLink(name, inertial, shapes, span, moves, tuple(findings), None, *places)
 
 
 def _text(node: Node, *path: str) -> str:

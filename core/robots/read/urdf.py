@@ -23,7 +23,8 @@ def _link(node: Node) -> StatedLink:
     inertial = attempt(findings, element, _inertial)
     shapes = read_shapes(findings, node, _shape)
     span = None if element is None else (element.start, element.end)
-    return StatedLink(node.get("name"), inertial, shapes, span, bool(shapes), tuple(findings))
+    places = node.place, (element or node).place
+    return StatedLink(node.get("name"), inertial, shapes, span, bool(shapes), tuple(findings), None, *places)
 
 
 def _inertial(node: Node) -> StatedInertial:

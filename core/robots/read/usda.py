@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """USD as text: rigid bodies with PhysicsMassAPI, and the meshes and primitives below them.
 
-Only one layer is read: prims, their metadata and attributes. Layers that it refers to are not opened.
+Only one layer is read: prims, their metadata and attributes. Layers that it refers to are not opened; a prim that
+refers to another of the layer has its attributes.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ _TOKEN = re.compile(
     r"|@@@(?:.|\n)*?@@@|@[^@\n]*@|<[^>\n]*>|[(){}\[\]=,;]|[^\s(){}\[\]=,;\"'@<#]+"
 )
 _FIELD = re.compile(r"[^\s()\[\],]+")
+_REFERENCE = re.compile(r"\breferences\s*=\s*\[?\s*<([^>]*)>")
 _SPECIFIERS = {"def", "over", "class"}
 
 
@@ -181,11 +183,27 @@ def _description(text: str, data: bytes) -> Description:
         if parser.peek() not in _SPECIFIERS:
             raise _invalid(text, parser.tokens[parser.index][1])
         roots.append(parser.prim(0))
+    _resolve(roots)
     scales = {"length": _scale(metadata, "metersPerUnit", 0.01), "mass": _scale(metadata, "kilogramsPerUnit", 1.0)}
     links: list[StatedLink] = []
     for root in roots:
         _visit(root, np.eye(4), root.name, scales, links, text)
     return Description(roots[0].name if roots else "", "usd", tuple(links), data, scales)
+
+
+def _resolve(roots: list[Prim]) -> None:
+    """Give prims that refer to another prim of the layer its attributes, unless they state their own."""
+    by_path: dict[str, Prim] = {}
+    waiting = [("/" + prim.name, prim) for prim in roots]
+    while waiting:
+        path, prim = waiting.pop()
+        by_path[path] = prim
+        waiting += [(path + "/" + child.name, child) for child in prim.children]
+    for prim in by_path.values():
+        match = _REFERENCE.search(prim.metadata)
+        other = by_path.get(match[1]) if match else None
+        if other is not None:
+            prim.kind, prim.values = prim.kind or other.kind, other.values | prim.values
 
 
 def _scale(metadata: str, name: str, default: float) -> float:

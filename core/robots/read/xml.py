@@ -22,7 +22,7 @@ from ...verdict.finding import FileError, Finding, finding
 from ...verdict.number_text import parse_numbers
 from ..findings import DESCRIPTION_INVALID, DESCRIPTION_NUMBER, XML_ENTITIES
 from ..model import Pose, Shape
-from ..stated import Angles, StatedShape
+from ..stated import Angles, Place, StatedShape
 
 MAX_ELEMENTS = 1_000_000
 MAX_DEPTH = 200
@@ -34,12 +34,12 @@ _TAG = re.compile(rb"""(?:[^>"']|"[^"]*"|'[^']*')*>""")  # Quoted attributes may
 
 @dataclass(eq=False)
 class Node:
-    """One element. start, end: range of its bytes in the file, or NOWHERE. line: its line in its file, from 1."""
+    """One element. start, end: range of its bytes in the file, or NOWHERE. place: its beginning in its file."""
 
     tag: str
     attributes: dict[str, str]
     start: int
-    line: int = 1
+    place: Place = Place()
     end: int = NOWHERE
     text: str = ""
     children: list[Node] = field(default_factory=list)
@@ -81,17 +81,21 @@ def _end_of_tag(data: bytes, start: int) -> int:
     return cast("re.Match[bytes]", _TAG.match(data, start)).end()
 
 
-def parse(data: bytes) -> Node:
-    """Return the root element of an XML document. FileError if it is invalid, too large, or has a doctype."""
+def parse(data: bytes, file: str = "") -> Node:
+    """Return the root element of an XML document. FileError if it is invalid, too large, or has a doctype.
+
+    file: the name of an included file, whose elements have no bytes in the description's own.
+    """
     document = Node("", {}, 0)
     parser, waiting, counts = expat.ParserCreate(), [document], itertools.count(1)
 
     def refuse(*_: object) -> None:
-        raise FileError(XML_ENTITIES)
+        raise FileError(XML_ENTITIES, line=parser.CurrentLineNumber, column=parser.CurrentColumnNumber + 1)
 
     def start(tag: str, attributes: dict[str, str]) -> None:
         check_size(len(waiting), next(counts))
-        node = Node(tag, attributes, parser.CurrentByteIndex, parser.CurrentLineNumber)
+        place = Place(parser.CurrentLineNumber, parser.CurrentColumnNumber + 1, file)
+        node = Node(tag, attributes, parser.CurrentByteIndex, place)
         waiting[-1].children.append(node)
         waiting.append(node)
 
@@ -111,7 +115,11 @@ def parse(data: bytes) -> Node:
         parser.Parse(data, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
         reason = " ".join(str(error).partition(": line")[0].split())
-        raise FileError(DESCRIPTION_INVALID, format="XML", line=parser.ErrorLineNumber, error=reason) from error
+        line, column = parser.ErrorLineNumber, parser.ErrorColumnNumber + 1
+        raise FileError(DESCRIPTION_INVALID, format="XML", line=line, column=column, error=reason) from error
+    if file:
+        for node in document.walk():
+            node.start = node.end = NOWHERE
     return document.children[0]  # expat has seen that there is one
 
 
@@ -153,7 +161,7 @@ def read_shapes(findings: list[Finding], link: Node, read: Callable[[Node], Plac
 
 def _placed(node: Node, read: Callable[[Node], Placed | None], role: str) -> StatedShape | None:
     placed = read(node)
-    return None if placed is None else StatedShape(placed[0], role, placed[1])
+    return None if placed is None else StatedShape(placed[0], role, placed[1], place=node.place)
 
 
 def read_shape(
@@ -188,4 +196,6 @@ def _unreadable(node: Node, error: Exception) -> Finding:
         if any(text in (words, *words.split()) for words in (one.text, *one.attributes.values()))
     ]
     holder = holders[0] if len(holders) == 1 else node
-    return finding(DESCRIPTION_NUMBER, text=text, element=holder.tag, line=holder.line)
+    return finding(
+        DESCRIPTION_NUMBER, text=text, element=holder.tag, line=holder.place.line, column=holder.place.column
+    )

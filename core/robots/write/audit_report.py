@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Report of an audit as JSON, as a table and as a page.
+"""Report of an audit as JSON, as tables, as a page and as text.
 
 A public contract, `body-moments-audit/1`.
 """
@@ -15,15 +15,18 @@ from typing import Any
 import numpy as np
 
 from ...measurement.documents import plain, table
-from ...measurement.plain_text import counted
+from ...measurement.plain_text import counted, visible
 from ...verdict.finding import Finding, Severity
 from ...verdict.sentences import sentence, severity
-from ..audit import Audit
+from ..audit import Audit, Entry, LinkAudit
+from ..findings import INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE
 from ..stated import StatedInertial
+from .annotations import to_github, to_sarif
 from .marker import AUDIT_COLUMNS as COLUMNS
-from .marker import AUDIT_PAGE
+from .marker import AUDIT_PAGE, AUDIT_TEXT
 from .marker import AUDIT_SCHEMA as SCHEMA
 
+RESTS_ON = "What is said of the geometry rests on one assumption: the drawn shapes of a link hold all of its mass."
 _STYLE = (
     "body{font:15px/1.45 system-ui,sans-serif;margin:2rem auto;max-width:75rem;color:#222;background:#fff}"
     "table{border-collapse:collapse;width:100%}th,td{text-align:left;vertical-align:top;padding:.35rem .6rem;"
@@ -39,32 +42,53 @@ def document(file: str, audit: Audit, repaired: str | None) -> dict[str, Any]:
             "name": one.link.name,
             **_inertial(one.link.inertial),
             "density": one.density,
-            "findings": [_finding(found) for found in one.findings],
+            "line": one.link.place.line,
+            "findings": [_entry(entry, one, file) for entry in one.entries],
             "repaired": None if one.repaired is None else _inertial(one.repaired),
         }
         for one in audit.links
     ]
-    levels = {one["severity"] for link in links for one in link["findings"]}
-    status = "ok" if not levels & {Severity.ERROR, Severity.WARNING} else "findings"
     form, robot = audit.description.format, audit.description.name
-    head = {"schema": SCHEMA, "file": file, "status": status, "format": form, "robot": robot}
-    return plain({**head, "repaired": repaired, "links": links, "errors": []})
+    head = {"schema": SCHEMA, "file": file, "status": "ok", "format": form, "robot": robot}
+    return with_status(plain({**head, "repaired": repaired, "links": links, "errors": []}))
+
+
+def with_status(document: dict[str, Any]) -> dict[str, Any]:
+    """Return the document of a readable file with the status of its findings: "ok" if all are notes or known."""
+    counts = count_findings(document)
+    return {**document, "status": "findings" if counts["warnings"] + counts["errors"] else "ok"}
 
 
 def count_findings(document: dict[str, Any]) -> dict[str, int]:
-    """Return the counts of "links", and of findings by severity: "notes", "warnings" and "errors"."""
-    levels = [found["severity"] for link in document["links"] for found in link["findings"]]
+    """Return the counts of "links", and of findings that are not known, by severity: "notes" and so on."""
+    found = [found for link in document["links"] for found in link["findings"]]
+    levels = [one["severity"] for one in found if not one.get("known")]
     return {"links": len(document["links"]), **{str(level) + "s": levels.count(level) for level in Severity}}
 
 
 def failed_document(file: str, reason: Finding) -> dict[str, Any]:
     """Return the document of a file that could not be read."""
     head = {"schema": SCHEMA, "file": file, "status": "error", "format": None, "robot": None, "repaired": None}
-    return plain({**head, "links": [], "errors": [_finding(reason)]})
+    place = {"file": file, "line": reason.values.get("line", 1), "column": reason.values.get("column", 1)}
+    return plain({**head, "links": [], "errors": [{**_finding(reason), **place}]})
 
 
 def _finding(one: Finding) -> dict[str, Any]:
     return {"code": one.code, "severity": str(severity(one)), "message": sentence(one), "values": dict(one.values)}
+
+
+def _entry(one: Entry, link: LinkAudit, file: str) -> dict[str, Any]:
+    """Return one fault as a record. file: of the description, which the place may differ from."""
+    place = {"file": one.place.file or file, "line": one.place.line, "column": one.place.column}
+    head = {**_finding(one.finding), "severity": str(one.severity), "message": one.message, **place}
+    return {
+        **head,
+        "reasons": [_finding(reason) for reason in one.reasons],
+        "stated": _inertial(link.link.inertial) if one.compares else None,
+        "geometry": _inertial(link.geometry) if one.compares and link.geometry is not None else None,
+        "change": None if one.change is None else sentence(one.change),
+        "certainty": one.certainty or None,
+    }
 
 
 def _inertial(inertial: StatedInertial | None) -> dict[str, Any]:
@@ -85,7 +109,8 @@ def _table_rows(documents: Iterable[dict[str, Any]]) -> Iterable[list[Any]]:
         for reason in one["errors"]:
             yield [one["file"], "", *(reason[key] for key in ("severity", "code", "message")), "", "", ""]
         for link in one["links"]:
-            shared = [link["mass"], link["density"], "true" if link["repaired"] else "false"]
+            can = link["repaired"] is not None
+            shared = [link["mass"], link["density"], ("true" if one["repaired"] else "possible") if can else "false"]
             for found in link["findings"] or [{"severity": "", "code": "ok", "message": ""}]:
                 yield [
                     one["file"], link["name"], *(found[key] for key in ("severity", "code", "message")),
@@ -107,7 +132,7 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
         counts = count_findings(one)
         summary = ", ".join(counted(counts[level + "s"], level) for level in map(str, Severity))
         lines.append("<p>{}: {}.</p>".format(counted(counts["links"], "link"), summary))
-        lines += ["<table>", "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repaired</tr>"]
+        lines += ["<table>", "<tr><th>Link<th>Severity<th>Finding<th>Mass, kg<th>Density, kg/m³<th>Repair</tr>"]
         for _, link, level, code, message, mass, density, repaired in _table_rows([one]):
             fine = "nothing to compare" if "" in (mass, density) else "agrees with its geometry"
             numbers = ["{:.6g}".format(value) if isinstance(value, float) else "" for value in (mass, density)]
@@ -116,25 +141,82 @@ def to_html(documents: Sequence[dict[str, Any]]) -> str:
                 '<td class="{0}">{0}'.format(html.escape(level) or "ok"),
                 '<td title="{}">{}'.format(html.escape(code), html.escape(message) or fine),
                 *('<td class="number">{}'.format(text) for text in numbers),
-                "<td>{}".format("yes" if repaired == "true" else ""),
+                "<td>{}".format({"true": "repaired", "possible": "can be repaired"}.get(repaired, "")),
             ]
             lines.append("<tr>{}</tr>".format("".join(cells)))
         lines.append("</table>")
+    if _rests_on_geometry(documents):
+        lines.append("<p>{}</p>".format(RESTS_ON))
     return "\n".join([*lines, "</html>", ""])
 
 
-def to_text(document: dict[str, Any]) -> str:
-    """Return one file's findings as plain text, link by link."""
-    lines = ["{} ({})".format(document["file"], document["format"]), ""]
-    for link in document["links"]:
-        lines.append(link["name"])
-        for found in link["findings"]:
-            lines.append("    {}: {}".format(found["severity"], found["message"]))
-        if not link["findings"]:
-            lines.append("    -")
-    if document["repaired"]:
-        lines += ["", document["repaired"]]
-    return "\n".join([*lines, ""])
+def _rests_on_geometry(documents: Iterable[dict[str, Any]]) -> bool:
+    codes = {INERTIAL_CENTER_OUTSIDE, INERTIAL_SPREAD_OUTSIDE}
+    entries = (found for one in documents for link in one["links"] for found in link["findings"])
+    return any(codes & {found["code"], *(reason["code"] for reason in found["reasons"])} for found in entries)
 
 
-FORMATS = {"json": to_json, "csv": to_csv, "html": to_html}
+def _numbers(inertial: dict[str, Any] | None) -> str:
+    """Return an inertial in one line."""
+    if inertial is None or inertial["mass"] is None or inertial["inertia"] is None:
+        return "unknown"
+    center = " ".join("-" if value is None else "{:.4g}".format(value) for value in inertial["center_of_mass"])
+    rows, entries = inertial["inertia"], ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    tensor = " ".join("-" if rows[i][j] is None else "{:.4g}".format(rows[i][j]) for i, j in entries)
+    return "mass {:.6g} kg, center {} m, inertia {} kg·m²".format(inertial["mass"], center, tensor)
+
+
+def to_text(documents: Sequence[dict[str, Any]]) -> str:
+    """Return the findings as plain text, one after the other: place, severity, link, sentence, and the numbers."""
+    lines = [AUDIT_TEXT]
+    for one in documents:
+        for reason in one["errors"]:
+            lines.append("{file}:{line}:{column}: {severity}: {message}".format(**reason))
+        for link in one["links"]:
+            for found in link["findings"]:
+                head = "{file}:{line}:{column}: {severity}: ".format(**found)
+                known = " (known)" if found.get("known") else ""
+                lines.append("{}{}: {} [{}]{}".format(head, link["name"], found["message"], found["code"], known))
+                if found["severity"] != Severity.NOTE and found["stated"] is not None:
+                    lines.append("    stated: {}".format(_numbers(found["stated"])))
+                    lines.append("    shapes: {}".format(_numbers(found["geometry"])))
+                if found["change"] is not None:
+                    lines.append("    change: {} ({})".format(found["change"], found["certainty"]))
+        counts = count_findings(one)
+        total = ", ".join(counted(counts[level + "s"], level) for level in map(str, Severity))
+        lines.append("{}: {}, {}".format(one["file"], counted(counts["links"], "link"), total))
+        if one["repaired"]:
+            lines.append("repaired copy: {}".format(one["repaired"]))
+        elif any(link["repaired"] for link in one["links"]):
+            count = sum(link["repaired"] is not None for link in one["links"])
+            lines.append("{} can be repaired (--repair)".format(counted(count, "link")))
+    if _rests_on_geometry(documents):
+        lines.append(RESTS_ON)
+    return "\n".join(map(visible, [*lines, ""]))
+
+
+def to_table(documents: Sequence[dict[str, Any]]) -> str:
+    """Return one line for each file, in columns, and their totals."""
+    rows = [("errors", "warnings", "notes", "links", "can be repaired", "status", "file")]
+    totals = [0] * 5
+    for one in documents:
+        counts = count_findings(one)
+        repairs = sum(link["repaired"] is not None for link in one["links"])
+        numbers = [counts["errors"] + len(one["errors"]), *(counts[key] for key in ("warnings", "notes", "links"))]
+        totals = [total + number for total, number in zip(totals, [*numbers, repairs])]
+        rows.append((*map(str, numbers), str(repairs), one["status"], visible(str(one["file"]))))
+    rows.append((*map(str, totals), "", counted(len(documents), "file")))
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    lines = ["  ".join(map(str.rjust, row[:5], widths)) + "  {}  {}".format(row[5].ljust(8), row[6]) for row in rows]
+    return "\n".join([AUDIT_TEXT, *lines, *([RESTS_ON] if _rests_on_geometry(documents) else []), ""])
+
+
+FORMATS = {
+    "json": to_json,
+    "csv": to_csv,
+    "html": to_html,
+    "text": to_text,
+    "table": to_table,
+    "sarif": to_sarif,
+    "github": to_github,
+}

@@ -13,34 +13,36 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ...numerics.rotations import quaternion
 from ...verdict.finding import Finding, finding
-from ..findings import MJCF_INERTIA_TOO_SMALL, MJCF_MESH_TOO_LARGE
+from ..findings import MJCF_INERTIA_TOO_SMALL
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import StatedInertial
 from .joints import NAMES, lost_values
 from .text import document, inertial_element, is_identity, number, numbers, unique_names, xml_name, xml_text
 
 LEAST = 1e-15  # mjMINVAL: MuJoCo refuses moving bodies of less mass or inertia, kg and kg·m².
-MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files
 
 
 def check(robot: Robot) -> list[Finding]:
-    """Return findings about content that MuJoCo refuses or the format cannot express."""
-    least = {
-        link.name: float(min(link.inertial.mass, link.inertial.moments[0]))
-        for link in robot.links
-        if link.inertial is not None
-    }
-    findings, small = [], [name for name, value in least.items() if value < LEAST]
-    if small:
-        smallest = min(least.values())
-        findings.append(finding(MJCF_INERTIA_TOO_SMALL, count=len(small), links=small, least=smallest, limit=LEAST))
-    surfaces = [(link.name, shape.surface) for link in robot.links for shape in link.shapes]
-    large = [name for name, one in surfaces if one is not None and len(one.all_triangles()[0]) > MOST_TRIANGLES]
-    if large:
-        findings.append(finding(MJCF_MESH_TOO_LARGE, count=len(large), links=large, limit=MOST_TRIANGLES))
-    return findings + lost_values(
+    """Return findings about content that MuJoCo raises or the format cannot express."""
+    return raised_inertials(robot, LEAST) + lost_values(
         robot, "MJCF", lambda joint, stated: stated & ({"effort"} if joint.is_ball else set())
     )
+
+
+def smallest_inertials(robot: Robot, limit: float) -> dict[str, float]:
+    """Return the smaller of mass and least moment of each link where it is below a limit, by name."""
+    inertials = [(link.name, link.inertial) for link in robot.links if link.inertial is not None]
+    least = {name: float(min(inertial.mass, inertial.moments[0])) for name, inertial in inertials}
+    return {name: value for name, value in least.items() if value < limit}
+
+
+def raised_inertials(robot: Robot, limit: float) -> list[Finding]:
+    """Return the finding about links whose mass or moments MuJoCo raises to a limit, empty if there are none."""
+    small = smallest_inertials(robot, limit)
+    if not small:
+        return []
+    values = {"count": len(small), "links": [*small], "least": min(small.values()), "limit": limit}
+    return [finding(MJCF_INERTIA_TOO_SMALL, **values)]
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
@@ -49,7 +51,8 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     joint_names = unique_names([joint.name for joint in robot.joints], _name)
     root = Element("mujoco", model=xml_text(robot.name))
     if not inertial_only:
-        SubElement(root, "compiler", angle="radian", autolimits="true")
+        bounds = dict.fromkeys(("boundmass", "boundinertia"), number(LEAST)) if smallest_inertials(robot, LEAST) else {}
+        SubElement(root, "compiler", bounds, angle="radian", autolimits="true")
     meshes = {} if inertial_only else _add_meshes(root, robot)
     world = SubElement(root, "worldbody")
     elements: dict[str, Element] = {}

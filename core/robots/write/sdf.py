@@ -15,31 +15,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...numerics.rotations import quaternion
-from ...verdict.finding import Finding
+from ...verdict.finding import Finding, finding
+from ..findings import SDF_FRAMES_ADDED
 from ..model import Inertial, Joint, Link, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
-from .joints import NAMES, lost_values
+from .joints import NAMES, lost_values, with_axis_frames
 from .text import add_text, document, inertial_element, is_identity, number, numbers, unique_names, xml_name
 
 VERSION = "1.9"  # The first with quaternions; newer parsers convert it, older ones refuse newer files.
+FRAME_PART = 2.0**-20  # of the child's inertial, for frames between axes: readers take no link without mass
 _RESERVED = re.compile(r"__.*__|world", re.DOTALL)
 
 
 def check(robot: Robot) -> list[Finding]:
     """Return findings about content that the format cannot express."""
-    return lost_values(robot, "SDF", _lost)
+    split = [joint.name for joint in robot.joints if not _is_whole(joint)]
+    findings = [finding(SDF_FRAMES_ADDED, count=len(split), joints=split, part=FRAME_PART)] if split else []
+    return findings + lost_values(robot, "SDF", lambda joint, stated: stated if joint.is_ball else set())
 
 
-def _lost(joint: Joint, stated: set[str]) -> set[str]:
-    """Return the names of all values of a ball joint, with "limits"; "axes" if a joint has more than are written."""
-    kind = _joint_type(joint)
-    if kind == "ball":
-        return stated if joint.is_ball else {*stated, "limits"}
-    return {"axes"} if len(joint.free) > (2 if kind == "universal" else 1) else set()
+def _is_whole(joint: Joint) -> bool:
+    """Return whether the format has the joint as one."""
+    return len(joint.free) < 2 or joint.is_ball or _joint_type(joint) == "universal"
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as an SDF model. remarks, inertial_only: as in `urdf.write`."""
+    robot = robot if inertial_only else with_axis_frames(robot, _is_whole, FRAME_PART)
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], _name, names.values())
     root = Element("sdf", version=VERSION)
@@ -133,17 +135,13 @@ def _add_geometry(geometry: Element, shape: Shape) -> None:
 
 def _joint_type(joint: Joint) -> str:
     kinds = [free.kind for free in joint.free]
-    if not kinds:
-        return "fixed"
-    if len(kinds) == 1 or "translate" in kinds:
-        return "prismatic" if kinds[0] == "translate" else "revolute"
+    if len(kinds) < 2:
+        return {"rotate": "revolute", "translate": "prismatic"}[kinds[0]] if kinds else "fixed"
     return "universal" if kinds == ["rotate", "rotate"] else "ball"
 
 
 def _add_axes(element: Element, joint: Joint) -> None:
-    if _joint_type(joint) == "ball":
-        return
-    for tag, free in zip(("axis", "axis2") if _joint_type(joint) == "universal" else ("axis",), joint.free):
+    for tag, free in zip(("axis", "axis2"), () if joint.is_ball else joint.free):
         axis = SubElement(element, tag)
         add_text(axis, "xyz", numbers(free.axis))
         limit = SubElement(axis, "limit")

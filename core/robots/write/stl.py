@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 Body Moments contributors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of links as binary STL, which all readers of robots know."""
+"""Meshes of links as binary STL, which all readers of robots know; above MuJoCo's limit for STL as OBJ."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
 from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,8 @@ from .text import unique_names
 
 MESH_FOLDER = "meshes"
 _MARKER = b"Body Moments".ljust(80, b"\0")  # The header of our files, which may be overwritten.
+_OBJ_MARKER = b"# Body Moments\n".rjust(80, b"#")  # As long as the other.
+MOST_TRIANGLES = 200_000  # MuJoCo refuses larger STL files.
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _NOT_IN_FILES = re.compile(r"[^\w.-]", re.ASCII)
 
@@ -30,16 +33,28 @@ def to_stl(surface: Surface) -> bytes:
     return _MARKER + np.uint32(len(rows)).astype("<u4").tobytes() + rows.tobytes()
 
 
+def to_obj(surface: Surface) -> bytes:
+    """Return a surface in m as OBJ, with nine digits, which float32 needs."""
+    used, corners = np.unique(surface.all_triangles()[0], return_inverse=True)
+    stream = BytesIO(_OBJ_MARKER)
+    stream.seek(0, 2)
+    np.savetxt(stream, surface.points[used], "v %.9g %.9g %.9g")
+    np.savetxt(stream, corners.reshape(-1, 3) + 1, "f %d %d %d")
+    return stream.getvalue()
+
+
 def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bool = False) -> Robot:
     """Write the surfaces of a robot's meshes to files, and return the robot with the names of these files.
 
     output: the robot's own file; the meshes go to the folder `meshes` beside it. read: a file that is never replaced.
     OSError if a file cannot be written, or exists, is no mesh of ours, and `force` is False; then none is written.
     """
+    shown = [(link.name, shape.surface) for link in robot.links for shape in link.shapes if shape.surface is not None]
     files = mesh_files([link.name for link in robot.links], output.stem)
-    surfaces = {
-        files[link.name]: shape.surface for link in robot.links for shape in link.shapes if shape.surface is not None
-    }
+    for name, surface in shown:
+        if len(surface.all_triangles()[0]) > MOST_TRIANGLES:
+            files[name] = files[name].removesuffix("stl") + "obj"
+    surfaces = {files[name]: surface for name, surface in shown}
     for file in surfaces:
         _check_replaceable(output.parent / file, read, force)
     for file, surface in surfaces.items():
@@ -47,7 +62,7 @@ def write_meshes(robot: Robot, output: Path, read: Path | None = None, force: bo
         for folder in (path.parent.parent, path.parent):
             folder.mkdir(exist_ok=True)
         with whole_file(path) as stream:
-            stream.write(to_stl(surface))
+            stream.write((to_obj if path.suffix == ".obj" else to_stl)(surface))
     links = []
     for link in robot.links:
         shapes = (shape if shape.surface is None else replace(shape, file=files[link.name]) for shape in link.shapes)
@@ -73,5 +88,5 @@ def _check_replaceable(path: Path, read: Path | None, force: bool) -> None:
         raise FileExistsError("{} is a file that is read. Use another name".format(path))
     with open(path, "rb") as file:
         head = file.read(len(_MARKER))
-    if head and head != _MARKER and not force:
+    if head and head not in (_MARKER, _OBJ_MARKER) and not force:
         raise FileExistsError("{} is not a result of body_moments and would be lost".format(path))

@@ -8,7 +8,7 @@ iyz are entries of the tensor, such as -∫xy dm. A link's origin is at its join
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import pi
 from xml.etree.ElementTree import Element, SubElement
 
@@ -19,7 +19,8 @@ from ...verdict.finding import Finding, finding
 from ..findings import ROBOT_BASE_ADDED, URDF_EFFORT_UNKNOWN
 from ..model import FreeAxis, Inertial, Joint, Pose, Robot, Shape
 from ..stated import ENTRIES, StatedInertial
-from .joints import lost_values
+from .joints import lost_values, with_axis_frames
+from .mjcf import raised_inertials, smallest_inertials
 from .shapes import box_of_ellipsoid, ellipsoids_as_boxes
 from .text import document, inertial_element, is_identity, number, numbers, roll_pitch_yaw, unique_names, xml_name
 
@@ -27,6 +28,7 @@ FLATNESS = 1e-7  # Thickness relative to length, of float32 vertices in a plane.
 BASE, WORLD = "base_link", "world"
 SLACK = 2.0**-48  # The largest moment of a flat body is lowered by this part: MuJoCo tests A + B ≥ C without tolerance.
 LEAST = 1e-14  # kg and kg·m² that MuJoCo gives massless frames, as it refuses less than 1e-15.
+BOUNDED = 1e-13  # It takes smaller tensors for singular, unless a bound is set.
 # A limited joint must state these unknown values. N·m or N, and rad/s or m/s, too large to have an effect.
 EFFORT, VELOCITY = 1e6, 1e3
 
@@ -46,23 +48,22 @@ def check(robot: Robot) -> list[Finding]:
     ]
     if unknown:
         findings.append(finding(URDF_EFFORT_UNKNOWN, count=len(unknown), joints=unknown))
-    return findings + lost_values(robot, "URDF")
+    return findings + raised_inertials(robot, LEAST) + lost_values(robot, "URDF")
 
 
 def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = False) -> str:
     """Return a robot as URDF, with remarks as comments. inertial_only: only the links with their inertials."""
+    robot = robot if inertial_only else with_axis_frames(robot.at_joints())
     names = unique_names([link.name for link in robot.links], _name)
     joint_names = unique_names([joint.name for joint in robot.joints], xml_name)
     root = Element("robot", name=xml_name(robot.name))
-    taken = {*names.values()}
     base = None
     if not inertial_only:
-        robot = robot.at_joints()
         _add_compiler(root, robot)
         if any(link.is_fixed for link in robot.roots):
             base = WORLD
         elif len(robot.roots) > 1:
-            base = _free_name(BASE, taken)
+            base = _free_name(BASE, names)
     if base is not None:
         SubElement(root, "link", name=base)
     for link in robot.ordered():
@@ -71,21 +72,19 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
             _add_inertial(element, link.inertial)
         if not inertial_only:
             _add_shapes(element, link.shapes)
-    if inertial_only:
-        return document(root, "urdf", remarks)
-    for link in robot.ordered():
+    for link in () if inertial_only else robot.ordered():
         joint = robot.joint_of(link.name)
         if joint is not None:
             parent, name = names[joint.parent], joint_names[joint.name]
         elif base is not None:
-            parent, name = base, _free_name(names[link.name] + "_joint", {*joint_names.values()})
+            parent, name = base, _free_name(names[link.name] + "_joint", joint_names)
         else:
             continue
-        last = _add_joint(root, taken, name, parent, names[link.name], robot.pose_in_parent(link), joint)
+        element = _add_joint(root, name, parent, names[link.name], robot.pose_in_parent(link), joint)
         if joint is not None and joint.mimic is not None:
             leader, multiplier, offset = joint.mimic
             values = {"joint": joint_names[leader], "multiplier": number(multiplier), "offset": number(offset)}
-            SubElement(last, "mimic", values)
+            SubElement(element, "mimic", values)
     return document(root, "urdf", remarks)
 
 
@@ -96,17 +95,16 @@ def _name(text: str) -> str:
 
 
 def _add_compiler(root: Element, robot: Robot) -> None:
-    """Let MuJoCo keep fixed links, the folders of meshes, and frames without mass; other readers skip the element."""
+    """Let MuJoCo keep fixed links, folders of meshes, and links of little or no mass; other readers skip it."""
     values = {"fusestatic": "false", "strippath": "false"}
-    if any(len(joint.free) > 1 for joint in robot.joints):
+    is_bare = any(link.inertial is None and robot.joint_of(link.name) for link in robot.links)
+    if is_bare or smallest_inertials(robot, BOUNDED):
         values |= {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
     SubElement(SubElement(root, "mujoco"), "compiler", values)
 
 
-def _free_name(name: str, taken: set[str]) -> str:
-    name = unique_names([name], str, taken)[name]
-    taken.add(name)
-    return name
+def _free_name(name: str, taken: Mapping[str, str]) -> str:
+    return unique_names([name], str, taken.values())[name]
 
 
 def _add_origin(parent: Element, pose: Pose) -> None:
@@ -169,33 +167,20 @@ def _pieces(shape: Shape) -> list[Shape]:
     return [Shape("cylinder", shape.size, shape.pose), *(Shape("sphere", (radius,), end) for end in ends)]
 
 
-def _add_joint(
-    root: Element, taken: set[str], name: str, parent: str, child: str, pose: Pose, joint: Joint | None
-) -> Element:
-    """Add a joint for each degree of freedom, with massless links between them; a fixed joint if there is none.
-
-    Return the last element.
-    """
-    free, element = () if joint is None else joint.free, root
-    for number_, axis in enumerate(free or (None,)):
-        last = number_ + 1 >= len(free)
-        frame = child if last else _free_name("{}_axis_{}".format(child, number_ + 1), taken)
-        if not last:
-            SubElement(root, "link", name=frame)
-        label = name if last else "{}_axis_{}".format(name, number_ + 1)
-        element = SubElement(root, "joint", name=label, type=_joint_type(axis))
-        _add_origin(element, Pose() if number_ else pose)
-        SubElement(element, "parent", link=parent)
-        SubElement(element, "child", link=frame)
-        if axis is not None:
-            assert joint is not None
-            SubElement(element, "axis", xyz=numbers(joint.pose.rotation @ axis.axis))
-            if _needs_limit(axis):
-                _add_limit(element, axis)
-            dynamics = {key: number(axis.values[key]) for key in ("damping", "friction") if key in axis.values}
-            if dynamics:
-                SubElement(element, "dynamics", dynamics)
-        parent = frame
+def _add_joint(root: Element, name: str, parent: str, child: str, pose: Pose, joint: Joint | None) -> Element:
+    """Add a joint with one axis or none, and return its element."""
+    axis = joint.free[0] if joint is not None and joint.free else None
+    element = SubElement(root, "joint", name=name, type=_joint_type(axis))
+    _add_origin(element, pose)
+    SubElement(element, "parent", link=parent)
+    SubElement(element, "child", link=child)
+    if joint is not None and axis is not None:
+        SubElement(element, "axis", xyz=numbers(joint.pose.rotation @ axis.axis))
+        if _needs_limit(axis):
+            _add_limit(element, axis)
+        dynamics = {key: number(axis.values[key]) for key in ("damping", "friction") if key in axis.values}
+        if dynamics:
+            SubElement(element, "dynamics", dynamics)
     return element
 
 

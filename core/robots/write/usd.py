@@ -27,7 +27,7 @@ from .marker import MARKER
 from .text import number, unique_names
 
 ROOT = "Robot"
-ARTICULATION = "PhysicsArticulationRootAPI"
+ARTICULATION = ("PhysicsArticulationRootAPI",)
 APIS = ("PhysicsRigidBodyAPI", "PhysicsMassAPI", "NewtonMassAPI")
 LEAST = float(np.finfo(np.float32).tiny)  # The least number that float32 holds with all its digits.
 _MASS_ATTRIBUTE = re.compile(
@@ -52,6 +52,10 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     """Return a robot as a USD layer, in meters, with a prim for each link. Parameters are those of `urdf.write`."""
     names = unique_names([link.name for link in robot.links], identifier)
     joints = unique_names([joint.name for joint in robot.joints], identifier, names.values())
+    heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]  # Prims without mass stand.
+    bases = {} if inertial_only else {link.name: link for link in heavy}
+    trees = {link.name for link in robot.roots if not inertial_only and robot.children(link.name)} | {*bases}
+    is_one = len(robot.roots) == 1 and bool(trees)  # Else each tree is an articulation of its own.
     lines: list[str] = []
     for link in robot.ordered():
         inertial = link.inertial
@@ -59,18 +63,20 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
         if not inertial_only:
             inner += _transform(link.pose)
             for count, shape in enumerate(link.shapes, start=1):
-                inner += _shape(shape, "visual_{}".format(count), False)
-                inner += _shape(shape, "collision_{}".format(count), True) if shape.collides else []
-        lines += _prim("def Xform", names[link.name], inner, () if inertial is None else APIS)
+                visual = _shape(shape, "visual_{}".format(count))
+                collider = visual and shape.collides
+                inner += [*visual, *(_collider(shape, names[link.name], count) if collider else ())]
+        is_tree = not is_one and link.name in trees and link.name not in bases
+        apis = ARTICULATION * is_tree + (() if inertial is None else APIS)
+        lines += _prim("def Xform", names[link.name], inner, apis)
     for joint in () if inertial_only else robot.joints:
         lines += _joint(robot, joint, joints[joint.name], names)
-    heavy = [link for link in robot.roots if link.is_fixed and link.inertial is not None]  # Prims without mass stand.
-    bases = {} if inertial_only else {link.name: link for link in heavy}
     taken = [*names.values(), *joints.values()]
     for base, name in unique_names(bases, lambda name: names[name] + "_base", taken).items():
-        lines += _prim("def PhysicsFixedJoint", name, _ends(None, names[base], bases[base].pose))
-    apis = (ARTICULATION,) if not inertial_only and (robot.joints or bases) else ()
-    return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *_prim("def Xform", ROOT, lines, apis), ""])
+        ends = _ends(None, names[base], bases[base].pose)
+        lines += _prim("def PhysicsFixedJoint", name, ends, ARTICULATION * (not is_one))
+    top = _prim("def Xform", ROOT, lines, ARTICULATION * is_one)
+    return "\n".join([*header(robot.name, remarks, 1.0, ROOT), *top, ""])
 
 
 def write_over(
@@ -194,11 +200,13 @@ def _doubles(values: Iterable[float]) -> str:
     return "({})".format(", ".join(map(number, values)))
 
 
-def _prim(kind: str, name: str, inner: Iterable[str], apis: Sequence[str] = ()) -> list[str]:
-    """Return the lines of a prim with attributes and prims in it."""
+def _prim(kind: str, name: str, inner: Iterable[str], apis: Sequence[str] = (), reference: str = "") -> list[str]:
+    """Return the lines of a prim with attributes and prims in it. reference: a prim that has the rest."""
     head = ["{} {}".format(kind, quoted(name))]
     if apis:
-        head = [head[0] + " (", "    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis))), ")"]
+        lines = ["    prepend apiSchemas = [{}]".format(", ".join(map(quoted, apis)))]
+        lines += ["    prepend references = <{}>".format(reference)] if reference else []
+        head = [head[0] + " (", *lines, ")"]
     return [*head, "{", *(_INDENT + line for line in inner), "}"]
 
 
@@ -214,11 +222,16 @@ def _transform(pose: Pose, scale: Sequence[float] | None = None) -> list[str]:
     return [*lines, "uniform token[] xformOpOrder = [{}]".format(names)]
 
 
-def _shape(shape: Shape, name: str, collides: bool) -> list[str]:
-    """Return the lines of a shape that is seen, or of one that collides; none for a mesh without a surface."""
+_KINDS = {
+    **{"mesh": "Mesh", "box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere"},
+    **{"capsule": "Capsule", "cylinder": "Cylinder"},
+}
+
+
+def _shape(shape: Shape, name: str) -> list[str]:
+    """Return the lines of a shape that is only seen; none for a mesh without a surface."""
     if shape.kind == "mesh":
-        return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name, collides)
-    kinds = {"box": "Cube", "ellipsoid": "Sphere", "sphere": "Sphere", "capsule": "Capsule", "cylinder": "Cylinder"}
+        return [] if shape.surface is None else _mesh(shape.surface, shape.pose, name)
     scale = None
     if shape.kind == "box":
         attributes, scale = ["double size = 1"], shape.size
@@ -229,29 +242,32 @@ def _shape(shape: Shape, name: str, collides: bool) -> list[str]:
     else:
         attributes = ["double radius = {}".format(number(shape.size[0])), 'uniform token axis = "Z"']
         attributes.append("double height = {}".format(number(shape.size[1])))
-    inner = [*attributes, *(_GUIDE if collides else ()), *_transform(shape.pose, scale)]
-    return _prim("def " + kinds[shape.kind], name, inner, ("PhysicsCollisionAPI",) if collides else ())
+    return _prim("def " + _KINDS[shape.kind], name, [*attributes, *_transform(shape.pose, scale)])
 
 
-_GUIDE = ['uniform token purpose = "guide"']  # Renderers skip colliders.
+def _collider(shape: Shape, link: str, count: int) -> list[str]:
+    """Return the lines of the collider of a shape, which has the geometry of the visible prim; a mesh's convex hull."""
+    inner, apis = ['uniform token purpose = "guide"'], ["PhysicsCollisionAPI"]  # Renderers skip guides.
+    if shape.kind == "mesh":
+        inner.append('uniform token physics:approximation = "convexHull"')
+        apis.append("PhysicsMeshCollisionAPI")
+    seen = "/{}/{}/visual_{}".format(ROOT, link, count)
+    return _prim("def " + _KINDS[shape.kind], "collision_{}".format(count), inner, apis, seen)
 
 
-def _mesh(surface: Surface, pose: Pose, name: str, collides: bool) -> list[str]:
-    """Return the lines of a mesh, embedded: USD knows no files of other formats. It collides as its convex hull."""
+def _mesh(surface: Surface, pose: Pose, name: str) -> list[str]:
+    """Return the lines of a mesh, embedded: USD knows no files of other formats."""
     triangles = surface.all_triangles()[0]
     used, corners = np.unique(triangles, return_inverse=True)
     points = surface.points[used].astype(np.float32)
-    attributes = [
+    inner = [
         "point3f[] points = [{}]".format(", ".join(map(singles, points))),
         "int[] faceVertexCounts = [{}]".format(", ".join(["3"] * len(triangles))),
         "int[] faceVertexIndices = [{}]".format(", ".join(map(str, corners.ravel().tolist()))),
         'uniform token subdivisionScheme = "none"',
         *_transform(pose),
     ]
-    if not collides:
-        return _prim("def Mesh", name, attributes)
-    attributes += [*_GUIDE, 'uniform token physics:approximation = "convexHull"']
-    return _prim("def Mesh", name, attributes, ("PhysicsCollisionAPI", "PhysicsMeshCollisionAPI"))
+    return _prim("def Mesh", name, inner)
 
 
 def _joint(robot: Robot, joint: Joint, name: str, names: dict[str, str]) -> list[str]:

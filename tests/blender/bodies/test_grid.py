@@ -5,15 +5,15 @@
 import bpy
 import numpy as np
 import pytest
-from body_moments.blender.bodies.grids.grid import density_body
 from body_moments.blender.bodies.measure_object import measure_object
 from body_moments.blender.read.grids import sample_grid, vdb
 from body_moments.blender.read.grids import volume as volume_module
 from body_moments.blender.read.grids.volume import volume_reading
 from body_moments.blender.session.tracking import staleness
-from body_moments.blender.settings.grid import GridOptions
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.blender.write import properties
+from body_moments.core.bodies.density_grid import density_body
+from body_moments.core.density.grid_options import GridOptions
 from body_moments.core.verdict.finding import MeasureError, ReadError, finding
 
 from tests.blender.findings import refused, said

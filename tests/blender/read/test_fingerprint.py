@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from body_moments.blender.read import fingerprint
+from body_moments.core.measurement import settings as fingerprints
 
 pytestmark = pytest.mark.usefixtures("scene")
 
@@ -13,5 +13,5 @@ GEOMETRY = "50d4ad0b3a2b"  # BLAKE2s, six bytes
 
 
 def test_fingerprint_of_saved_files_is_unchanged():
-    assert fingerprint.fingerprint(b"geometry", "matrix", "settings") == "v1:{}:matrix:settings".format(GEOMETRY)
-    assert fingerprint.digest(np.frombuffer(b"geometry", np.uint8)) == GEOMETRY
+    assert fingerprints.fingerprint(b"geometry", "matrix", "settings") == "v1:{}:matrix:settings".format(GEOMETRY)
+    assert fingerprints.digest(np.frombuffer(b"geometry", np.uint8)) == GEOMETRY

@@ -35,6 +35,7 @@ def refusal(function, *arguments):
 
 
 def write(path, content):
+    path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     return path
 
@@ -149,33 +150,64 @@ def test_a_pipe_is_not_waited_for(tmp_path):
     assert refusal(Roots.for_file(tmp_path / "b.urdf").find, "a.stl") == "mesh_missing"
 
 
-def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path):
+def test_meshes_are_found_within_the_folders_that_are_allowed(tmp_path, monkeypatch):
     package = tmp_path / "arm_description"
     (package / "urdf").mkdir(parents=True)
     (package / "meshes").mkdir()
     mesh = write(package / "meshes" / "a.stl", "")
     secret = write(tmp_path / "secret.stl", "")
     file = package / "urdf" / "arm.urdf"
-    for name in ("../meshes/a.stl", str(secret), "file://" + str(secret), "../../secret.stl"):
-        assert refusal(Roots.for_file(file).find, name) == "mesh_missing", name
+    for name in (str(secret), "file://" + str(secret), "../../secret.stl", "package://../../secret.stl"):
+        assert refusal(Roots.for_file(file).find, name) == "mesh_outside", name
+    assert Roots.for_file(file).find("../meshes/a.stl") == mesh.resolve()
+    other = write(tmp_path / "src" / "more" / "other_meshes" / "b.stl", "")
+    assert refusal(Roots.for_file(file).find, "package://other_meshes/b.stl") == "mesh_missing"
+    assert Roots.for_file(file, [tmp_path / "src"]).find("package://other_meshes/b.stl") == other.resolve()
+    monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join(["/none", str(other.parents[1])]))
+    assert Roots.for_file(file).find("package://other_meshes/b.stl") == other.resolve()
     write(package / "package.xml", "<package/>")
     roots = Roots.for_file(file)
     for name in ("../meshes/a.stl", "package://arm_description/meshes/a.stl", "meshes/a.stl", r"..\meshes\a.stl"):
         assert roots.find(name) == mesh.resolve(), name
-    assert refusal(roots.find, "package://../../secret.stl") == "mesh_missing"
+    assert refusal(roots.find, "package://../../secret.stl") == "mesh_outside"
     assert refusal(roots.find, "https://example.com/a.stl") == "mesh_on_network"
     assert refusal(roots.find, "package://arm_description/meshes/b.stl") == "mesh_missing"
+    write(package / "package.xml", "<package><name> arm </name></package>")
+    assert Roots.for_file(file).find("package://arm/meshes/a.stl") == mesh.resolve()
     assert Roots.for_file(file, [tmp_path]).find("package://arm_description/meshes/a.stl") == mesh.resolve()
     assert Roots.for_file(file, anywhere=True).find(str(secret)) == secret.resolve()
 
 
 @pytest.mark.skipif(os.name == "nt", reason="not on this system")
 def test_links_out_of_the_folder_are_not_followed(tmp_path):
-    inside = tmp_path / "in"
-    inside.mkdir()
+    inside = tmp_path / "package" / "in"
+    inside.mkdir(parents=True)
     write(tmp_path / "secret.stl", "")
     (inside / "a.stl").symlink_to(tmp_path / "secret.stl")
-    assert refusal(Roots.for_file(inside / "r.urdf").find, "a.stl") == "mesh_missing"
+    assert refusal(Roots.for_file(inside / "r.urdf").find, "a.stl") == "mesh_outside"
+
+
+def test_included_models_of_sdf_are_read_from_their_folders(tmp_path):
+    """Meshes are found beside the included file; a model that includes itself, or is none, is refused at its line."""
+    link = '<link name="{}"><inertial><mass>{}</mass></inertial></link>'
+    world = '<sdf version="1.9"><model name="m">{}<include><uri>model://arm</uri></include></model></sdf>'
+    file = write(tmp_path / "worlds" / "w.sdf", world.format("\n" + link.format("own", 1)))
+    write(tmp_path / "arm" / "model.config", '<model><sdf version="1.9">arm.sdf</sdf></model>')
+    model = '<sdf version="1.9"><model name="arm">\n {}</model></sdf>'
+    write(tmp_path / "arm" / "arm.sdf", model.format(link.format("upper", 2)))
+    own, upper = read_description(file).links
+    assert (own.name, upper.name, upper.inertial.mass, upper.span) == ("m::own", "arm::upper", 2.0, None)
+    assert (upper.place.line, upper.place.column) == (2, 2) and upper.place.file.endswith("arm.sdf")
+    for text in (
+        model.format("<include><uri>model://arm</uri></include>"),
+        "<sdf",
+        '<!DOCTYPE a []><sdf version="1"/>',
+    ):
+        write(tmp_path / "arm" / "arm.sdf", text)
+        with pytest.raises(FileError) as refused:
+            read_description(file)
+        assert refused.value.finding.code in ("include_twice", "include_unreadable")
+        assert refused.value.finding.values["line"] == 2
 
 
 def test_bytes_that_are_no_text_of_usd_do_not_hang(tmp_path):

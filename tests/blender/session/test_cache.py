@@ -13,7 +13,6 @@ from body_moments.blender.session.stored import moments as moments_table
 from body_moments.blender.session.stored import walls
 from body_moments.blender.session.tracking import staleness, stamps
 from body_moments.blender.session.tracking.cache import SessionCache
-from body_moments.core.verdict.finding import finding
 
 from tests.blender.objects import add, mesh_body, only
 
@@ -60,7 +59,6 @@ def remember():
     obj.data.update()
     bpy.context.view_layer.update()
     assert staleness.is_edited(obj) and displayed.drawn(obj, bpy.context.scene) is not None
-    displayed.remember_failure(obj, finding("no_faces"))
     assert {key for key, cache in caches().items() if not len(cache)} == set()
 
 

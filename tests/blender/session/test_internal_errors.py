@@ -16,8 +16,7 @@ from body_moments.blender.bodies import measure_object as measure
 from body_moments.blender.bodies import request
 from body_moments.blender.bodies.stacks import many
 from body_moments.blender.scene import empties, reframe
-from body_moments.blender.session import displayed
-from body_moments.blender.session.stored import sections
+from body_moments.blender.session.stored import outcome, sections
 from body_moments.blender.write import properties, section
 from body_moments.operators import batch
 from body_moments.operators.measure.measure_selected import OBJECT_OT_body_moments_measure
@@ -113,14 +112,14 @@ def test_internal_error_is_kept_for_the_panel(monkeypatch):
         plant(planted, TypeError("several\nlines. "), "a", "b")
         operator, window = pressed(OBJECT_OT_body_moments_measure)
         assert finished(operator, window) == {"FINISHED"}
-    first, second, third = [displayed.failure(body) for body in bodies]
-    assert third is None and first == second and first.code == "internal_error"
-    assert first.values["error"] == "several lines"
+    (group,) = outcome.last().groups
+    assert group.objects == ("a", "b") and group.finding.code == "internal_error"
+    assert group.finding.values["error"] == "several lines"
     assert [properties.is_stored(body) for body in bodies] == [False, False, True]
     ((kind, text),) = operator.reports
     assert kind == "WARNING" and text.startswith("Measured 1 of 3 objects. a: Internal error: TypeError")
     assert finished(*pressed(OBJECT_OT_body_moments_measure)) == {"FINISHED"}
-    assert not any(displayed.failure(body) for body in bodies)
+    assert outcome.last() is None
 
 
 def unwritable(monkeypatch, *names):

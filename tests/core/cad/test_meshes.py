@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes of files as arrays, without Blender."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from body_moments.core.cad.meshes import read_meshes
@@ -37,6 +39,12 @@ f 1 1 2
 """
 
 
+def read_upright(path):
+    """The meshes of a file with their points z up."""
+    meshes, upright = read_meshes(path)
+    return [replace(mesh, points=mesh.points @ upright[:3, :3].T) for mesh in meshes]
+
+
 def faces_of(mesh):
     return [mesh.points[part].tolist() for part in np.split(mesh.corners, np.cumsum(mesh.sides)[:-1])]
 
@@ -44,13 +52,13 @@ def faces_of(mesh):
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
 def test_obj_objects_are_read_as_blender_shows_them(tmp_path, end):
     (tmp_path / "a.obj").write_bytes(OBJ.replace("\n", end).encode())
-    first, second = read_meshes(tmp_path / "a.obj")
+    first, second = read_upright(tmp_path / "a.obj")
     a, b, c, d = [0, 0, 0], [1, 0, 0], [0, 0, 1], [0, -1, 0]
     assert first.name == "A 1" and faces_of(first) == [[a, b, c], [a, b, d]]
     square = [[2, -2, 2], [3, -2, 2], [3, -2, 3], [2, -2, 3]]
     assert second.name == "B" and faces_of(second) == [square, square[1:]]
     (tmp_path / "b.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 0 1\ng x\nf 1 2 3\n", encoding="utf-8")
-    (only,) = read_meshes(tmp_path / "b.obj")
+    (only,) = read_upright(tmp_path / "b.obj")
     assert only.name == "b" and only.points.tolist() == [a, b, d]
 
 
@@ -67,10 +75,9 @@ def test_one_mesh_is_the_same_in_every_format(tmp_path, name):
     else:
         data = (stl if name == "a.b.stl" else stl_text)((points, triangles))
     (tmp_path / name).write_bytes(data)
-    (mesh,) = read_meshes(tmp_path / name)
+    (mesh,) = read_upright(tmp_path / name)
     assert mesh.name == name.rpartition(".")[0] and len(mesh.points) == len(points)
-    (surface,) = mesh.surfaces()
-    assert np.array_equal(surface.triangles, mesh.corners.reshape(-1, 3))
+    assert np.array_equal(mesh.surface().triangles, mesh.corners.reshape(-1, 3))
     shown = mesh.points[mesh.corners].astype(np.float32)
     assert np.array_equal(shown, points[triangles.ravel()]) and (mesh.sides == 3).all()
 
@@ -102,7 +109,7 @@ def test_ply_strips_edges_and_numbers_are_read(tmp_path):
     head += "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
     rows = "".join("{} {} 0 {}\n".format(n, n * n, 7 * n) for n in range(5))
     (tmp_path / "a.ply").write_text(head + rows + "8 0 1 2 3 -1 1 2 4\n0 4\n", encoding="utf-8")
-    (mesh,) = read_meshes(tmp_path / "a.ply")
+    (mesh,), _ = read_meshes(tmp_path / "a.ply")
     assert mesh.corners.reshape(-1, 3).tolist() == [[0, 1, 2], [2, 1, 3], [1, 2, 4]]
     assert mesh.edges.tolist() == [[0, 4]] and mesh.values["label"].tolist() == [0, 7, 14, 21, 28]
 
@@ -114,6 +121,6 @@ def test_numbers_that_are_not_finite_and_empty_files_are_refused(tmp_path):
         with refused("non_finite_coordinates", count=1):
             read_meshes(tmp_path / name)
     (tmp_path / "a.obj").write_bytes(b"")
-    assert read_meshes(tmp_path / "a.obj") == []
+    assert read_meshes(tmp_path / "a.obj")[0] == []
     with refused("file_missing"):
         read_meshes(tmp_path / "b.obj")

@@ -9,7 +9,18 @@ from math import degrees, radians
 import numpy as np
 import pytest
 from body_moments.core.numerics.rotations import quaternion
-from body_moments.core.robots.diagnosis import LENGTHS, Reference, _times, diagnose
+from body_moments.core.robots.diagnosis import (
+    CENTERS,
+    IMPERIAL,
+    IMPERIAL_INERTIAS,
+    INCH,
+    LENGTHS,
+    POUND,
+    WHOLE_IMPERIAL,
+    Reference,
+    _times,
+    diagnose,
+)
 from body_moments.core.robots.stated import Description, StatedInertial, rotation_of_angles
 
 from tests.close import close
@@ -53,7 +64,15 @@ def mistakes():
         yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
     for factor in LENGTH_UNITS:
         yield "unit", {"part": "center of mass", "factor": factor}, of_inertia(INERTIA, CENTER / factor)
-        yield "unit", {"part": LENGTHS, "factor": factor}, of_inertia(INERTIA / factor**2, CENTER / factor)
+        if factor != INCH:
+            yield "unit", {"part": LENGTHS, "factor": factor}, of_inertia(INERTIA / factor**2, CENTER / factor)
+    yield "unit", {"part": "mass, which is in pounds,", "factor": POUND}, replace(TRUTH, mass=MASS / POUND)
+    for factor in IMPERIAL_INERTIAS:
+        yield "unit", {"part": "inertia", "factor": factor}, of_inertia(INERTIA / factor)
+    in_pounds = {"factor": IMPERIAL_INERTIAS[0]}
+    stated = StatedInertial(MASS / POUND, CENTER, INERTIA / IMPERIAL_INERTIAS[0])
+    yield "unit", {"part": IMPERIAL, **in_pounds}, stated
+    yield "unit", {"part": WHOLE_IMPERIAL, **in_pounds}, replace(stated, center=CENTER / INCH)
     yield "inertia_of_unit", {"part": "mass", "factor": MASS}, of_inertia(INERTIA / MASS)
     yield "inertia_of_unit", {"part": "density", "factor": DENSITY}, of_inertia(INERTIA / DENSITY)
     yield "inertia_elsewhere", {"part": "link"}, of_inertia(INERTIA + square(CENTER))
@@ -122,8 +141,21 @@ def mistakes():
 
 
 def said(stated=TRUTH, *references, otherwise=()):
-    found = diagnose(stated, references or [REFERENCE], otherwise)
-    return found and (found.finding.code.removeprefix("audit_"), dict(found.finding.values))
+    (found,) = diagnose(stated, references or [REFERENCE], otherwise)
+    return found.finding.code.removeprefix("audit_"), dict(found.finding.values)
+
+
+def test_two_mistakes_are_both_named():
+    """A wrong center beside another mistake: each has its change, and the second one the inertial of both."""
+    for wrong in (CENTER / 1e-2, CENTER * (1, -1, 1), CENTER[[1, 0, 2]]):
+        for tensor in (INERTIA / 1e-6, INERTIA + square(CENTER), with_products((-1, -1, -1), INERTIA)):
+            first, second = diagnose(of_inertia(tensor, wrong), [REFERENCE])
+            assert first.finding.values["part"] in CENTERS and second.finding.values.get("part") not in CENTERS
+            assert REFERENCE.compare(second.repaired) < 1e-12
+    uneven = of_inertia(INERTIA * 0.8, CENTER * (1, -1, 1))  # The mass is not spread evenly.
+    assert [one.finding.code for one in diagnose(uneven, [REFERENCE])] == ["audit_not_uniform"]
+    (found,) = diagnose(uneven, [REFERENCE], (), True)
+    assert not found.is_certain and close(found.repaired.center, CENTER, 1e-15)
 
 
 def of_density(density):
@@ -133,7 +165,7 @@ def of_density(density):
 def test_a_mistake_is_found_named_and_repaired():
     for code, values, stated in mistakes():
         assert said(stated) == (code, values)
-        repaired = diagnose(stated, [REFERENCE]).repaired
+        repaired = diagnose(stated, [REFERENCE])[0].repaired
         assert REFERENCE.compare(repaired) <= 1e-12 < 1e-2 < REFERENCE.compare(stated) and close(
             repaired.mass, MASS, 1e-14
         )
@@ -143,11 +175,14 @@ def test_a_mistake_is_found_named_and_repaired():
 def test_a_mesh_in_another_unit_shows_in_the_density(size):
     scaled = Reference(REFERENCE.volume * size**3, CENTER * size, INERTIA / MASS * size**2)
     assert said(TRUTH, scaled) == ("unit", {"part": "lengths of the mesh", "factor": 1.0 / size})
-    assert diagnose(TRUTH, [scaled]).repaired is None
+    assert diagnose(TRUTH, [scaled])[0].repaired is None
     # with a density that is usual for the mesh as it is, the file is wrong
-    assert said(TRUTH, replace(scaled, volume=MASS / DENSITY)) == ("unit", {"part": LENGTHS, "factor": size})
+    stated = {"part": LENGTHS, "factor": size}
+    if size == INCH:
+        stated = {"part": WHOLE_IMPERIAL, "factor": IMPERIAL_INERTIAS[0]}
+    assert said(TRUTH, replace(scaled, volume=MASS / DENSITY)) == ("unit", stated)
     mesh = "lengths of the mesh"
-    for density, part in ((9.0, LENGTHS), (11.0, mesh), (29e3, mesh), (31e3, LENGTHS)):
+    for density, part in ((9.0, stated["part"]), (11.0, mesh), (29e3, mesh), (31e3, stated["part"])):
         assert said(TRUTH, replace(scaled, volume=MASS / density * size**3))[1]["part"] == part
 
 
@@ -163,8 +198,9 @@ def test_a_mesh_in_another_unit_shows_in_the_density(size):
 def test_impossible_density_is_reported(density, code, factor):
     found = diagnose(TRUTH, [of_density(density)])
     if code is None:
-        assert found is None
+        assert not found
         return
+    (found,) = found
     assert found.finding.code == "audit_" + code and close(found.finding.values["density"], density, 1e-12)
     assert found.finding.values.get("factor") == factor
     if factor is None:
@@ -184,9 +220,9 @@ def test_mass_unit_is_blamed_only_for_impossible_density():
 
 
 def test_decimals_of_the_file_stay_decimals():
-    assert 2300.0 * 1e-3 != 2.3 == diagnose(replace(TRUTH, mass=2300.0), [REFERENCE]).repaired.mass
+    assert 2300.0 * 1e-3 != 2.3 == diagnose(replace(TRUTH, mass=2300.0), [REFERENCE])[0].repaired.mass
     stated = of_inertia(INERTIA, CENTER / 0.0254)
-    assert (diagnose(stated, [REFERENCE]).repaired.center == stated.center * 0.0254).all()
+    assert (diagnose(stated, [REFERENCE])[0].repaired.center == stated.center * 0.0254).all()
 
 
 @pytest.mark.parametrize("value", [9.0, 0.029])

@@ -272,32 +272,15 @@ def test_signaling_nans_beside_doubles_are_refused(tmp_path):
         measured(tmp_path, "a.ply", whole + faces.tobytes())
 
 
-def test_a_concave_polygon_is_refused(tmp_path):
-    arrow = np.array([[0, 0, 0], [2, 1, 0], [0, 2, 0], [0.5, 1.5, 0], [0.5, 0.5, 0]], float)
-    with refused("ply_concave_polygons", count=1):
-        measured(tmp_path, "a.ply", ply(arrow, [[4, 0, 1, 2, 3], [0, 1, 2]]))
-
-
-def test_concave_polygons_are_counted(tmp_path):
-    arrow = np.array([[0, 0, 0], [2, 1, 0], [0, 2, 0], [0.5, 1.5, 0], [0.5, 0.5, 0]], float)
-    square = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [1, 3, 0], [0, 2, 0]], float)
-    faces = np.array([[4, 0, 1, 2, 3], [5, 6, 7, 8, 9], [3, 4, 0, 1, 2]])
-    with refused("ply_concave_polygons", count=2):
-        measured(tmp_path, "a.ply", ply(np.concatenate([arrow, square]), faces.tolist()))
-
-
-@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
-def test_a_polygon_is_concave_by_its_own_measure(tmp_path, size):
-    """A corner that reaches in by a billionth of the size is rounding, by a thousandth it is none."""
-    for depth in (1e-9, 1e-3):
-        dented = size * np.array([[0, 0, 0], [2, 1, 0], [0, 2, 0], [depth, 1.5, 0], [depth, 0.5, 0]])
-        (tmp_path / "a.ply").write_bytes(ply(dented, [[0, 1, 2, 3, 4]]))
-        if depth < 1e-6:
-            (piece,) = open_mesh_file(tmp_path / "a.ply").pieces()
-            assert len(piece.triangles) == 3
-        else:
-            with refused("ply_concave_polygons", count=1):
-                list(open_mesh_file(tmp_path / "a.ply").pieces())
+def test_concave_polygons_are_cut_into_their_own_triangles(tmp_path):
+    """A prism over an arrow: a fan of triangles would count what is outside of the arrow, too."""
+    arrow = np.array([[0, 0], [2, 1], [0, 2], [0.5, 1.5], [0.5, 0.5]])
+    points = np.concatenate([np.insert(arrow, 2, z, axis=1) for z in (0.0, 3.0)])
+    faces = [[4, 3, 2, 1, 0], [5, 6, 7, 8, 9], *([i, (i + 1) % 5, (i + 1) % 5 + 5, i + 5] for i in range(5))]
+    found = measured(tmp_path, "a.ply", ply(points, faces))
+    sides = np.linalg.norm(arrow - np.roll(arrow, 1, axis=0), axis=1).sum()
+    assert found.volume.total == pytest.approx(3.0 * 1.25, rel=1e-14)
+    assert found.area.total == pytest.approx(2.0 * 1.25 + 3.0 * sides, rel=1e-14)
 
 
 @pytest.mark.parametrize("name", FORMS)

@@ -31,7 +31,7 @@ def measured(obj):
 @pytest.mark.parametrize("name", ["urdf", "sdf", "mjcf", "usd", "gltf"])
 def test_an_inertial_is_copied_along_the_objects_own_axes(name, capfd):
     body = add(mesh_body(), "Body", (1, 2, 3), (0.3, 0.4, 0.5))
-    assert bpy.ops.object.body_moments_copy_inertial(format=name) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_copy(what=name) == {"FINISHED"}
     text = capfd.readouterr().out
     assert repr(measured(body).mass_properties.mass) in text or name == "usd"
     if name == "urdf":
@@ -73,9 +73,9 @@ def test_rigid_box_carries_object_in_place():
 
 @pytest.mark.parametrize("where", ["relative", "absolute"])
 def test_audit_reads_other_folders_only_if_allowed(where, tmp_path, monkeypatch):
-    for name in ("robot", "meshes"):
-        (tmp_path / name).mkdir()
-    mesh, path = tmp_path / "meshes" / "part.stl", tmp_path / "robot" / "r.urdf"
+    mesh, path = tmp_path / "meshes" / "part.stl", tmp_path / "package" / "robot" / "r.urdf"
+    for file in (mesh, path):
+        file.parent.mkdir(parents=True)
     mesh.write_bytes(to_stl(Surface.from_triangles(*cube((-1, -1, -1), (1, 1, 1)))))
     file = "part.stl" if where == "relative" else mesh.as_posix()
     shape = '<mesh filename="{}"/>'.format(file)
@@ -99,7 +99,7 @@ def test_the_audit_becomes_a_text_and_a_repaired_copy(tmp_path, reported):
     path.write_text(BOX.format("5333333"), encoding="utf-8")
     options = {"filepath": str(path), "write_copy": True, "write_page": True}
     assert bpy.ops.import_scene.body_moments_audit(**options) == {"FINISHED"}
-    assert reported.texts[0].startswith("1 links: 1 errors, 1 warnings, 0 notes")
+    assert reported.texts[0].startswith("1 links: 1 errors, 0 warnings, 0 notes")
     assert bpy.data.texts["Audit of r.urdf"].current_line_index == 0
     text = bpy.data.texts["Audit of r.urdf"].as_string()
     assert "r_repaired.urdf" in text

@@ -83,7 +83,7 @@ def test_recalculated_faces_keep_sculpted_shape():
     assert len(before) == 26
     multires.show_viewport = False
     only(obj)
-    assert bpy.ops.object.body_moments_recalculate_outside() == {"FINISHED"}
+    assert bpy.ops.object.body_moments_remedy(remedy="OUTSIDE") == {"FINISHED"}
     multires.show_viewport = True
     bpy.context.view_layer.update()
     assert np.abs(np.array(sorted(map(tuple, np.round(seen(obj), 4)))) - before).max() < 3e-4

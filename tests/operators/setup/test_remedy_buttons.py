@@ -30,6 +30,11 @@ def buttons(record=None):
     return [entry[1] for entry in record or shown() if entry[0] == "operator"]
 
 
+def offered():
+    """The remedies of the lines that the panel shows."""
+    return [entry[2].remedy for entry in shown() if entry[:2] == ("operator", "object.body_moments_remedy")]
+
+
 def orders(mesh):
     return [tuple(face.vertices) for face in mesh.polygons]
 
@@ -56,14 +61,14 @@ def test_recalculate_outside_turns_faces_and_keeps_cavity():
     volume = obj["body_volume"]
     assert close(volume, 2.0 * (8.0 - 1.0 + 64.0), rel=1e-12)
     assert findings_of(obj, "warning") == ["flipped_faces", "inverted_components"]
-    assert "object.body_moments_recalculate_outside" in buttons()
-    assert bpy.ops.object.body_moments_recalculate_outside() == {"FINISHED"}
+    assert offered() == ["OUTSIDE"] * 2
+    assert bpy.ops.object.body_moments_remedy(remedy="OUTSIDE") == {"FINISHED"}
     assert findings_of(obj, "warning") == [] and close(obj["body_volume"], volume, rel=1e-12)
     assert {frozenset(face) for face in orders(mesh)[6:12]} == {frozenset(face) for face in right[6:12]}
     assert [set(face) for face in orders(mesh)[12:]] == [set(face) for face in right_of_third]
     assert obj["body_method"] == "exact"
     before = orders(mesh)
-    assert bpy.ops.object.body_moments_recalculate_outside() == {"CANCELLED"}
+    assert bpy.ops.object.body_moments_remedy(remedy="OUTSIDE") == {"CANCELLED"}
     assert orders(mesh) == before
 
 
@@ -71,10 +76,10 @@ def test_union_and_shell_remedies_set_and_measure():
     obj = add(boxes(2.0, 1.0))
     bpy.ops.object.body_moments_measure()
     assert findings_of(obj, "warning") == ["components_nested"] and close(obj["body_volume"], 9.0, rel=1e-12)
-    assert "object.body_moments_count_as_union" in buttons()
-    assert bpy.ops.object.body_moments_count_as_union() == {"FINISHED"}
+    assert offered() == ["UNION"]
+    assert bpy.ops.object.body_moments_remedy(remedy="UNION") == {"FINISHED"}
     assert close(obj["body_volume"], 8.0, rel=1e-6) and obj.body_moments.overlap == "UNION"
-    assert bpy.ops.object.body_moments_measure_as_shell(thickness=0.25) == {"FINISHED"}
+    assert bpy.ops.object.body_moments_remedy(remedy="SHELL", thickness=0.25) == {"FINISHED"}
     assert obj["body_method"] == "shell" and close(obj["body_volume"], 0.25 * 30.0, rel=1e-6)
 
 
@@ -89,19 +94,51 @@ def test_accepted_warning_stays_a_note_after_measuring():
     bpy.context.view_layer.objects.active = obj
     assert obj["body_warnings"]
     assert bpy.ops.object.body_moments_accept(code="components_nested") == {"FINISHED"}
-    assert not obj["body_warnings"] and other["body_warnings"]
+    assert not obj["body_warnings"] and not other["body_warnings"]
+    only(obj)
     assert findings_of(obj, "warning") == [] and "components_nested" in findings_of(obj, "note")
     assert staleness.stale_reason(obj, bpy.context.scene) is None
     assert "Accepted: 1 outward component lies" in " ".join(labels(shown()))
     bpy.ops.object.body_moments_measure()
-    assert findings_of(obj, "warning") == [] and findings_of(other, "warning") == ["components_nested"]
+    assert findings_of(obj, "warning") == []
     measurement = measure_object(obj, bpy.context.evaluated_depsgraph_get())
     entry = record.described(measurement.findings)
     assert entry["warnings"] == [] and [found["severity"] for found in entry["findings"]] == ["note"]
     assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"FINISHED"}
     assert findings_of(obj, "warning") == ["components_nested"] and obj["body_warnings"]
     assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"CANCELLED"}
-    assert bpy.ops.object.body_moments_accept(code="") == {"CANCELLED"}
+    assert bpy.ops.object.body_moments_accept() == {"FINISHED"} and not obj["body_warnings"]
+
+
+@pytest.mark.parametrize(
+    ("fault", "code", "remedy"),
+    [
+        ("hole", "holes_capped", "FILL_HOLES"),
+        ("copy", "duplicate_faces_ignored", "DUPLICATES"),
+        ("split", "vertices_welded", "MERGE"),
+    ],
+)
+def test_edits_repair_the_mesh_and_measure_again(fault, code, remedy):
+    box = boxes(2.0)
+    points, faces = [list(vertex.co) for vertex in box.vertices], orders(box)
+    if fault == "hole":
+        faces = faces[1:]
+    elif fault == "copy":
+        faces.append(faces[0])
+    else:  # one face has corners of its own, a little aside
+        points += [[x + 1e-6, y, z] for x, y, z in (points[corner] for corner in faces[0])]
+        faces[0] = (8, 9, 10, 11)
+    mesh = bpy.data.meshes.new("Faulty")
+    mesh.from_pydata(points, [], faces)
+    obj = add(mesh)
+    bpy.ops.object.body_moments_measure()
+    if code in findings_of(obj, "warning"):
+        assert remedy in offered()
+    assert code in findings_of(obj)
+    assert bpy.ops.object.body_moments_remedy(remedy=remedy) == {"FINISHED"}
+    assert code not in findings_of(obj) and obj["body_method"] == "exact"
+    assert close(obj["body_volume"], 8.0, rel=1e-6) and len(mesh.polygons) == 6 and len(mesh.vertices) == 8
+    assert bpy.ops.object.body_moments_remedy(remedy=remedy) == {"CANCELLED"}
 
 
 def test_the_unit_is_asked_for_once_a_scene_and_set_at_a_click():

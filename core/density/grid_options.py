@@ -6,13 +6,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...core.numerics.float32 import shortest_decimal
-from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import (
-    POSITIONS_ONLY_AS_DENSITY,
-    VALUES_BY_TABLE,
-    VALUES_SCALED,
-)
+from ..numerics.float32 import shortest_decimal
+from ..verdict.finding import Finding, ReadError, finding
+from .findings import POSITIONS_ONLY_AS_DENSITY, VALUES_BY_TABLE, VALUES_SCALED
 
 
 class GridOptions(NamedTuple):
@@ -35,10 +31,7 @@ class GridOptions(NamedTuple):
 
     @classmethod
     def from_settings(cls, settings, density: float | None = None) -> GridOptions:
-        """Return the options of an object's settings.
-
-        density: overrides the density of a value of 1, and the table.
-        """
+        """Return the options of an object's settings. density: overrides the density of a value of 1, and the table."""
         table = settings.transfer_table if settings.values_from == "TABLE" and density is None else ""
         return cls(
             settings.grid,

@@ -15,25 +15,33 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.measurement.body import Body
-from ...core.measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
-from ...core.mesh.boxes import boxes_overlap
-from ...core.mesh.surface import Surface
-from ...core.moments.exponents import KNOWN_ORDER
-from ...core.moments.images import sum_of_images
-from ...core.moments.moments import Measure, Moments, monomials, sum_moments
-from ...core.polyhedron import polyhedron_moments
-from ...core.solid.findings import INVERTED_COMPONENTS
-from ...core.solid.measure import SolidIntegrals
-from ...core.verdict.finding import Finding, ReadError, finding, unique
-from ...core.verdict.findings import FLIPPED_FACES
-from ...core.verdict.method import Verdict
-from ...core.verdict.tolerances import NEGLIGIBLE
-from ...core.wall import offset_solid, wall_moments
-from ...core.wall.findings import WALL_MEASURED
-from ...core.wall.walls import OffsetSolid, split_thickness
-from ..read.reading import Reading
-from .body import MeshBody
+from ..measurement.body import Body
+from ..measurement.findings import WALL_UNSUPPORTED, ZERO_QUANTITY
+from ..mesh.boxes import boxes_overlap
+from ..mesh.surface import Surface
+from ..moments.exponents import KNOWN_ORDER
+from ..moments.images import sum_of_images
+from ..moments.moments import (
+    Measure,
+    Moments,
+    monomials,
+    sum_moments,
+)
+from ..polyhedron import polyhedron_moments
+from ..solid.findings import INVERTED_COMPONENTS
+from ..solid.measure import SolidIntegrals
+from ..verdict.finding import (
+    Finding,
+    ReadError,
+    finding,
+    unique,
+)
+from ..verdict.findings import FLIPPED_FACES
+from ..verdict.method import Verdict
+from ..verdict.tolerances import NEGLIGIBLE
+from ..wall import offset_solid, wall_moments
+from ..wall.findings import WALL_MEASURED
+from ..wall.walls import OffsetSolid, split_thickness
 from .findings import (
     INSTANCE_OVERLAP_UNCHECKED,
     WALL_FACES_WITHOUT_AREA,
@@ -43,7 +51,9 @@ from .findings import (
     WALL_UNORIENTED,
     WALLS_OVERLAP,
 )
-from .mesh.instances import group_by_similarity
+from .instances import group_by_similarity
+from .mesh_body import MeshBody
+from .reading import Reading
 
 REPORTED = 0.01  # relative to the thickness: smaller unevenness is not reported
 SAME_AREA_RTOL = 1e-9

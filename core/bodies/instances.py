@@ -10,20 +10,20 @@ from dataclasses import fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.mesh.boxes import boxes_overlap
-from ....core.mesh.surface import Surface
-from ....core.moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
-from ....core.moments.images import sum_of_images
-from ....core.moments.moments import Moments
-from ....core.polyhedron.sheared_areas import area_of_images
-from ....core.solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
-from ....core.solid.instance_overlaps import PlaceComparison
-from ....core.solid.solid_verdict import SolidIntegrals
-from ....core.verdict.finding import Finding, finding
-from ....core.verdict.findings import SELF_INTERSECTION
-from ....core.verdict.health import DefectiveElements, Intersection, MeshHealth
-from ...read.reading import Reading
-from ..findings import FLAT_SURFACES
+from ..mesh.boxes import boxes_overlap
+from ..mesh.surface import Surface
+from ..moments.affine_maps import are_similarities, distinct_linear_parts, translation_matrices
+from ..moments.images import sum_of_images
+from ..moments.moments import Moments
+from ..polyhedron.sheared_areas import area_of_images
+from ..solid.findings import COMPONENTS_NESTED, COMPONENTS_OVERLAP, OVERLAP_UNCHECKED
+from ..solid.instance_overlaps import PlaceComparison
+from ..solid.solid_verdict import SolidIntegrals
+from ..verdict.finding import Finding, finding
+from ..verdict.findings import SELF_INTERSECTION
+from ..verdict.health import DefectiveElements, Intersection, MeshHealth
+from .findings import FLAT_SURFACES
+from .reading import Reading
 
 
 def singular_instances_message(reading: Reading) -> Finding:
@@ -32,11 +32,7 @@ def singular_instances_message(reading: Reading) -> Finding:
 
 
 def findings_by_part(parts: Iterable[tuple[str, Iterable[Finding]]], whole: str) -> list[Finding]:
-    """Return the findings of several parts, given as (name of the surface's object, findings).
-
-    Equal findings about the same elements become one that names all their sources. Findings of a part that is all of
-    the object `whole` stay as they are.
-    """
+    """Return findings of parts, (object's name, findings), with equal ones joined, and those of `whole` as they are."""
     parts = list(parts)
     if len(parts) == 1 and parts[0][0] in ("", whole):
         return each_once(parts[0][1])
@@ -110,11 +106,7 @@ def _boxes(reading: Reading) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def area_of_instances(
     surface: Surface, area: Moments, matrices: NDArray, measured: Callable[[Surface], Moments] | None
 ) -> Iterator[Moments]:
-    """Yield the area moments of a surface's images.
-
-    Area moments do not follow a map that stretches unevenly, so `measured` is called for the mapped surface, once for
-    each different map. If it is None, only the total area is wanted.
-    """
+    """Yield the area moments of a surface's images, `measured` once for each uneven map, or None for totals alone."""
     if measured is None:
         even = are_similarities(matrices[:, :3, :3])
         if even.any():
@@ -127,11 +119,7 @@ def area_of_instances(
 
 
 def group_by_similarity(surface: Surface, matrices: NDArray) -> Iterator[tuple[Surface, NDArray, NDArray]]:
-    """Yield (surface, maps, indices): the images of a surface as similar images of itself or of mapped surfaces.
-
-    There is one mapped surface for each different uneven map. The maps are (j, 4, 4) similarities; the (j,) indices
-    tell the rows of `matrices` that they stand for.
-    """
+    """Yield (surface, (j, 4, 4) similarities, (j,) rows of `matrices`), with a mapped surface for each uneven map."""
     even = are_similarities(matrices[:, :3, :3])
     if even.any():
         yield surface, matrices[even], np.flatnonzero(even)

@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...core.mesh.surface import Surface, join_surfaces
-from ...core.moments.affine_maps import are_singular
-from ...core.nurbs.curve import Curve
-from ...core.nurbs.patch import Face
-from ...core.verdict.finding import Finding
+from ..mesh.surface import Surface, join_surfaces
+from ..moments.affine_maps import are_singular
+from ..nurbs.curve import Curve
+from ..nurbs.patch import Face
+from ..verdict.finding import Finding
 
 NO_SLOTS = np.empty(0, np.intp)
 NO_VALUES = np.empty(0)

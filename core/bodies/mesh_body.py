@@ -11,18 +11,23 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.inertia.principal_frames import OwnMoments
-from ...core.measurement.body import Body
-from ...core.mesh.surface import Surface
-from ...core.moments.affine_maps import are_similarities
-from ...core.moments.images import sum_of_images
-from ...core.moments.moments import Moments, monomials, stack_moments, sum_moments
-from ...core.moments.symmetric_tensors import invert_through_point
-from ...core.numerics.rotations import polar_rotation
-from ...core.polyhedron import polyhedron_moments
-from ...core.solid.measure import SolidIntegrals
-from ...core.verdict.method import Verdict
-from .mesh.instances import area_of_instances
+from ..inertia.principal_frames import OwnMoments
+from ..measurement.body import Body
+from ..mesh.surface import Surface
+from ..moments.affine_maps import are_similarities
+from ..moments.images import sum_of_images
+from ..moments.moments import (
+    Moments,
+    monomials,
+    stack_moments,
+    sum_moments,
+)
+from ..moments.symmetric_tensors import invert_through_point
+from ..numerics.rotations import polar_rotation
+from ..polyhedron import polyhedron_moments
+from ..solid.measure import SolidIntegrals
+from ..verdict.method import Verdict
+from .instances import area_of_instances
 
 MAX_MASS_MOMENT = 1e100  # kg m^n; squares of much larger moments would overflow
 
@@ -42,11 +47,7 @@ class MeshBody(Body):
     _known: dict[tuple[int, bool], tuple[Moments, Moments | None]] = field(default_factory=dict)
 
     def moments(self, order: int, area: bool) -> tuple[Moments, Moments | None]:
-        """Return the moments of volume and area (None without `area`) to an order; parts are measured once and mapped.
-
-        The repaired surface gives the volume, and the area in the same pass if the repair has neither added nor removed
-        a face.
-        """
+        """Return the moments of volume and area (None without `area`) to an order, measured once for each part."""
         if (order, area) not in self._known:  # the frame and the shape ask for the same order
             self._known[order, area] = self._to_order(order, area)
         return self._known[order, area]
@@ -135,11 +136,7 @@ def extend_input_error(moments: Moments, known: Moments) -> Moments:
 
 
 def own_moments(shapes: Sequence[Moments], which: NDArray[np.intp], linear: NDArray) -> OwnMoments:
-    """Return the moments of m bodies, images of `shapes` (moments of volumes or areas), in their own coordinates.
-
-    `which` (m,) is the shape of each body, `linear` (m, 3, 3) the map from it: any map, mirrored ones included.
-    A mirrored shape counts as a shape of its own; so does an unevenly mapped shape, in the coordinates of its body.
-    """
+    """Return the moments, in own coordinates, of m images of `shapes` (`which`) under (m, 3, 3) linear maps."""
     is_mirrored, is_even = np.linalg.det(linear) < 0.0, are_similarities(linear)
     rotation = np.eye(3)[None].repeat(len(which), 0)
     rotation[is_even] = polar_rotation(linear[is_even])[0]

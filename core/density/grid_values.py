@@ -10,19 +10,15 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...core.density.findings import DENSITY_NON_FINITE
-from ...core.density.transfer_function import parse_table
-from ...core.scans.positions import AXES, EVEN, Positions
-from ...core.verdict.finding import Finding, ReadError, finding
-from .findings import BACKGROUND_EMPTY, POSITIONS_DAMAGED, VALUES_NEGATIVE
-from .grid import GridOptions
+from ..scans.positions import AXES, EVEN, Positions
+from ..verdict.finding import Finding, ReadError, finding
+from .findings import BACKGROUND_EMPTY, DENSITY_NON_FINITE, POSITIONS_DAMAGED, VALUES_NEGATIVE
+from .grid_options import GridOptions
+from .transfer_function import parse_table
 
 
 def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Sequence[int]) -> Positions:
-    """Return the positions of all samples of the scan along each axis, in voxels, None for even axes.
-
-    grid: its name. Raises ReadError if the positions do not cover the box from `low` with this shape.
-    """
+    """Return the scan's sample positions by axis, in voxels, None for even ones, or raise ReadError."""
     if not options.sample_positions:
         return EVEN
     rows: list[NDArray[np.float64] | None] = []
@@ -37,10 +33,7 @@ def sample_positions(options: GridOptions, grid: str, low: NDArray, shape: Seque
 
 
 def density_function(options: GridOptions, background: float | None) -> Callable[[NDArray], NDArray]:
-    """Return a function from values to densities in kg/m³; it raises ReadError if it cannot convert them.
-
-    Values equal to the background, if there is one, have density 0.
-    """
+    """Return a function from values to densities, kg/m³, 0 for the background; it raises ReadError for bad ones."""
     pairs = parse_table(options.table) if options.table else None
 
     def weighed(values: NDArray) -> NDArray[np.float64]:

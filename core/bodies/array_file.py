@@ -10,31 +10,34 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.measurement.body import Body
-from ....core.measurement.measurement import Measurement
-from ....core.moments.exponents import KNOWN_ORDER
-from ....core.scans import Scan, read_scan, sample_matrix
-from ....core.scans.findings import SCAN_UNSTATED
-from ....core.scans.limits import DEFAULT_LIMITS, Limits
-from ....core.scans.positions import Positions, place_samples, read_all_positions
-from ....core.verdict.finding import Finding, ReadError, finding
-from ...read.findings import GRID_TOO_LARGE
-from ...settings.findings import POSITIONS_ONLY_AS_DENSITY
-from ...settings.grid import GridOptions
-from ...settings.options import MeasureOptions
-from ...settings.resolve import with_options
-from ..findings import (
+from ..density.findings import POSITIONS_ONLY_AS_DENSITY
+from ..density.grid_options import GridOptions
+from ..measurement.body import Body
+from ..measurement.measurement import Measurement
+from ..measurement.settings import Settings
+from ..moments.exponents import KNOWN_ORDER
+from ..scans import Scan, read_scan, sample_matrix
+from ..scans.findings import SCAN_UNSTATED
+from ..scans.limits import DEFAULT_LIMITS, Limits
+from ..scans.positions import Positions, place_samples, read_all_positions
+from ..verdict.finding import Finding, ReadError, finding
+from .bare_file import about_file, bare_reading
+from .density_grid import density_body
+from .findings import (
     DENSITY_FROM_SAMPLES,
     GIVEN_DENSITY_IGNORED,
     GRID_AS_SHELL,
     GRID_DENSITY,
+    GRID_TOO_LARGE,
     SAMPLES_POSITIONED,
 )
-from ..grids.grid import density_body
-from ..grids.threshold import MAX_SAMPLES, TRILINEAR, ThresholdGrid, threshold_grid_body
-from ..measurement import measurement_of
-from ..request import Request
-from .bare_file import about_file, bare_reading
+from .measure import measure_reading
+from .threshold import (
+    MAX_SAMPLES,
+    TRILINEAR,
+    ThresholdGrid,
+    threshold_grid_body,
+)
 
 
 @dataclass(frozen=True)
@@ -60,11 +63,11 @@ def measure_array(
     path: str,
     name: str,
     array: ArrayOptions,
-    options: MeasureOptions,
+    settings: Settings,
     progress: Callable[[int], None] = lambda samples: None,
 ) -> Measurement:
     """Return the mass properties of the samples in a file; `progress` gets the number of samples just read."""
-    if options.kind == "shell":
+    if settings.kind == "shell":
         raise ReadError(GRID_AS_SHELL, subject=name)
     with about_file(name):
         scan = read_scan(path, array.limits)
@@ -75,12 +78,12 @@ def measure_array(
             findings = _with_positions(findings, array.positions)
         findings = (*scan.findings, *findings)
         if array.threshold is None:
-            made = _density_body(scan, matrix, positions, array, options, findings, progress)
+            made = _density_body(scan, matrix, positions, array, settings, findings, progress)
         else:
-            made = _threshold_body(name, scan, matrix, array, options, findings, progress)
+            made = _threshold_body(name, scan, matrix, array, settings, findings, progress)
         reading = bare_reading(name, "ARRAY")
-        density = None if made.mass is not None else options.density
-        return measurement_of(reading, made, Request(with_options(options, density=density, mass=options.mass)))
+        density = None if made.mass is not None else settings.density
+        return measure_reading(reading, made, replace(settings, density=density))
 
 
 def _with_positions(findings: Iterable[Finding], files: Mapping[str, str]) -> tuple[Finding, ...]:
@@ -95,7 +98,7 @@ def _density_body(
     matrix: NDArray[np.float64],
     positions: Positions,
     array: ArrayOptions,
-    options: MeasureOptions,
+    settings: Settings,
     findings: tuple[Finding, ...],
     progress: Callable[[int], None],
 ) -> Body:
@@ -103,11 +106,11 @@ def _density_body(
     grid = GridOptions(value_density=array.density_scale, spline_order=array.spline_order)
     shape = scan.samples.shape
     findings += (finding(GRID_DENSITY, samples=list(shape), cause=grid.meaning().as_record()),)
-    if options.density is not None:
+    if settings.density is not None:
         findings += (finding(GIVEN_DENSITY_IGNORED),)
     scale = scan.slope, scan.intercept
     body = density_body(
-        scan.samples, shape, matrix, grid, None, findings, *scale, progress, options.order or KNOWN_ORDER, positions
+        scan.samples, shape, matrix, grid, None, findings, *scale, progress, settings.order or KNOWN_ORDER, positions
     )
     return replace(body, density_from=finding(DENSITY_FROM_SAMPLES))
 
@@ -117,14 +120,14 @@ def _threshold_body(
     scan: Scan,
     matrix: NDArray[np.float64],
     array: ArrayOptions,
-    options: MeasureOptions,
+    settings: Settings,
     findings: tuple[Finding, ...],
     progress: Callable[[int], None],
 ) -> Body:
     """Return the body at or above a threshold, filled with the given density, else with the samples as densities."""
     if array.positions:
         raise ReadError(POSITIONS_ONLY_AS_DENSITY, grid=name)
-    filled = options.density is None
+    filled = settings.density is None
     spline_order = max(array.spline_order, TRILINEAR)
     grid = GridOptions(
         threshold=array.threshold, filled=filled, value_density=array.density_scale, spline_order=spline_order
@@ -141,7 +144,7 @@ def _threshold_body(
 
     samples = scan.samples.transpose(slowest)
     body = threshold_grid_body(
-        ThresholdGrid(name, samples, matrix @ turned, None, values), grid, order=options.order or KNOWN_ORDER
+        ThresholdGrid(name, samples, matrix @ turned, None, values), grid, order=settings.order or KNOWN_ORDER
     )
     source = finding(DENSITY_FROM_SAMPLES) if filled else None
     return replace(body, findings=(*findings, *body.findings), density_from=source)

@@ -5,31 +5,28 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
 
-from ....core.measurement.body import Body
-from ....core.measurement.findings import NO_VOLUME
-from ....core.measurement.measurement import Measurement
-from ....core.moments.exponents import KNOWN_ORDER
-from ....core.moments.moments import Moments
-from ....core.solid.findings import INVERTED_COMPONENTS
-from ....core.streams.measure import StreamIntegrals, measure_stream
-from ....core.streams.mesh_file import MeshFile, open_mesh_file
-from ....core.verdict.finding import Finding, ReadError, finding
-from ....core.verdict.findings import SELF_INTERSECTION
-from ....core.verdict.health import MeshHealth
-from ....core.verdict.method import Method, Verdict
-from ...settings.options import MeasureOptions
-from ...settings.resolve import with_options
-from ..findings import MESH_STREAMED, STREAMED_OPEN
-from ..measurement import measurement_of
-from ..request import Request
+from ..measurement.body import Body
+from ..measurement.findings import NO_VOLUME
+from ..measurement.measurement import Measurement
+from ..measurement.settings import Settings
+from ..moments.exponents import KNOWN_ORDER
+from ..moments.moments import Moments
+from ..solid.findings import INVERTED_COMPONENTS
+from ..streams.measure import StreamIntegrals, measure_stream
+from ..streams.mesh_file import MeshFile, open_mesh_file
+from ..verdict.finding import Finding, ReadError, finding
+from ..verdict.findings import SELF_INTERSECTION
+from ..verdict.health import MeshHealth
+from ..verdict.method import Method, Verdict
 from .bare_file import about_file, bare_reading
+from .findings import MESH_STREAMED, STREAMED_OPEN
+from .measure import measure_reading
 
-DEFAULT_DENSITY = 1000.0  # kg/m³
 COUNTED = "boundary_edges", "non_manifold_edges", "inconsistent_edges", "components"
 
 
@@ -63,25 +60,17 @@ class StreamBody(Body):
 def measure_mesh_file(
     path: str,
     name: str,
-    options: MeasureOptions,
+    settings: Settings,
     findings: tuple[Finding, ...] = (),
     progress: Callable[[int], None] | None = None,
 ) -> Measurement:
     """Return the mass properties of an .stl or .ply file as one body; `progress` gets the number of faces just read."""
-    kind = options.kind or "solid"
-    used = with_options(
-        options,
-        kind=kind,
-        density=DEFAULT_DENSITY if options.density is None and options.mass is None else options.density,
-        mass=options.mass,
-        thickness=options.thickness or 0.0,
-    )
-    order = max(options.order or KNOWN_ORDER, KNOWN_ORDER)
-    area_order = order if kind == "shell" or options.surface else 0
-    unit = options.unit_scale or 1.0
+    kind, unit = settings.kind, settings.unit
+    order = max(settings.order or KNOWN_ORDER, KNOWN_ORDER)
+    area_order = order if kind == "shell" or settings.surface else 0
     with about_file(name):
         mesh = open_mesh_file(path)
-        found = measure_stream(mesh, order, area_order, options.threads, progress)
+        found = measure_stream(mesh, order, area_order, settings.threads, progress)
         volume, area = _in_meters(found, unit)
         body = StreamBody(
             volume,
@@ -92,12 +81,12 @@ def measure_mesh_file(
             face_count=found.face_count,  # axes of many faces come from third order, without reading them again
             mesh=mesh,
             unit=unit,
-            threads=options.threads,
+            threads=settings.threads,
         )
         if kind == "solid" and not volume.total > volume.rounding_error[0]:
             raise ReadError(NO_VOLUME)
         reading = bare_reading(name, "MESH")
-        return measurement_of(reading, body, Request(used))
+        return measure_reading(reading, body, replace(settings, unit=1.0))
 
 
 def _verdict(found: StreamIntegrals) -> Verdict:

@@ -11,29 +11,25 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ....core.density.smooth_threshold import smooth_threshold_body
-from ....core.density.threshold import ThresholdBody, threshold_body
-from ....core.measurement.body import Body
-from ....core.moments.exponents import KNOWN_ORDER
-from ....core.moments.moments import Moments
-from ....core.verdict.finding import Finding, ReadError, finding
-from ....core.verdict.health import MeshHealth
-from ....core.verdict.method import Method, Source, Verdict
-from ...read.findings import GRID_TOO_LARGE
-from ...read.grids.volume import VolumeReading
-from ...read.reading import to_si
-from ...settings.grid import GridOptions
-from ..body import MAX_MASS_MOMENT
-from ..findings import (
+from ..density.grid_options import GridOptions
+from ..density.smooth_threshold import smooth_threshold_body
+from ..density.threshold import ThresholdBody, threshold_body
+from ..measurement.body import Body
+from ..moments.exponents import KNOWN_ORDER
+from ..moments.moments import Moments
+from ..verdict.finding import Finding, ReadError, finding
+from ..verdict.health import MeshHealth
+from ..verdict.method import Method, Source, Verdict
+from .findings import (
     DENSITY_FROM_GRID,
     GRID_EMPTY,
-    GRID_IS_LEVEL_SET,
     MASS_OVERFLOW,
     THRESHOLD_CLIPPED,
     THRESHOLD_MEASURED,
     THRESHOLD_NEEDS_FACTOR,
     THRESHOLD_NOT_REACHED,
 )
+from .mesh_body import MAX_MASS_MOMENT
 
 MAX_SAMPLES = 1 << 29  # in the box that holds the grid
 PREVIEW_CELLS = 1 << 18  # in a grid that follows a slider
@@ -96,23 +92,6 @@ class ThresholdGridBody(Body):
         """Return the moments of the body, and of the surface on which the values are the threshold."""
         above = self.grid.set_above(self.options._replace(filled=False), order)
         return above.volume, above.area if area else None
-
-
-def threshold_grid(reading: VolumeReading, unit: float) -> ThresholdGrid:
-    """Return the values of a grid as one array, or raise ReadError if it is a level set or too large."""
-    if reading.level_set:
-        raise ReadError(GRID_IS_LEVEL_SET, grid=reading.grid)
-    if np.prod(reading.shape, dtype=np.float64) > MAX_SAMPLES:
-        raise ReadError(GRID_TOO_LARGE, grid=reading.grid, samples=list(reading.shape))
-    values = np.full(reading.shape, reading.background, np.float32)
-    for (i, j, k), block in reading.blocks():
-        if block.dtype.itemsize > 4:
-            values = values.astype(np.float64, copy=False)
-        values[i : i + block.shape[0], j : j + block.shape[1], k : k + block.shape[2]] = block
-    first = np.eye(4)
-    first[:3, 3] = reading.low
-    matrix = to_si(reading.matrix[None], unit)[0] @ reading.to_object @ first
-    return ThresholdGrid(reading.grid, values, matrix, float(reading.background))
 
 
 def threshold_grid_body(

@@ -9,9 +9,9 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from ....core.streams.findings import FILE_UNREADABLE
-from ....core.verdict.finding import MeasureError, ReadError, system_reason
-from ...read.reading import Reading
+from ..streams.findings import FILE_UNREADABLE
+from ..verdict.finding import MeasureError, ReadError, system_reason
+from .reading import Reading
 
 
 def bare_reading(name: str, kind: str) -> Reading:

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The findings of `audit` that count: without ignored codes, light links and those that a baseline knows."""
+
+from __future__ import annotations
+
+import json
+import os
+from argparse import Namespace
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..core.files.whole_file import whole_file
+from ..core.robots.write import audit_report
+from ..core.verdict.catalog import declared
+from ..core.verdict.finding import Severity
+
+SCHEMA = "body-moments-baseline/1"
+FAILING = {"error": (Severity.ERROR,), "warning": (Severity.ERROR, Severity.WARNING), "never": ()}
+Key = tuple[str, str, str]  # file, link and code
+
+
+def unknown_codes(codes: Iterable[str]) -> list[str]:
+    """Return the texts that are no code of a finding."""
+    unknown = []
+    for code in codes:
+        try:
+            declared(code)
+        except KeyError:
+            unknown.append(code)
+    return unknown
+
+
+def apply(document: dict[str, Any], options: Namespace) -> dict[str, Any]:
+    """Return the document of a file after `--ignore`, `--light-links` and `--baseline`."""
+    links = []
+    for link in document["links"]:
+        is_light = options.light_links and link["mass"] is not None and link["mass"] <= options.light_links
+        findings = []
+        for found in link["findings"]:
+            if found["code"] in options.ignore:
+                continue
+            if is_light:
+                found = {**found, "severity": str(Severity.NOTE)}
+            if options.known is not None and _key(found, link, options.baseline) in options.known:
+                found = {**found, "known": True}
+            findings.append(found)
+        links.append({**link, "findings": findings})
+    return audit_report.with_status({**document, "links": links})
+
+
+def fails(documents: Iterable[dict[str, Any]], level: str) -> bool:
+    """Return whether a file could not be read, or has a finding of this level or above that is not known."""
+    counted = [str(severity) + "s" for severity in FAILING[level]]
+    return any(one["errors"] or any(audit_report.count_findings(one)[name] for name in counted) for one in documents)
+
+
+def read_baseline(path: Path) -> set[Key]:
+    """Return the known findings of a file. Raises OSError, or ValueError if it is no baseline."""
+    data = json.loads(path.read_text(encoding="utf-8"))
+    if not isinstance(data, dict) or data.get("schema") != SCHEMA:
+        raise ValueError("it is no baseline of this command. Write one with --write-baseline")
+    try:
+        return {(one["file"], one["link"], one["code"]) for one in data["findings"]}
+    except (KeyError, TypeError) as error:
+        raise ValueError("its findings are damaged. Write it anew with --write-baseline") from error
+
+
+def write_baseline(path: Path, documents: Sequence[dict[str, Any]]) -> None:
+    """Write all findings but notes, with files relative to the baseline's folder. Raises OSError."""
+    keys = sorted({*_keys(documents, path)})
+    findings = [dict(zip(("file", "link", "code"), key)) for key in keys]
+    text = json.dumps({"schema": SCHEMA, "findings": findings}, ensure_ascii=False, indent=1)
+    with whole_file(path) as file:
+        file.write((text + "\n").encode("utf-8", "backslashreplace"))
+
+
+def _keys(documents: Sequence[dict[str, Any]], baseline: Path) -> Iterator[Key]:
+    for one in documents:
+        for link in one["links"]:
+            yield from (_key(found, link, baseline) for found in link["findings"] if found["severity"] != Severity.NOTE)
+
+
+def _key(found: dict[str, Any], link: dict[str, Any], baseline: Path) -> Key:
+    folder = os.path.dirname(os.path.abspath(baseline))
+    try:
+        file = os.path.relpath(found["file"], folder)
+    except ValueError:  # another drive
+        file = found["file"]
+    return file.replace(os.sep, "/"), link["name"], found["code"]

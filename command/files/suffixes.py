@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Kinds of files by their suffixes, and checks of a file before anything reads it."""
+
+from __future__ import annotations
+
+import os
+import zipfile
+from pathlib import Path
+
+from ...core.scans import formats as scans
+from ...core.scans.findings import DAMAGE_INCOMPLETE, FILE_MISSING, FILE_NOT_REGULAR, FILE_TYPE
+from ...core.scans.scan import damaged
+from ...core.streams.findings import FILE_UNREADABLE
+from ...core.verdict.finding import FileError, system_reason
+
+BLEND = ".blend"
+UNITLESS = (".stl", ".obj", ".ply")  # formats that need no import either
+STREAMED = (".stl", ".ply")  # formats that can be measured in blocks
+USD = (".usd", ".usda", ".usdc", ".usdz")
+IMPORTED = (".stl", ".ply", ".obj", ".fbx", ".3mf", ".igs", ".iges", ".glb", ".gltf", *USD)
+
+
+def file_suffix(path: str) -> str:
+    """Return the file's suffix in lower case."""
+    return scans.scan_suffix(path) or Path(path.lower()).suffix
+
+
+def check_file(path: str) -> None:
+    """Raise FileError if a file cannot be opened, or is visibly cut short."""
+    kind = file_suffix(path)
+    if kind != BLEND and kind not in IMPORTED:
+        raise FileError(FILE_TYPE, suffixes=" ".join((BLEND, *IMPORTED, *scans.SUFFIXES)))
+    if not os.path.exists(path):
+        raise FileError(FILE_MISSING)
+    if not os.path.isfile(path):
+        raise FileError(FILE_NOT_REGULAR)
+    try:
+        with open(path, "rb") as file:
+            is_empty = not file.read(1)
+    except OSError as error:
+        raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+    if is_empty:
+        raise FileError(FILE_UNREADABLE, error="it is empty")
+    if kind == ".usdz":
+        _check_usdz(Path(path))
+
+
+def _check_usdz(path: Path) -> None:
+    """Raise FileError if the checksum of a stored entry is wrong, which Blender's reader ignores."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            stored = [entry for entry in archive.infolist() if entry.compress_type == zipfile.ZIP_STORED]
+            if sum(entry.file_size for entry in stored) > path.stat().st_size:
+                raise zipfile.BadZipFile("overlapping entries")
+            for entry in stored:
+                with archive.open(entry) as file:
+                    while file.read(1 << 20):
+                        pass
+    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError, OSError, ValueError) as error:
+        raise damaged(path, DAMAGE_INCOMPLETE, kind="archive", error=str(error).rstrip(".")) from error

@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files that are measured without Blender, whether it is there or not: arrays and scans, and meshes.
+
+An array, a scan, and a mesh that is read in blocks are one body, named after the file. An .obj file may have several.
+"""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from dataclasses import replace
+from typing import Any
+
+from ...blender.session.findings import NO_SUCH_NAME
+from ...blender.write.thumbnail import thumbnail
+from ...core.bodies.array_file import ArrayOptions, measure_array
+from ...core.bodies.findings import DENSITY_DEFAULTED, SHAPE_OF_GRID
+from ...core.bodies.measure import measure_reading
+from ...core.bodies.mesh_file import body_of_mesh, read_mesh
+from ...core.bodies.stream import measure_mesh_file
+from ...core.cad.meshes import read_meshes
+from ...core.cad.obj import has_surfaces
+from ...core.measurement import record
+from ...core.measurement.measurement import Measurement
+from ...core.measurement.settings import Settings
+from ...core.measurement.trust import open_body_caveats
+from ...core.robots.formats import FORMATS as ROBOT_FORMATS
+from ...core.scans import formats as scans
+from ...core.streams.file_mesh import FileMesh
+from ...core.streams.findings import FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
+from ...core.verdict.finding import FileError, Finding, MeasureError, QueryError, finding, system_reason
+from .. import measure
+from ..files.suffixes import STREAMED, UNITLESS, check_file, file_suffix
+from ..findings import FOURIER_OBJECT_COUNT, RESULTS_NEED_BLEND, STREAM_OPTIONS
+from ..options.arguments import words
+from ..options.density import density_of
+from ..options.file import OF_ARRAYS, body_findings, file_findings, unused
+from ..options.needs_blender import NEEDS_BLENDER, boolean_and_wire, options_of_blender
+from ..supervisor.processes import has_blender
+from .entries import Contents, failure
+
+BYTES_PER_FACE = 500  # approximate memory for reading and measuring a mesh
+BYTES_OF_FILE = {".stl": 50, ".ply": 19}  # Least bytes for each face: a file's size limits its faces.
+DEFAULT_DENSITY = 1000.0  # kg/m³
+_NOT_OF_STREAMS = ("wall", "polynomial", "density_from", "fourier")
+
+
+class BareFile:
+    """A file that is measured without Blender.
+
+    options: those of the command line. memory: bytes that measuring it may take, None for any. progress: returns a
+    counter of the samples or faces read from a file.
+    """
+
+    has_saved = False
+
+    def __init__(
+        self,
+        path: str,
+        options: Namespace,
+        threads: int,
+        memory: int | None,
+        progress: Callable[[str, str], Callable[[int], None]],
+    ) -> None:
+        self._path, self.options, self._threads, self._memory = path, options, threads, memory
+        self._progress = progress
+        self._is_scan = bool(scans.scan_suffix(path))
+
+    def measure(self, contents: Contents) -> None:
+        """Measure the bodies in the file. Raises MeasureError."""
+        if self._is_scan or is_streamed(self._path, self.options, self._memory):
+            self._measure_whole(contents)
+        else:
+            check_file(self._path)
+            self._measure_meshes(contents)
+        contents.caveats += open_body_caveats((label, one.method) for label, _, one in contents.measured)
+
+    def store(self, contents: Contents) -> None:
+        """Refuse to store results."""
+        if self.options.write:
+            raise FileError(RESULTS_NEED_BLEND)
+
+    def complete(self, document: dict[str, Any], contents: Contents) -> dict[str, Any]:
+        """Return a document with its text as a robot, if one is requested, which needs Blender."""
+        if self.options.format not in ROBOT_FORMATS:
+            return document
+        wanted = measure.scene.measure_options(self.options, self._threads)
+        return measure.robots.complete(document, contents.measured, self.options, wanted, is_opened=False)
+
+    def files(self) -> list[str]:
+        """Return the files that Blender has read with it: none."""
+        return []
+
+    def _settings(self) -> Settings:
+        options = self.options
+        return Settings(
+            kind=options.kind or "solid",
+            density=density_of(options),
+            mass=options.mass,
+            thickness=options.thickness or 0.0,
+            wall=options.wall or "thin",
+            order=options.order,
+            surface=options.surface_moments,
+            threads=self._threads,
+        )
+
+    def _mesh_settings(self) -> tuple[Settings, list[Finding]]:
+        """Return the settings of meshes, and the findings about the file."""
+        settings = replace(self._settings(), unit=self.options.unit_scale or 1.0)
+        findings = [*file_findings(self._path, self.options)]
+        if settings.density is None and settings.mass is None:
+            settings = replace(settings, density=DEFAULT_DENSITY)
+            findings.append(finding(DENSITY_DEFAULTED, density="1000 kg/m³"))
+        return settings, findings
+
+    def _chosen(self, names: Iterable[str], contents: Contents) -> list[str]:
+        """Return the requested names; each that does not exist is an error."""
+        names = [*names]
+        wanted = names if self.options.object is None else [*dict.fromkeys(self.options.object)]
+        contents.errors += [
+            failure(other, finding(NO_SUCH_NAME, kind="object", name=other)) for other in wanted if other not in names
+        ]
+        return [name for name in names if name in wanted]
+
+    def _measure_whole(self, contents: Contents) -> None:
+        """Measure the samples of a file, or its faces in blocks."""
+        is_scan = self._is_scan
+        name = os.path.basename(self._path)[: -len(file_suffix(self._path))]
+        is_chosen = self._chosen([name], contents)
+        if is_scan and self.options.fourier:
+            contents.errors.append(failure(None, finding(FOURIER_OBJECT_COUNT, count=0)))
+        if not is_chosen:
+            return
+        count = self._progress(self._path, "samples" if is_scan else "faces")
+        measurement = self._measure_array(name, count) if is_scan else self._measure_stream(name, count)
+        requested = [more for more in ("pose", "signature") if getattr(self.options, more)]
+        shapeless = unused(requested) if not is_scan else [finding(SHAPE_OF_GRID)] if requested else []
+        more = dict.fromkeys([*requested, *["thumbnail"] * bool(self.options.thumbnails)])
+        self._add(contents, measurement, shapeless, more)
+
+    def _measure_array(self, name: str, progress: Callable[[int], None]) -> Measurement:
+        taken = {one: getattr(self.options, one) for one in (*OF_ARRAYS, "unit_scale", "limits", "threshold")}
+        taken["positions"] = dict(self.options.positions or ())
+        array = ArrayOptions(**{one: value for one, value in taken.items() if value is not None})
+        return measure_array(self._path, name, array, self._settings(), progress)
+
+    def _measure_stream(self, name: str, progress: Callable[[int], None]) -> Measurement:
+        check_file(self._path)
+        options = self.options
+        given = [one for one in _NOT_OF_STREAMS if getattr(options, one) not in (None, "thin", "value")]
+        given += boolean_and_wire(options)
+        if given:
+            raise QueryError(STREAM_OPTIONS, options=words(given))
+        settings, findings = self._mesh_settings()
+        return measure_mesh_file(self._path, name, settings, tuple(findings), progress)
+
+    def _measure_meshes(self, contents: Contents) -> None:
+        """Measure the meshes of a file, each with a name of its own."""
+        try:
+            if file_suffix(self._path) == ".obj" and has_surfaces(self._path):
+                raise FileError(FILE_UNREADABLE, error=NEEDS_BLENDER.format("its surfaces need"))
+            meshes, upright = read_meshes(self._path)
+        except OSError as error:
+            raise FileError(FILE_UNREADABLE, error=system_reason(error)) from error
+        if not meshes:
+            raise FileError(FILE_WITHOUT_OBJECTS, content="objects")
+        meshes = _with_own_names(meshes)
+        settings, findings = self._mesh_settings()
+        chosen = self._chosen([mesh.name for mesh in meshes], contents)
+        for mesh in meshes:
+            if mesh.name not in chosen:
+                continue
+            try:
+                reading = read_mesh(mesh, upright)
+                body = body_of_mesh(reading, settings)
+                measurement = measure_reading(reading, body, settings)
+                more = {}
+                if self.options.thumbnails:
+                    surface, properties = reading.join(), measurement.mass_properties
+                    points = surface.points * settings.unit
+                    triangles = surface.all_triangles()[0]
+                    more["thumbnail"] = thumbnail(points, triangles, properties.center, properties.principal.axes)
+                self._add(contents, measurement, findings, more)
+            except MeasureError as refusal:
+                refusal.about(mesh.name)
+                contents.errors.append(failure(mesh.name, refusal.finding))
+
+    def _add(
+        self, contents: Contents, measurement: Measurement, findings: Iterable[Finding], more: dict[str, Any]
+    ) -> None:
+        """Add a measurement and its record. findings: about its file. more: parts of the record."""
+        options = self.options
+        findings = (*measurement.findings, *findings, *body_findings(options, measurement))
+        measurement = replace(measurement, findings=findings)
+        surface = measurement.area_moments if options.surface_moments else None
+        contents.objects.append(record.record(measurement, options.frame, options.order, surface, more, options.about))
+        contents.measured.append((measurement.name, None, measurement))
+
+
+def _with_own_names(meshes: list[FileMesh]) -> list[FileMesh]:
+    """Return the meshes, later ones of a name with numbers behind it, as Blender names objects."""
+    names: set[str] = set()
+    named = []
+    for mesh in meshes:
+        name, count = mesh.name, 0
+        while name in names:
+            count += 1
+            name = "{}.{:03d}".format(mesh.name, count)
+        names.add(name)
+        named.append(replace(mesh, name=name))
+    return named
+
+
+def is_bare(path: str, options: Namespace, memory: int | None) -> bool:
+    """Return whether a file is measured without Blender. memory: bytes that measuring it may take, None for any."""
+    if scans.scan_suffix(path) or not has_blender():
+        return True
+    suffix = file_suffix(path)
+    if suffix not in UNITLESS:
+        return False
+    if is_streamed(path, options, memory):
+        return True
+    if options_of_blender(options, False):
+        return False
+    with suppress(OSError, ValueError):  # Reading reports the error.
+        return suffix != ".obj" or not has_surfaces(path)
+    return True
+
+
+def is_streamed(path: str, options: Namespace, memory: int | None) -> bool:
+    """Return whether the faces of a file are read in blocks."""
+    suffix = file_suffix(path)
+    if suffix not in STREAMED or options.stream != "auto":
+        return suffix in STREAMED and options.stream == "always"
+    with suppress(OSError, ValueError):  # Reading reports the error.
+        return memory is not None and os.path.getsize(path) / BYTES_OF_FILE[suffix] * BYTES_PER_FACE > memory
+    return False

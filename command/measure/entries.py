@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Entries of a document about objects: failures, and findings that several records share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from ...core.measurement.measurement import Measurement
+from ...core.verdict.finding import Finding, finding, unique
+
+
+@dataclass
+class Contents:
+    """What was measured in a file: entries of its document.
+
+    measured: names, objects in Blender and measurements, in the order of `objects`. caveats: about the total.
+    """
+
+    objects: list[dict[str, Any]] = field(default_factory=list)
+    measured: list[tuple[str, Any, Measurement]] = field(default_factory=list)
+    flats: list[dict[str, Any]] = field(default_factory=list)
+    errors: list[dict[str, Any]] = field(default_factory=list)
+    left_out: list[dict[str, Any]] = field(default_factory=list)
+    caveats: list[Finding] = field(default_factory=list)
+
+
+def failure(name: str | None, reason: Finding) -> dict[str, Any]:
+    """Return an entry of a document's `errors` or `left_out`: an object's name and the reason."""
+    return {"name": name, "reason": str(reason)}
+
+
+def said_once(entries: Sequence[dict[str, Any]], code: str) -> Iterator[Finding]:
+    """Yield the finding with a code, to be said once of a file, if several records all have it; it leaves them."""
+    found = [(entry, one) for entry in entries for one in entry["findings"] if one["code"] == code]
+    if len(found) < len(entries) or len(entries) < 2:
+        return
+    for entry, one in found:
+        entry["findings"].remove(one)
+        entry["warnings"].remove(one["message"])
+    yield from unique(finding(code, **one["values"]) for _, one in found)

@@ -1,0 +1,288 @@
+# SPDX-FileCopyrightText: 2026 Body Moments contributors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A .blend file, or a file that Blender imports, as the open scene: measurement of its objects, storage of results."""
+
+from __future__ import annotations
+
+import os
+from argparse import Namespace
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import bpy
+
+from ...blender.bodies.measure_object import Measured
+from ...blender.bodies.stacks.stack import Stacked
+from ...blender.read.total_caveats import operands_of, total_caveats
+from ...blender.read.tracking import tracking_paused
+from ...blender.session.tracking.staleness import mark_up_to_date
+from ...blender.settings import properties as settings
+from ...blender.settings.density import unset_density
+from ...blender.settings.options import MeasureOptions
+from ...blender.write.findings import FILE_NOT_WRITTEN
+from ...blender.write.properties import store
+from ...core.bodies.findings import DENSITY_DEFAULTED
+from ...core.measurement import record
+from ...core.measurement.measurement import Measurement
+from ...core.measurement.trust import open_body_caveats
+from ...core.streams.findings import FILE_UNREADABLE
+from ...core.verdict.finding import FileError, Finding, MeasureError, finding, system_reason
+from ..files.files import newer_version, open_file, requested_file
+from ..files.references import Opened, missing_links
+from ..files.saving import Place
+from ..files.scripts import blocked_scripts, scripts_of_open_file
+from ..files.suffixes import BLEND, file_suffix
+from ..findings import (
+    FOURIER_OBJECT_COUNT,
+    PART_UNAVAILABLE,
+    RESULTS_NEED_BLEND,
+    SOLID_OPERAND_MEASURED,
+)
+from ..options import density as density_options
+from ..options.file import body_findings, file_findings, is_unitless
+from . import assets, flat, fourier, robots
+from .combined import Combined, measure_combined
+from .entries import Contents, failure
+from .measuring import measure_shape, measured_together, thumbnail_of
+from .objects import objects_to_measure, other_scenes, set_density, why_nothing
+
+
+def open_name() -> str | None:
+    """Return the name of the open file, or of the file that Blender was started with and could not open."""
+    return bpy.data.filepath or requested_file()
+
+
+def measure_options(options: Namespace, threads: int) -> MeasureOptions:
+    """Return the options of a command line that override the settings of objects."""
+    return MeasureOptions(
+        **{name: getattr(options, name) for name in ("kind", "mass", "thickness", "overlap", "wall")},
+        density=density_options.density_of(options),
+        order=options.order,
+        surface=options.surface_moments,
+        threads=threads,
+    )
+
+
+class Scene:
+    """The file at a path, once it is open, or the open file if there is no path.
+
+    internal: returns the entry about an unexpected error. has_opened, has_saved: whether the file has become the open
+    scene, and whether it was saved in place.
+    """
+
+    def __init__(
+        self,
+        path: str | None,
+        options: Namespace,
+        threads: int,
+        internal: Callable[[str | None, Exception], dict[str, Any]],
+    ) -> None:
+        self._path, self.options, self._internal = path, options, internal
+        self._wanted = measure_options(options, threads)
+        self._combined = Combined()
+        self._is_open = self.has_opened = self.has_saved = False
+
+    def measure(self, contents: Contents) -> None:
+        """Open the file and measure its objects. Raises MeasureError."""
+        path, options = self._path, self.options
+        self._place = self._place_of_results()
+        opened = self._open(path, path or open_name())
+        self._is_open = True
+        # Not set in the scene, whose unit scale is a float32 with limits.
+        unit = (options.unit_scale or 1.0) if is_unitless(path) else None
+        wanted = self._wanted = replace(self._wanted, unit_scale=unit)
+        chosen, contents.left_out, errors = objects_to_measure(options.object, options.all, opened.hidden)
+        contents.errors = errors
+        errors += [failure(None, reason) for reason in (*opened.errors, *missing_links())]
+        of_file = (*opened.notes, *file_findings(path, options), *blocked_scripts(), *newer_version())
+        objects, measured, contents.flats = self._measure_each(chosen, wanted, of_file, opened, errors)
+        contents.objects, contents.measured = objects, measured
+        contents.caveats += scripts_of_open_file() if path is None else ()
+        contents.caveats += open_body_caveats((label, one.method) for label, _, one in measured)
+        if options.object is None:  # A user who names objects knows what their total means.
+            contents.caveats += total_caveats([obj for _, obj, _ in measured], bpy.context.view_layer)
+            contents.caveats += other_scenes(bpy.context.scene)
+            self._combined = measure_combined(wanted, self._internal, options.asset_metadata is not None)
+            errors += self._combined.errors
+        if options.fourier:
+            errors.extend(self._fourier(chosen, wanted, [*objects, *contents.flats]))
+        if not objects and not contents.flats and not errors:
+            errors.append(failure(None, why_nothing(len(contents.left_out))))
+
+    def store(self, contents: Contents) -> None:
+        """Save results and the metadata of assets, if they are requested. Raises MeasureError."""
+        path, options = self._path, self.options
+        if options.write:
+            contents.errors.extend(self._store(path, contents.measured, self._wanted))
+            contents.errors.extend(self._combined.store(self._internal))
+        is_changed = options.write
+        if options.asset_metadata and path is not None and file_suffix(path) == BLEND:
+            of_objects = {obj: one for _, obj, one in contents.measured}
+            in_file, told = assets.write(of_objects | self._combined.measurements(), path, options.asset_metadata)
+            is_changed = is_changed or in_file
+            contents.caveats += told
+        if is_changed:
+            if self._place is None:
+                raise FileError(FILE_NOT_WRITTEN, file=path or open_name(), error="it is gone")
+            self._place.save()
+            self.has_saved = True
+
+    def complete(self, document: dict[str, Any], contents: Contents) -> dict[str, Any]:
+        """Return a document with the scene's assemblies, bones and flat shapes, and its text as a robot."""
+        document |= self._combined.records(self.options.frame)
+        document |= {"flat": contents.flats} if self.options.flat else {}
+        return robots.complete(document, contents.measured, self.options, self._wanted, is_opened=self._is_open)
+
+    def files(self) -> list[str]:
+        """Return the files that Blender has read with the open file."""
+        return bpy.utils.blend_paths(absolute=True, packed=False) if self.has_opened else []
+
+    def _place_of_results(self) -> Place | None:
+        """Return the .blend file in which results will be saved, None if there is none. Raises FileError."""
+        is_saved = self.options.write or self.options.asset_metadata == "file"
+        is_blend = self._path is None or file_suffix(self._path) == BLEND
+        target = self._path or bpy.data.filepath
+        return Place.of_file(target) if is_saved and is_blend and os.path.isfile(target) else None
+
+    def _measure_each(
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        wanted: MeasureOptions,
+        of_file: tuple[Finding, ...],
+        opened: Opened,
+        errors: list[dict[str, Any]],
+    ) -> tuple[list[dict[str, Any]], list[tuple[str, bpy.types.Object, Measurement]], list[dict[str, Any]]]:
+        """Return the records and measurements of bodies, and the records of flat shapes.
+
+        Failures are added to `errors`. of_file: findings about the file.
+        """
+        objects, measured, flats = [], [], []
+        operands = operands_of(bpy.context.scene.objects) if self.options.object is None else {}
+        in_turn = measured_together([obj for _, obj in chosen], self.options, wanted)
+        for label, obj in chosen:
+            user = operands.get(obj)
+            cut = [] if user is None else [finding(SOLID_OPERAND_MEASURED, object=user.name)]
+            try:
+                about = (*opened.by_object.get(obj.name, ()), *of_file, *cut)
+                one, entry = self._measure_record(label, obj, wanted, in_turn, about, errors)
+            except MeasureError as refusal:
+                errors.append(failure(label, refusal.finding))
+            except Exception as error:
+                errors.append(self._internal(label, error))
+            else:
+                if one is None:
+                    flats.append(entry)
+                else:
+                    objects.append(entry)
+                    measured.append((label, obj, one))
+        return objects, measured, sorted(flats, key=lambda entry: entry["name"])
+
+    def _measure_record(
+        self,
+        label: str,
+        obj: bpy.types.Object,
+        measure_options: MeasureOptions,
+        in_turn: Callable[[bpy.types.Object], Measured | Stacked] | None,
+        findings: tuple[Finding, ...],
+        errors: list[dict[str, Any]],
+    ) -> tuple[Measurement | None, dict[str, Any]]:
+        """Return an object's measurement and its record, or None and the record of a flat shape.
+
+        A body with a mass but without moments of the requested order gets a record without them, and an error is added.
+        in_turn: measures the objects together; None if each has to be measured by itself. findings: about the object's
+        file.
+        """
+        order = self.options.order
+        set_density(obj, self.options)
+        try:
+            measurement, more, of_shape = (
+                (in_turn(obj).measurement, {}, ()) if in_turn else measure_shape(obj, self.options, measure_options)
+            )
+        except MeasureError as refusal:
+            if flat.is_meant(self.options, refusal):
+                return None, flat.record_of(label, obj, self.options, measure_options.unit_scale, refusal, findings)
+            if order is None:
+                raise
+            lower = replace(measure_options, order=None)
+            measurement, more, of_shape = measure_shape(obj, self.options, lower)
+            errors.append(failure(label, _unavailable("moments of this order", refusal)))
+            order = None
+        surface = measurement.area_moments if self.options.surface_moments and order is not None else None
+        findings = (
+            *(*measurement.findings, *of_shape, *findings),
+            *(*self._default_density(obj, measurement), *body_findings(self.options, measurement)),
+        )
+        named = replace(measurement, name=label, findings=findings)
+        if self.options.thumbnails:
+            more["thumbnail"] = thumbnail_of(obj, measurement, measure_options.unit_scale)
+        return measurement, record.record(named, self.options.frame, order, surface, more, self.options.about)
+
+    def _default_density(self, obj: bpy.types.Object, measurement: Measurement) -> Iterator[Finding]:
+        """Yield a finding if neither an option nor the object sets the density."""
+        if self.options.density is not None or self.options.mass is not None or self.options.material is not None:
+            return
+        unset = unset_density(obj, measurement, bpy.context.scene)
+        if unset is not None:
+            yield finding(DENSITY_DEFAULTED, density="1 kg/m" if unset == "linear_density" else "1000 kg/m³")
+
+    def _open(self, path: str | None, file: str | None) -> Opened:
+        """Open `path`, if given, and return what was found. FileError if there is none and `file` is not loaded."""
+        if path is not None:
+            unresolved = open_file(path)
+            self.has_opened = True
+            return unresolved
+        if file and not bpy.data.filepath:
+            raise FileError(FILE_UNREADABLE, error="it is missing or incomplete")
+        return Opened()
+
+    def _fourier(
+        self,
+        chosen: list[tuple[str, bpy.types.Object]],
+        measure_options: MeasureOptions,
+        objects: list[dict[str, Any]],
+    ) -> Iterator[dict[str, Any]]:
+        """Write the Fourier transform of the one measured object, and add the findings to its record."""
+        if len(chosen) != 1:
+            yield failure(None, finding(FOURIER_OBJECT_COUNT, count=len(chosen)))
+            return
+        if not objects:
+            return  # the reason is among the errors already
+        (label, obj), (entry,) = chosen[0], objects
+        try:
+            record.add_findings(entry, fourier.write(obj, self.options, measure_options))
+        except MeasureError as refusal:
+            yield failure(label, _unavailable("Fourier transform", refusal))
+        except OSError as error:
+            file = str(self.options.fourier)
+            yield failure(label, finding(FILE_NOT_WRITTEN, file=file, error=system_reason(error)))
+        except Exception as error:
+            yield self._internal(label, error)
+
+    def _store(
+        self,
+        path: str | None,
+        measured: list[tuple[str, bpy.types.Object, Measurement]],
+        wanted: MeasureOptions,
+    ) -> Iterator[dict[str, Any]]:
+        """Store the results of all objects, and yield the entries about failures.
+
+        It follows all measurements, as drivers may read results. Given settings are stored too, so that results fit.
+        """
+        if not bpy.data.filepath or path is not None and file_suffix(path) != BLEND:
+            raise FileError(RESULTS_NEED_BLEND)
+        for label, obj, one in measured:
+            try:
+                store(obj, one)
+                with tracking_paused():  # the stored results already belong to these settings
+                    settings.apply_options(obj.body_moments, wanted, bpy.context.scene)
+            except MeasureError as refusal:
+                yield failure(label, refusal.finding)
+            except Exception as error:
+                yield self._internal(label, error)
+        mark_up_to_date(bpy.context, [obj for _, obj, _ in measured])
+
+
+def _unavailable(part: str, refusal: MeasureError) -> Finding:
+    """Return the finding that a part of a record is missing, with the cause."""
+    return finding(PART_UNAVAILABLE, part=part, cause=refusal.finding.as_record())
