@@ -20,8 +20,7 @@ from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
-from ..core.verdict.groups import Group
-from ..core.verdict.sentences import severity
+from ..core.verdict.sentences import Group, severity
 from . import remedies, rows
 from .density import given_rows
 from .places import in_both_places

@@ -15,14 +15,13 @@ from ..blender.session.displayed import Displayed, Total, Trust, displayed, show
 from ..blender.session.live.following import Lag, current_numbers, is_live
 from ..blender.session.stored import outcome
 from ..blender.session.tracking import armatures
-from ..blender.settings.links import draw_links
+from ..blender.settings.preferences import draw_links
 from ..blender.write import properties
 from ..blender.write.translations import localized
 from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
-from ..core.verdict.groups import Group
 from ..core.verdict.method import Source
-from ..core.verdict.sentences import METHODS, method_key
+from ..core.verdict.sentences import METHODS, Group, method_key
 from ..core.wall.findings import WALL_MEASURED
 from . import remedies, rows
 from .density import material_row
@@ -74,7 +73,7 @@ def _one_object(layout: UILayout, context: Context, shown: Displayed | None) -> 
     material_row(layout, context, obj)
     _buttons(layout, context)
     now = current_numbers(obj)
-    if now is not None and now.refusal is not None:
+    if now is not None and now.refusal is not None and outcome.last() is None:
         rows.message(layout, context, now.refusal)
     if shown is None or numbers is None:
         return

@@ -14,8 +14,7 @@ from contextlib import suppress
 import bpy
 from bpy.types import Context, Menu, UILayout
 
-from ..blender.settings.links import address, folder
-from ..blender.settings.preferences import shows_advanced
+from ..blender.settings.preferences import address, manual_folder, shows_advanced
 
 Entry = tuple[str, str]  # an operator, which has one name wherever it stands, and its icon
 MEASURE: Entry = ("object.body_moments_measure", "PHYSICS")
@@ -167,7 +166,7 @@ def _rigid_body_panel(panel: Menu, context: Context) -> None:
 
 
 def _map() -> tuple[str, tuple[tuple[str, str], ...]]:
-    return folder().as_uri() + "/", PAGES
+    return manual_folder().as_uri() + "/", PAGES
 
 
 def _help_entry(self: Menu, _context: Context) -> None:
@@ -177,7 +176,7 @@ def _help_entry(self: Menu, _context: Context) -> None:
 
 def register_manual() -> None:
     """Add the manual to *Help* and *Online Manual*, if there is one."""
-    if folder().is_dir():
+    if manual_folder().is_dir():
         bpy.utils.register_manual_map(_map)
         bpy.types.TOPBAR_MT_help.append(_help_entry)
 

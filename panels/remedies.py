@@ -17,8 +17,7 @@ from ..blender.write.translations import localized, localized_sentence
 from ..blender.write.units import Units
 from ..core.inertia.plain_body import PlainBody
 from ..core.verdict.finding import Finding, Severity
-from ..core.verdict.groups import Group
-from ..core.verdict.sentences import of_severity, severity
+from ..core.verdict.sentences import Group, of_severity, severity
 from . import rows
 
 ICONS = {DEFECTS: "ZOOM_SELECTED", SELECT: "RESTRICT_SELECT_OFF"}

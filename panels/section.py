@@ -14,7 +14,7 @@ from ..blender.session.tracking.stamps import of_section
 from ..blender.write import section as record
 from ..blender.write.translations import localized
 from ..blender.write.units import Units, number
-from ..core.verdict.groups import Group
+from ..core.verdict.sentences import Group
 from . import remedies, rows
 from .places import in_both_places
 

@@ -89,38 +89,16 @@ def _listed(layout: UILayout, context: Context) -> None:
         rows=LINES,
     )
     column = layout.column(align=True)
-    rows.button(column, context, "object.body_moments_copy", "COPYDOWN").what = "TABLE"
+    rows.button(column, context, "object.body_moments_copy", "COPYDOWN", text="Copy Table").what = "TABLE"
     rows.button(column, context, "object.body_moments_save_numbers", "FILE_TICK", short="Save")
 
 
 def _total(layout: UILayout, context: Context, units: Units) -> None:
-    rows.title(layout, "Total of Selection")
-    total = displayed.total(context)
-    column = layout.column(align=True)
-    if not total.count:
-        rows.remark(column, context, "No selected object is measured")
-        return
-    rows.filled(column, "1 Object" if total.count == 1 else "{:d} Objects", total.count, icon="GROUP")
-    for names, text in (
-        (total.missing, "Not measured: {objects}"),
-        (total.stale, "Out of date: {objects}"),
-        (total.doubtful, "Doubtful: {objects}"),
-    ):
-        if names:
-            row = column.row()
-            row.alert = True
-            rows.remark(row, context, text, icon="ERROR", objects=names)
-    for caveat in total.findings:
-        rows.message(column, context, caveat)
-    column = layout.column(align=True)
-    numbers = total.numbers
-    mass = None if numbers is None else numbers.mass
-    entries = [("Mass", "mass", mass), ("Volume", "volume", total.volume), ("Area", "area", total.area)]
-    rows.quantities(column, units, [(label, quantity, si) for label, quantity, si in entries if si])
-    if numbers is None:
-        return
-    rows.center(layout, units, "Center of Mass (World)", numbers)
-    rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
+    """Draw what the main panel leaves out of the sum."""
+    numbers = displayed.total(context).numbers
+    if numbers is not None and len(context.selected_objects) > 1:
+        rows.quantities(layout.column(align=True), units, [("Area", "area", numbers.area)])
+        rows.group(layout, units, "Principal Moments", rows.PRINCIPAL_LABELS, "inertia", numbers.moments)
 
 
 CLASSES = (BODY_MOMENTS_UL_measured, *in_both_places(SelectionPanel, "selection"))

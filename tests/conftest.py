@@ -124,6 +124,7 @@ class _Progress:
         self.config, self.path = config, path
         self.counts = dict.fromkeys(("passed", "failed", "skipped"), 0)
         self.left_out = Counter()
+        self.failures = []
         self.left, self.total, self.done = Counter(), 0, 0
 
     def print(self, text: str) -> None:
@@ -152,6 +153,7 @@ class _Progress:
         if report.when == "call" or report.outcome != "passed":
             self.count(report)
         if report.outcome == "failed":
+            self.failures.append(report.nodeid)
             self.print("FAILED {}".format(report.nodeid))
 
     def pytest_runtest_protocol(self, item):
@@ -174,7 +176,8 @@ class _Progress:
 
     @pytest.hookimpl(trylast=True)
     def pytest_sessionfinish(self, exitstatus):
-        text = json.dumps({"exit": int(exitstatus), "left_out": self.left_out, **self.counts})
+        names = {"left_out": self.left_out, "failures": self.failures}
+        text = json.dumps({"exit": int(exitstatus), **names, **self.counts})
         partial = self.path.with_suffix(".partial")
         partial.write_text(text, encoding="utf-8")
         partial.replace(self.path)

@@ -375,10 +375,11 @@ def run_tests(
             runner.print(label, f"exit code {code} came after the tests were over")
     else:
         runner.print(label, f"exit code {code} came before the tests were over")
-        outcome = {"passed": 0, "failed": 0, "skipped": 0, "left_out": {}, "exit": code or 1}
+        outcome = {"passed": 0, "failed": 0, "skipped": 0, "left_out": {}, "failures": [], "exit": code or 1}
     nothing_selected = outcome["exit"] == 5 and extra
     if outcome["exit"] and not nothing_selected:
         outcome["failed"] = max(outcome["failed"], 1)
+    outcome["failures"] = [f"{label}: {name}" for name in outcome["failures"]]
     seconds = time.monotonic() - started
     runner.print(label, f"{summary(outcome)} in {seconds:.0f} s")
     return outcome
@@ -395,7 +396,7 @@ def in_lanes(function: Callable, lanes: Iterable) -> list[dict]:
 
 
 def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -> int:
-    """Print the tests that were left out, by reason, and the total; return the command's exit code."""
+    """Print the tests that were left out, by reason, that failed, and the total; return the command's exit code."""
     total = {word: sum(outcome[word] for outcome in outcomes) for word in ("passed", "failed", "skipped")}
     total["failed"] += failed
     left_out = sum((Counter(outcome["left_out"]) for outcome in outcomes), Counter())
@@ -407,6 +408,8 @@ def finish(outcomes: list[dict], remarks: Iterable[str] = (), failed: int = 0) -
     if not any(total.values()):
         print("No test was selected.")
         total["failed"] = 1
+    for name in (name for outcome in outcomes for name in outcome["failures"]):
+        print(f"FAILED {name}")
     print(summary(total), flush=True)
     return 1 if total["failed"] else 0
 

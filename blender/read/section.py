@@ -202,7 +202,7 @@ def _outline_findings(obj, open_splines: int) -> Iterator[Finding]:
     shown, rendered = obj.data.resolution_u, obj.data.render_resolution_u
     if rendered not in (0, shown):
         difference = finding(RENDER_LEVELS_DIFFER, name="Resolution U", viewport=shown, render=rendered)
-        yield finding(RENDER_DIFFERS, differences=[difference.as_record()])
+        yield finding(RENDER_DIFFERS, slight=True, differences=[difference.as_record()])
 
 
 def _require_flat_outlines(obj) -> None:

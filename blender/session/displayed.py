@@ -16,8 +16,8 @@ from ...core.inertia.plain_body import PlainBody, add_bodies
 from ...core.measurement.trust import Trust, open_body_caveats, trust_of
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding
-from ...core.verdict.groups import Group, grouped
 from ...core.verdict.method import Method, Verdict
+from ...core.verdict.sentences import Group, grouped
 from .. import read
 from ..read.fingerprint import has_transform
 from ..write import properties

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 
 from ...core import density as density_engine
-from ...core.density.grid_options import GridOptions
 from ...core.measurement.findings import DENSITY_FROM_VALUE
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import Finding, ReadError, finding
@@ -113,7 +112,7 @@ def density_anchor(obj: bpy.types.Object) -> str:
 
 def grid_key(obj: bpy.types.Object, density: float | None = None) -> str:
     """Return a key of the density of a Volume object, "" if its grid is measured as a solid."""
-    grid = GridOptions.from_settings(obj.body_moments, density)
+    grid = density_engine.grid_options.GridOptions.from_settings(obj.body_moments, density)
     return "" if grid.solid else repr(grid.key)
 
 
@@ -134,7 +133,8 @@ def density_key(obj: bpy.types.Object, used: Iterable[str], scene: bpy.types.Sce
     if settings.density_from == "VOLUME":
         source = settings.density_volume
         place = None if source is None else [tuple(row) for row in source.matrix_world]
-        return "" if source is None else repr((GridOptions.from_settings(source.body_moments).key, place))
+        options = density_engine.grid_options.GridOptions
+        return "" if source is None else repr((options.from_settings(source.body_moments).key, place))
     if settings.density_from == "POLYNOMIAL":
         return repr((settings.density_frame, settings.density_polynomial.strip()))
     if settings.density_from == "ATTRIBUTE":

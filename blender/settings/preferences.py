@@ -8,20 +8,24 @@ the same numbers on every machine, and in batch, which never reads preferences.
 
 from __future__ import annotations
 
+import sys
+from pathlib import Path
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
-from bpy.types import AddonPreferences, Context, Scene
+from bpy.types import AddonPreferences, Context, Scene, UILayout
 
 from ...core.density.materials import BY_NAME, MATERIALS
 from ...core.numerics.float32 import shortest_decimal
 from .hooks import default_density_changed
-from .links import draw_links
 
 ADDON_ID = __name__.removesuffix(".blender.settings.preferences")
 MATERIAL_ITEMS = [
     (material.name, material.name, "{:.7g} kg/m³. Source: {:s}".format(material.density, material.source))
     for material in MATERIALS
 ]
+# To the website that the manifest names, else to the manual that the build puts beside the code.
+LINKS = {"Manual": ("index.html", "HELP"), "Report a Bug": ("faq.html#report-a-bug", "URL")}
 COPIED = ("frame", "density_unit", "digits", "digit_grouping", "default_material", "default_density")
 
 
@@ -173,3 +177,23 @@ def default_material(scene: Scene) -> str:
     """Return the name of the material of the scene's objects that have no density of their own, "" if there is none."""
     name = scene.body_moments.default_material
     return name if name in BY_NAME else ""
+
+
+def manual_folder() -> Path:
+    """Return the folder of the manual, which need not exist."""
+    return Path(sys.modules[ADDON_ID].__path__[0]) / "manual"
+
+
+def address(page: str) -> str:
+    """Return the address of a page of the manual, or the website; "" if there is neither."""
+    website = getattr(sys.modules[ADDON_ID], "bl_info", {}).get("doc_url", "")  # from the manifest
+    return website or (manual_folder().as_uri() + "/" + page if manual_folder().is_dir() else "")
+
+
+def draw_links(layout: UILayout, icons_only: bool = False) -> None:
+    """Draw the buttons that open the links, if there is anything to open."""
+    for name, (page, icon) in LINKS.items():
+        url = address(page)
+        if url:
+            emboss = {"text": "", "emboss": False} if icons_only else {"text": name}
+            layout.operator("wm.url_open", icon=icon, **emboss).url = url

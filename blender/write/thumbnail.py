@@ -22,7 +22,7 @@ _BODY = np.array([205.0, 208.0, 214.0])
 
 
 def thumbnail(
-    points: NDArray[np.float64], triangles: NDArray[np.integer], center: NDArray[np.float64], axes: NDArray[np.float64]
+    points: NDArray[np.floating], triangles: NDArray[np.integer], center: NDArray[np.float64], axes: NDArray[np.float64]
 ) -> str:
     """Draw triangles from an oblique direction, and return a PNG as a data URL.
 

@@ -33,12 +33,8 @@ class FileMesh:
     def surface(self) -> Surface:
         """Return the faces as a surface of triangles, quads, and the triangles of larger polygons."""
         starts, faces = np.cumsum(self.sides) - self.sides, np.arange(len(self.sides))
-        triangles, owners, quads, quad_faces = (
-            [np.zeros((0, 3), np.int32)],
-            [faces[:0]],
-            np.zeros((0, 4), np.int32),
-            faces[:0],
-        )
+        triangles: list[NDArray[np.integer]] = [np.zeros((0, 3), np.int32)]
+        owners, quads, quad_faces = [faces[:0]], np.zeros((0, 4), np.int32), faces[:0]
         for count in np.unique(self.sides).tolist():
             these = faces[self.sides == count]
             corners = self.corners[starts[these, None] + np.arange(count)].astype(np.int32)

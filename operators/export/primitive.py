@@ -13,7 +13,6 @@ from bpy.props import BoolProperty, EnumProperty
 from bpy.types import Context, Menu, Object, Operator
 
 from ...blender import scene
-from ...blender.scene.rigid_world import add_rigid_bodies, require_rigid_world
 from ...blender.write import reports
 from ...core.verdict.finding import EditRefusedError
 from .. import selection
@@ -53,7 +52,7 @@ class OBJECT_OT_body_moments_equal_inertia(selection.OnSelectionInObjectMode, Op
             if self.rigid_body and (not obj.is_editable or obj.parent is not None):
                 raise EditRefusedError(PRIMITIVE_HAS_PARENT)
             if self.rigid_body:
-                require_rigid_world(context.scene)
+                scene.rigid_world.require_rigid_world(context.scene)
             shapes.append((obj, *scene.find_primitive(obj, depsgraph, self.kind.lower())))
 
         _, failures = selection.apply_to_all(objects, measure)
@@ -66,7 +65,7 @@ class OBJECT_OT_body_moments_equal_inertia(selection.OnSelectionInObjectMode, Op
         return selection.summarize(self, len(added), len(objects), done, failures)
 
     def _make_rigid(self, context: Context, bodies: list[tuple[Object, float]]) -> None:
-        add_rigid_bodies(context, [obj for obj, _ in bodies])
+        scene.rigid_world.add_rigid_bodies(context, [obj for obj, _ in bodies])
         for obj, mass in bodies:
             obj.rigid_body.collision_shape = COLLISION_SHAPES[self.kind]
             obj.rigid_body.mass = mass

@@ -100,7 +100,7 @@ def _table(context: Context) -> Copied | str:
 def _reference(context: Context) -> Copied | str | Finding:
     obj, scene = context.object, context.scene
     result = None if obj is None or not properties.is_stored(obj) else stored.reference.referred(obj, scene)
-    if result is None or isinstance(result, Finding):
+    if obj is None or result is None or isinstance(result, Finding):
         return result or MEASURE_FIRST
     choice = read.reference.ReferenceChoice.from_settings(scene.body_moments_reference)
     return reference_text(obj.name, choice, result), reports.phrase("Copied the report of {count} object", count=1)
@@ -109,7 +109,7 @@ def _reference(context: Context) -> Copied | str | Finding:
 def _section(context: Context) -> Copied | str:
     obj = context.object
     section = None if obj is None else write.section.stored(obj)
-    if section is None:
+    if obj is None or section is None:
         return "Measure a section first"
     text = write.section.text(obj.name, section, staleness.stale_reason(obj, context.scene, stamps.of_section))
     return text, reports.phrase("Copied the section of {object}", object=obj.name)
@@ -118,7 +118,7 @@ def _section(context: Context) -> Copied | str:
 def _moments(context: Context) -> Copied | str:
     obj, scene = context.object, context.scene
     computed = None if obj is None else stored.moments.computed_moments(obj)
-    if computed is None:
+    if obj is None or computed is None:
         return "Compute the moments first"
     settings, about = scene.body_moments, scene.body_moments.moments_about
     reference = stored.moments.reference_of(obj, computed, scene) if about == "REFERENCE" else None

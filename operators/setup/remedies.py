@@ -60,6 +60,7 @@ class OBJECT_OT_body_moments_remedy(_OnActive, Operator):
 
     bl_idname = REPAIR
     bl_label = "Repair"
+    bl_description = "Repair the active object and measure it again"
 
     remedy: EnumProperty(
         name="Remedy",

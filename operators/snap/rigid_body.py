@@ -17,7 +17,6 @@ from ...blender import scene, session
 from ...blender.read.tracking import tracking_paused
 from ...blender.scene.changes import require_storable_data
 from ...blender.scene.findings import RIGID_BODY_MASS_TOO_SMALL, RIGID_BODY_NEEDS_MESH
-from ...blender.scene.rigid_world import MIN_MASS, add_rigid_bodies, require_rigid_world
 from ...blender.write import reports
 from ...core.numerics.float32 import shortest_decimal
 from ...core.verdict.finding import EditRefusedError, Finding, finding
@@ -68,10 +67,12 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
             if obj.rigid_body is None and obj.type != "MESH":
                 raise EditRefusedError(RIGID_BODY_NEEDS_MESH)
             if obj.rigid_body is None:
-                require_rigid_world(context.scene)
+                scene.rigid_world.require_rigid_world(context.scene)
             body = target_in_turn(obj)
-            if body.mass < MIN_MASS:
-                raise EditRefusedError(RIGID_BODY_MASS_TOO_SMALL, mass=float(body.mass), limit=MIN_MASS)
+            if body.mass < scene.rigid_world.MIN_MASS:
+                raise EditRefusedError(
+                    RIGID_BODY_MASS_TOO_SMALL, mass=float(body.mass), limit=scene.rigid_world.MIN_MASS
+                )
             self._bodies.append(body)
 
         self._steps = selection.iterate_objects(self._objects, measure, self._failures)
@@ -81,7 +82,7 @@ class OBJECT_OT_body_moments_set_rigid_body_mass(ModalSteps, selection.OnSelecti
         bodies, failures = self._bodies, self._failures
         with tracking_paused():  # Blender reports a rigid body as a change of the shape
             new = [body.obj for body in bodies if body.obj.rigid_body is None]
-            add_rigid_bodies(context, new)
+            scene.rigid_world.add_rigid_bodies(context, new)
             changed = set(new)
             for body in bodies:
                 before = body.obj.rigid_body.mass

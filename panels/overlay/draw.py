@@ -59,17 +59,20 @@ class BodyMomentsOverlayMirror(PropertyGroup):
 
 
 def _keep_settings() -> None:
+    _kept.clear()
     for scene in bpy.data.scenes:
-        settings = scene.body_moments.overlay
-        _kept[scene.name_full] = {name: getattr(settings, name) for name in SETTINGS if settings.is_property_set(name)}
+        settings = scene.body_moments
+        if settings.is_property_set("overlay"):  # reading a group within a group stores it
+            settings = settings.overlay
+            chosen = {name: getattr(settings, name) for name in SETTINGS if settings.is_property_set(name)}
+            _kept[scene.name_full] = chosen
 
 
 def _restore_settings() -> None:
     for scene in bpy.data.scenes:
-        settings = scene.body_moments.overlay
         for name, value in _kept.get(scene.name_full, {}).items():
-            if getattr(settings, name) != value:
-                setattr(settings, name, value)
+            if getattr(scene.body_moments.overlay, name) != value:
+                setattr(scene.body_moments.overlay, name, value)
 
 
 def draw() -> None:

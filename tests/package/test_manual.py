@@ -84,7 +84,7 @@ def test_every_page_of_buttons_and_settings_exists(folder):
     ],
 )
 def test_online_manual_finds_the_page_of_a_control(control, page, folder, monkeypatch):
-    monkeypatch.setattr(shown, "folder", lambda: folder)
+    monkeypatch.setattr(shown, "manual_folder", lambda: folder)
     shown.register_manual()
     try:
         from bl_operators.wm import WM_OT_doc_view_manual as Viewer

@@ -46,7 +46,7 @@ sys.stdout.flush()
 os._exit(0)
 """
 LABELS = (  # a label of each kind of result
-    *("Exact", "5 Objects", "Exact, from a Grid", "Centroid (World)", "Center of Mass from There", "Symmetry Cs"),
+    *("Exact", "6 Objects", "Exact, from a Grid", "Centroid (World)", "Center of Mass from There", "Symmetry Cs"),
     *("Robot", "hips", "Rig: 1 Mesh", "Principal Axes"),
 )
 

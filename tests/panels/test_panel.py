@@ -120,7 +120,7 @@ def test_total_counts_measured_objects_and_names_others():
     for obj in objects:
         obj.select_set(True)
     found = labels(shown())
-    assert "3 Objects" in found
+    assert "4 Objects" in found
     assert "Not measured: “Not Measured”" in " ".join(found)
     objects[1].body_moments.kind = "SHELL"
     bpy.context.view_layer.update()

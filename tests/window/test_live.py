@@ -66,7 +66,9 @@ bpy.ops.object.body_moments_live()
 bpy.ops.object.mode_set(mode="SCULPT")
 """
 SESSION = "__import__('sys').modules['bl_ext.user_default.body_moments.blender.session.{}']"
-FOLLOWING, STALENESS, RESULTS = (SESSION.format(name) for name in ("live.following", "tracking.staleness", "displayed"))
+FOLLOWING, STALENESS, OUTCOME = (
+    SESSION.format(name) for name in ("live.following", "tracking.staleness", "stored.outcome")
+)
 SPHERE = "bpy.context.object"
 VOLUME = f"{FOLLOWING}.current_numbers({SPHERE}).measurement.volume"
 TRUTH = f"import bmesh\nb = bmesh.new()\nb.from_mesh({SPHERE}.data)\nresult = b.calc_volume()\nb.free()"
@@ -110,8 +112,8 @@ def test_dynamic_topology_is_refused(window):
     window.wait(f"{FOLLOWING}.current_numbers({SPHERE}).refusal is not None")
     assert window.get(f"{FOLLOWING}.current_numbers({SPHERE}).refusal.code") == "sculpted_mesh"
     window.press("object.body_moments_measure")
-    window.wait(f"{RESULTS}.failure({SPHERE}) is not None")
-    assert "Dyntopo" in window.get(f"str({RESULTS}.failure({SPHERE}))")
+    window.wait(f"{OUTCOME}.last() is not None")
+    assert "Dyntopo" in window.get(f"str({OUTCOME}.last().groups[0].finding)")
     window.redraw()
     window.picture("sculpt-dyntopo")
     window.ask("bpy.ops.object.mode_set(mode='OBJECT')")

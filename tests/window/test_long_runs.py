@@ -31,7 +31,7 @@ def library(folder, slow):
 def start(window, folder):
     """Choose the entry of the menu and the folder in the file browser."""
     window.ask("bpy.context.preferences.view.filebrowser_display_type = 'SCREEN'")
-    window.choose("VIEW3D_MT_body_moments", "object.body_moments_measure_library")
+    window.choose("VIEW3D_MT_body_moments_advanced", "object.body_moments_measure_library")
     window.wait("area.type == 'FILE_BROWSER' and area.spaces.active.params is not None")
     window.ask(f"area.spaces.active.params.directory = {str(folder).encode()!r}")
     window.redraw()

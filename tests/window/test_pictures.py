@@ -52,7 +52,7 @@ def test_the_bracket_is_measured_in_aluminium(window):
 
 
 def test_an_empty_shows_the_principal_frame(window):
-    window.choose("VIEW3D_MT_body_moments", "object.body_moments_add_empty")
+    window.choose("VIEW3D_MT_body_moments_shape", "object.body_moments_add_empty")
     window.wait("any(obj.type == 'EMPTY' for obj in bpy.data.objects)")
     window.point_at_view()
     window.redraw()

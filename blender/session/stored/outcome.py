@@ -13,8 +13,7 @@ from dataclasses import dataclass
 import bpy
 
 from ....core.verdict.finding import Finding, Severity
-from ....core.verdict.groups import Group, grouped
-from ....core.verdict.sentences import severity
+from ....core.verdict.sentences import Group, grouped, severity
 from ...write.findings import FAILURE
 
 

@@ -8,6 +8,7 @@ import codecs
 import re
 import stat
 from pathlib import Path
+from typing import Any
 
 from ...scans.findings import FILE_MISSING, FILE_NOT_REGULAR
 from ...streams.findings import FILE_TOO_LARGE, FILE_UNREADABLE, FILE_WITHOUT_OBJECTS
@@ -130,7 +131,7 @@ def _include(root: Node, roots: Roots) -> None:
             waiting.append((node, here, above))
 
 
-def _at(node: Node) -> dict[str, int]:
+def _at(node: Node) -> dict[str, Any]:
     return {"line": node.place.line, "column": node.place.column}
 
 

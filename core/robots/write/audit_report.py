@@ -197,7 +197,7 @@ def to_text(documents: Sequence[dict[str, Any]]) -> str:
 
 def to_table(documents: Sequence[dict[str, Any]]) -> str:
     """Return one line for each file, in columns, and their totals."""
-    rows = [("errors", "warnings", "notes", "links", "can be repaired", "status", "file")]
+    rows: list[tuple[str, ...]] = [("errors", "warnings", "notes", "links", "can be repaired", "status", "file")]
     totals = [0] * 5
     for one in documents:
         counts = count_findings(one)

@@ -51,7 +51,9 @@ def write(robot: Robot, remarks: Sequence[str] = (), *, inertial_only: bool = Fa
     joint_names = unique_names([joint.name for joint in robot.joints], _name)
     root = Element("mujoco", model=xml_text(robot.name))
     if not inertial_only:
-        bounds = dict.fromkeys(("boundmass", "boundinertia"), number(LEAST)) if smallest_inertials(robot, LEAST) else {}
+        bounds: dict[str, str] = {}
+        if smallest_inertials(robot, LEAST):
+            bounds = {"boundmass": number(LEAST), "boundinertia": number(LEAST)}
         SubElement(root, "compiler", bounds, angle="radian", autolimits="true")
     meshes = {} if inertial_only else _add_meshes(root, robot)
     world = SubElement(root, "worldbody")

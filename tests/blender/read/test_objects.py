@@ -12,7 +12,8 @@ bpy = pytest.importorskip("bpy")
 
 from body_moments.blender.read.objects import read_object
 from body_moments.blender.read.visibility import measurable, measurable_objects
-from body_moments.core.verdict.finding import MeasureError, finding
+from body_moments.core.verdict.finding import MeasureError, Severity, finding
+from body_moments.core.verdict.sentences import severity
 
 from tests.blender import findings
 from tests.blender.findings import said
@@ -326,14 +327,15 @@ def test_disabled_operand_of_visible_object_is_read():
 # What the render would show is not what is read.
 
 
-def test_different_levels_for_the_render_are_said():
+def test_other_levels_for_the_render_are_a_note():
     obj = cube()
     modifier = obj.modifiers.new("Smooth", "SUBSURF")
     modifier.levels, modifier.render_levels = 1, 3
     reading = read(obj)
     assert len(reading.parts[0].surface.quads) == 24
     differing = finding("render_levels_differ", name="“Smooth”", viewport=1, render=3)
-    assert said(reading) == {"render_differs": {"differences": [differing.as_record()]}}
+    assert said(reading) == {"render_differs": {"differences": [differing.as_record()], "slight": True}}
+    assert severity(reading.findings[0]) == Severity.NOTE
     assert "“Smooth”: 1 in the viewport, 3 in the render." in str(reading.findings[0])
     bpy.context.scene.render.use_simplify = True
     bpy.context.scene.render.simplify_subdivision = bpy.context.scene.render.simplify_subdivision_render = 1

@@ -11,6 +11,7 @@ from body_moments.blender.read.grids.volume import volume_reading
 from body_moments.blender.settings.options import MeasureOptions
 from body_moments.core.bodies.array_file import ArrayOptions, measure_array
 from body_moments.core.density import grid_moments
+from body_moments.core.measurement.settings import Settings
 
 from tests.blender.findings import refused, said
 from tests.close import close
@@ -40,7 +41,7 @@ def test_imported_scan_has_mass_of_its_file(tmp_path, unit):
     obj = imported(path)
     assert obj.type == "VOLUME" and obj.select_get() and (tmp_path / "a.vdb").is_file()
     bpy.context.view_layer.update()
-    found, expected = measure(obj), measure_array(str(path), "a", ArrayOptions(), MeasureOptions())
+    found, expected = measure(obj), measure_array(str(path), "a", ArrayOptions(), Settings())
     assert close(found.mass_properties.mass, expected.mass_properties.mass, rel=1e-12)
     assert found.mass_properties.center == pytest.approx(expected.mass_properties.center, rel=1e-9)
     assert found.mass_properties.inertia == pytest.approx(expected.mass_properties.inertia, rel=1e-9, abs=1e-15)

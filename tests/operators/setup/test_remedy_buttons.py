@@ -108,6 +108,7 @@ def test_accepted_warning_stays_a_note_after_measuring():
     assert findings_of(obj, "warning") == ["components_nested"] and obj["body_warnings"]
     assert bpy.ops.object.body_moments_accept(code="components_nested", accepted=False) == {"CANCELLED"}
     assert bpy.ops.object.body_moments_accept() == {"FINISHED"} and not obj["body_warnings"]
+    assert not other["body_warnings"]  # what is not selected keeps what was accepted
 
 
 @pytest.mark.parametrize(
