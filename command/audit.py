@@ -52,7 +52,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     add = parser.add_argument
     add("command", metavar="audit")
     add("files", nargs="+", type=Path, metavar="FILE")
-    for name, told in (("--package-path", "packages and meshes may be in it; repeatable"), ("--root", argparse.SUPPRESS)):
+    for name, told in (
+        ("--package-path", "packages and meshes may be in it; repeatable"),
+        ("--root", argparse.SUPPRESS),
+    ):
         add(name, dest="root", action="append", type=Path, default=[], metavar="FOLDER", help=told)
     add("--allow-outside", action="store_true", help="meshes may be anywhere (refused)")
     add("--repair", type=Path, metavar="FOLDER", help="write repaired copies there, of what has a repair")

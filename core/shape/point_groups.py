@@ -32,7 +32,7 @@ FIRST_IMAGES = 12  # images of corners that refute most candidates
 FIRST_SAMPLES = 64  # corners that refute most of the others
 ROUND_SAMPLES = 1500  # corners that are turned about an axis
 MAX_PROVED = 4096  # triangles between other corners that are proved; of more, evenly many (all corners are compared)
-MAX_ROUNDS, MAX_PIECES = 200, 1 << 18  # of cutting
+MAX_PIECES = 1 << 16  # of triangles, looked at in all rounds of cutting
 CLEAR_PRODUCT = 2e-3  # 3 - trace: a product of operations is the operation nearest to it
 
 
@@ -53,24 +53,26 @@ class PlacedTriangles:
         self._sides, self._faces = self._face_keys(self._first)
         self._witnesses = np.arange(0, len(self.points), 1 + len(self.points) // FIRST_SAMPLES)
 
-    def groups(self) -> list[NDArray[np.float64]] | None:
+    def groups(self, enough: float = np.inf) -> list[NDArray[np.float64]] | None:
         """Return the (k, 3, 3) operations of the group, then of larger possible ones; None if there are too many.
 
-        They are the groups at tolerances that grow from near to far.
+        They are the groups at tolerances that grow from near to far. More than `enough` operations end the search.
         """
         operations = self._candidates()
         if operations is None:
             return None
         levels = np.full(len(operations), np.nan)
         held = np.zeros(len(operations), bool)
-        held[0] = True
+        held[0], generators = True, []
         for i in range(1, len(operations)):
             if held[i] or not np.isnan(levels[i]):
                 continue
             levels[i] = self._misfit(operations[i])
             if levels[i] <= self.near:
-                trial = _closed(operations, held | (np.arange(len(held)) == i), levels == np.inf)
-                held = held if trial is None else trial
+                trial = _closed(operations, held, [*generators, i], levels == np.inf)
+                held, generators = (held, generators) if trial is None else (trial, [*generators, i])
+                if held.sum() > enough:
+                    break
             elif levels[i] == np.inf:
                 own = operations[held]
                 alike = _nearest((own[:, None] @ operations[i] @ own).reshape(-1, 3, 3), operations)
@@ -78,8 +80,10 @@ class PlacedTriangles:
         found = [held]
         for i in np.argsort(levels, kind="stable"):
             if levels[i] < np.inf and not found[-1][i]:
-                trial = _closed(operations, found[-1] | (np.arange(len(held)) == i), levels == np.inf)
-                found += [] if trial is None else [trial]
+                trial = _closed(operations, found[-1], [*generators, i], levels == np.inf)
+                if trial is not None:
+                    found.append(trial)
+                    generators = [*generators, i]
         return [_exact_group(operations[mask]) for mask in found]
 
     def is_round(self, found: Symmetry, tolerance: float) -> bool:
@@ -152,7 +156,7 @@ class PlacedTriangles:
         faces = self._face_keys(np.where(match < 0, -1, self._first[match]), self._sides)[1]
         new = (match[self.triangles] < 0).any(axis=1) | ~np.isin(faces, self._faces)
         rows = np.flatnonzero(new)
-        return self._cover(images[self.triangles[rows[:: 1 + len(rows) // MAX_PROVED]]])
+        return self._cover(images[self.triangles[rows[:: 1 + len(rows) // MAX_PROVED]]]) if len(rows) else 0.0
 
     def _match(self, images: NDArray) -> NDArray[np.intp]:
         """Return (n,) the first corner near each of (n, 3) points, -1 if there is none."""
@@ -180,11 +184,8 @@ class PlacedTriangles:
 
     def _cover(self, pieces: NDArray) -> float:
         """Return 0 if (k, 3, 3) triangles are near the surface, infinity if a point is far, else more than near."""
-        for _ in range(MAX_ROUNDS):
-            if not len(pieces):
-                return 0.0
-            if len(pieces) > MAX_PIECES:
-                break
+        work = len(pieces)
+        while work <= MAX_PIECES:
             middle = pieces.mean(axis=1)
             distance, face = self._tree.nearest(middle, self.far)
             worst = float(distance.max())
@@ -209,6 +210,9 @@ class PlacedTriangles:
                 outside.append(cut)
             rest = pieces[self._farthest(pieces, below) > self.near]
             pieces = np.concatenate([*outside, *_quarters(rest)])
+            if not len(pieces):
+                return 0.0
+            work += len(pieces)
         return float(np.nextafter(self.near, np.inf))
 
     @staticmethod
@@ -235,16 +239,24 @@ def _nearest(products: NDArray, operations: NDArray) -> NDArray[np.intp]:
     return found
 
 
-def _closed(operations: NDArray, mask: NDArray[np.bool_], refuted: NDArray[np.bool_]) -> NDArray[np.bool_] | None:
-    """Return the mask of the group that masked operations generate; None if it has a refuted one."""
-    count = 0
-    while count < mask.sum():
-        count = int(mask.sum())
-        products = _nearest((operations[mask][:, None] @ operations[mask]).reshape(-1, 3, 3), operations)
-        if (products < 0).any() or refuted[products].any():
-            return None
-        mask = mask.copy()
-        mask[products] = True
+def _closed(
+    operations: NDArray, mask: NDArray[np.bool_], generators: list[int], refuted: NDArray[np.bool_]
+) -> NDArray[np.bool_] | None:
+    """Return the mask of the group of all generators, of which the masked ones are a part; None if one is refuted.
+
+    Coset by coset: a generator takes a coset of the masked group to a coset.
+    """
+    own, cosets, mask = operations[mask], [np.eye(3)], mask.copy()
+    for coset in cosets:  # which grow
+        for product in _nearest(operations[generators] @ coset, operations).tolist():
+            if product < 0:
+                return None
+            if not mask[product]:
+                members = _nearest(operations[product] @ own, operations)
+                if (members < 0).any() or refuted[members].any():
+                    return None
+                mask[members] = True
+                cosets.append(operations[product])
     return mask
 
 

@@ -60,6 +60,7 @@ MAX_POSE_BOUND = 1e-2  # radians, and relative to the size: above it a pose is n
 MATRIX_STRAIN = 2.0**-23  # of a body by the rounding of its matrix to float32
 LEAST_MISFIT = NOISE_LEVEL / 2.0  # relative to the size: images of a symmetry are nearer to the surface
 MAX_MISFIT = 0.02  # relative to the size: coordinates that leave more tell no group
+COARSE_NOISE = 1e-4, 1e-3  # of moments of a ball with facets
 MAX_FACETS = 0.05  # relative to the size: between a body of revolution and the polygons that stand for it
 SURFACE_OPTIONS = MeasureOptions(threads=THREADS, axes=False)  # for the shape of a surface
 
@@ -189,16 +190,19 @@ class Shape:
             return None
         points = (whole.points.astype(np.float64) - self.center) / self.size
         placed = PlacedTriangles(points, whole.all_triangles()[0], near, far)
-        finite = [Symmetry(each, np.empty((0, 3)), 0) for each in placed.groups() or ()]
+        is_round = len(found.revolution_axes) > 0 and placed.is_round(found, MAX_FACETS)
+        enough = 4 * MAX_AXIAL_ORDER if is_round else np.inf  # operations: only groups of higher axes have more
+        finite = [Symmetry(each, np.empty((0, 3)), 0) for each in placed.groups(enough) or ()]
         names = [each.group for each in finite]
-        if len(found.revolution_axes) and placed.is_round(found, MAX_FACETS):
+        if is_round:
             order = max([n for each in finite[:1] for _, n in each.axes], default=0)
             # An axis of a higher order than harmonics show, or facets that are no misfit, count as round.
             known = order > MAX_AXIAL_ORDER or placed.is_round(found, near)
             names = [found.group] if known else [*names, found.group]
-        elif not finite:
-            names = ["C1", found.group]
-        return " or ".join(dict.fromkeys(names))
+        elif not finite:  # as many corners at one distance as a ball has
+            coarse = [symmetry(self.moments, noise, self._harmonics) for noise in COARSE_NOISE]
+            names = [each.group for each in coarse if len(each.revolution_axes) and placed.is_round(each, MAX_FACETS)]
+        return " or ".join(dict.fromkeys(names)) or None
 
     @property
     def _is_polygonal(self) -> bool:
