@@ -33,6 +33,9 @@ USD_CAGE = warning(
     "By the file, the mesh is the cage of a subdivision surface ({scheme}), and the cage was measured. Export it "
     "subdivided, or with the subdivisionScheme “none”.",
 )
+USD_UNREAD = error(
+    "usd_unread", "Blender does not import these shapes of the USD file: {names}. Export them as meshes."
+)
 DRIVER_BLOCKED = warning(
     "driver_blocked",
     "Drivers did not run, as the scripts of files are disabled: {drivers}. Bake what they drive, or save the file "

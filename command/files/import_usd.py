@@ -24,7 +24,7 @@ from ...core.cad.obj import UPRIGHT
 from ...core.cad.revolution import revolved_solid
 from ...core.streams.findings import FILE_UNREADABLE
 from ...core.verdict.finding import FileError, Finding, finding
-from ..findings import FILE_HIDES, USD_CAGE
+from ..findings import FILE_HIDES, USD_CAGE, USD_UNREAD
 from .references import Opened, reported_references
 
 _SHEAR = 1e-6  # cosine of the angle between two axes; larger than the rounding of float32
@@ -44,6 +44,7 @@ class _Prim(NamedTuple):
     is_member: bool
 
 
+_SHAPELESS = "Points", "BasisCurves", "HermiteCurves", "NurbsCurves"  # have no volume
 _PURPOSES = {"proxy": "its purpose is proxy", "guide": "its purpose is guide"}  # of prims that are not rendered
 
 
@@ -64,7 +65,7 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
     # Objects left out by the importer would be missed in silence, and scaled ones have float32 matrices.
     options |= {"import_visible_only": False, "import_guide": True, "import_proxy": True}
     options["apply_unit_conversion_scale"] = False
-    results: list[tuple[float, dict[str, _Prim]] | Exception] = []
+    results: list[tuple[float, dict[str, _Prim], list[str]] | Exception] = []
 
     class BODY_MOMENTS_USD_prims(bpy.types.USDHook):
         bl_idname = "body_moments_prims"
@@ -74,7 +75,8 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
         def on_import(context: Any) -> bool:
             try:
                 stage = _Stage(context.get_stage())
-                results.append((stage.unit, stage.prims(context.get_prim_map())))
+                blocks = context.get_prim_map()
+                results.append((stage.unit, stage.prims(blocks), stage.unread(blocks)))
             except Exception as error:  # Blender would only print it.
                 results.append(error)
             return True
@@ -89,7 +91,9 @@ def _import(path: str, **options: bool) -> tuple[dict[str, _Prim], tuple[Finding
         raise FileError(FILE_UNREADABLE, error="this Blender lacks the Python modules of USD")
     if isinstance(results[0], Exception):
         raise results[0]
-    unit, prims = results[0]
+    unit, prims, unread = results[0]
+    if unread:
+        missing = (*missing, finding(USD_UNREAD, names=unread))
     bpy.context.scene.unit_settings.scale_length = unit
     if not abs(bpy.context.scene.unit_settings.scale_length - unit) <= 1e-6 * unit:
         raise FileError(FILE_UNREADABLE, error="its metersPerUnit is {}".format(unit))
@@ -115,6 +119,15 @@ class _Stage:
         # Of an object that is merged from two prims, the geometry's prim says more.
         prims |= {objects[block].name: prim for prim, block in pairs if block in objects}
         return {name: self._facts(prim) for name, prim in prims.items()}
+
+    def unread(self, blocks: Mapping[str, list[bpy.types.ID]]) -> list[str]:
+        """Return the paths and types of visible shapes that Blender's importer leaves out."""
+        # An empty stands for some of them.
+        paths = {str(path) for path, found in blocks.items() if any(getattr(b, "type", "") != "EMPTY" for b in found)}
+        shapes = [prim for prim in self._stage.Traverse() if prim.IsA(self._geom.Gprim)]
+        left = [prim for prim in shapes if str(prim.GetPath()) not in paths and prim.GetTypeName() not in _SHAPELESS]
+        shown = [prim for prim in left if self._why_hidden(self._geom.Imageable(prim)) is None]
+        return ["{} ({})".format(prim.GetPath(), prim.GetTypeName()) for prim in shown]
 
     def _facts(self, prim: Any) -> _Prim:
         scheme = self._geom.Mesh(prim).GetSubdivisionSchemeAttr().Get() if prim.IsA(self._geom.Mesh) else "none"

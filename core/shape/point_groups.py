@@ -121,15 +121,18 @@ class PlacedTriangles:
             if sum(map(len, images)) > MAX_CANDIDATES:
                 return None
         operations = np.concatenate(images)
+        worst = np.zeros(len(operations))
         for i in self._witnesses[:: max(1, len(self._witnesses) // FIRST_IMAGES)]:
-            operations = operations[np.isfinite(self._tree.distance(operations @ self.points[i], self.far))]
+            worst = np.maximum(worst, self._tree.distance(operations @ self.points[i], self.far))
+            operations, worst = operations[np.isfinite(worst)], worst[np.isfinite(worst)]
+        worst[0] = -1.0  # the identity
         proper = np.linalg.det(operations) > 0.0
-        turn = operations.trace(axis1=1, axis2=2)
-        operations = operations[np.lexsort([-turn, ~proper])]
-        kept, left = [], np.arange(len(operations))
+        order = np.lexsort([-operations.trace(axis1=1, axis2=2), ~proper])
+        operations, worst, kept, left = operations[order], worst[order], [], np.arange(len(order))
         while len(left):
-            kept.append(left[0])
-            left = left[np.einsum("nij,ij->n", operations[left], operations[left[0]]) <= 3.0 - CLEAR_PRODUCT]
+            alike = np.einsum("nij,ij->n", operations[left], operations[left[0]]) > 3.0 - CLEAR_PRODUCT
+            kept.append(left[alike][worst[left[alike]].argmin()])
+            left = left[~alike]
         return operations[kept]
 
     def _distinct(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:

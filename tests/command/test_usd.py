@@ -37,10 +37,10 @@ def moved(matrix=MATRIX):
     return "matrix4d xformOp:transform = {}\n{}".format(str(matrix), order)
 
 
-def measure(tmp_path, *prims, up="Z", unit=1, options=()):
+def measure(tmp_path, *prims, up="Z", unit=1, options=(), is_whole=True):
     head = '#usda 1.0\n(\n upAxis = "{}"\n metersPerUnit = {}\n)\n'.format(up, unit)
     found = document(files.write_text(tmp_path / "t.usda", head + "".join(prims)), "--density", "1", *options)
-    assert found["errors"] == []
+    assert not is_whole or found["errors"] == []
     return found
 
 
@@ -129,3 +129,10 @@ def test_usd_prims_that_are_not_rendered_are_left_out(tmp_path):
     every = measure(tmp_path, *prims, options=["--all"])
     assert set(by_name(every)) == {"Render", "Shown", *causes} and every["left_out"] == []
     assert close(by_name(every)["Ball"]["volume"], BALL, 1e-7)
+
+
+@pytest.mark.parametrize("kind", ["NurbsPatch", "TetMesh"])
+def test_usd_shapes_that_blender_leaves_out_are_errors(tmp_path, kind):
+    prims = [prim("Mesh", "Shown", PLAIN), prim(kind, "Lost"), prim(kind, "Hidden", 'token visibility = "invisible"')]
+    (error,) = measure(tmp_path, *prims, is_whole=False)["errors"]
+    assert error["reason"] == sentence("usd_unread", names=["/Lost ({})".format(kind)])

@@ -174,6 +174,13 @@ def test_moments_of_turned_orbits_allow_their_group(name):
         assert decided(image) == [name]
 
 
+@pytest.mark.parametrize("name", ["S4", "D3d", "Td"])
+def test_coarse_coordinates_leave_the_group_listed(name):
+    for seed in range(4):
+        points, faces = bodies.moved(orbit_of(name), bodies.rotation(seed), (3000, 900, -1800))
+        assert name in decided((points.astype(np.float32).astype(float), faces), noise=1e-3)
+
+
 @pytest.mark.parametrize("off, groups", [(1e-7, ["Oh"]), (5e-6, ["C3v", "D3d", "Oh"]), (1e-3, ["C3v"])])
 def test_misfits_near_the_tolerance_leave_both_groups(off, groups):
     points, faces = bodies.box()
